@@ -182,13 +182,18 @@ def test_far_meshes_do_not_join() -> None:
         ((3, 3), 1.0, (4, 6)),  # nothing fits
     ],
 )
-def test_the_length_that_is_not_joined_is_told(cells, apart, counts):
+@pytest.mark.parametrize(("height", "measure"), [(1.0, "a length"), (0.3, "an area")])
+def test_the_length_or_area_that_is_not_joined_is_told(cells, apart, counts, height, measure):
     nodes = NodeTable()
     first = line(nodes, [0, 0], [1, 0], 4)
     halves = [line(nodes, [0.5 * i, 0], [0.5 + 0.5 * i, 0], n) for i, n in enumerate(cells)]
-    with pytest.raises(MeshError, match="the two sides are joined over a length of") as told:
-        joint_mesh(first, union(*halves), 1e-3)
+    sides = [first, union(*halves)]
+    if measure == "an area":
+        path = translation(height * UP)
+        sides = [sweep_line(m, path, subdivide(height, count=1), "QUA4") for m in sides]
+    with pytest.raises(MeshError, match=f"the two sides are joined over {measure} of") as told:
+        joint_mesh(*sides, 1e-3)
     data = told.value.data
-    assert data["apart"] == pytest.approx(apart)
-    assert data["joined"] == pytest.approx(1.0 - apart)
+    assert data["apart"] == pytest.approx(apart * height)
+    assert data["joined"] == pytest.approx((1.0 - apart) * height)
     assert (data["n_first"], data["n_second"]) == counts
