@@ -4,16 +4,11 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results import frames, tensors
 from ssilang.kernel.elements.results.skin import skin_stress
-from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.mesh import CellBlock
-from ssilang.kernel.mesh.nodes import NodeTable
-from tests.kernel.elements.samples import ELASTIC, cell_zone, line_zone, material
+from ssilang.kernel.materials.model import Mode
+from tests.kernel.elements.samples import cell_zone, line_zone, material
 
 C, ON = np.array([0.4, -0.3, 0.2]), np.array([1.0, 0.5, 2.2])
 AXIS = (ON - C) / np.linalg.norm(ON - C)
@@ -148,33 +143,3 @@ def test_stress_at_a_point_of_a_section_is_that_of_bending_about_both_axes(mode)
     assert got.support == "STRESSES"
     with pytest.raises(FieldError, match="QUA4"):
         skin_stress(cell_zone("QUA4", Mode.PLANE_STRAIN), field, material(zone, **section))
-
-
-@pytest.mark.parametrize("support", ["forces", "strains"])
-@pytest.mark.parametrize("element", ["DKT", "DST"])
-def test_what_a_shell_carries_is_seen_in_other_axes_as_tensors_and_a_vector(element, support):
-    """By the matrices in the axes of space, of a triangle that leans; its normal turned round."""
-    table, random = NodeTable(), np.random.default_rng(4)
-    ids = table.add(random.normal(size=(3, 3)))
-    block = CellBlock.make(table, "TRI3", ids[None])
-    zone = Zone(block, "MECANIQUE", ELASTIC, element, Mode.THREE_DIMENSIONAL)
-    family = family_of(zone)
-    names = (family.stress_names if support == "forces" else family.strain_names)(zone)
-    weights = family.weights(zone, zone_field(zone, material(zone, EPAI=0.1)), "STRESSES")
-    values = random.normal(size=(len(names), *weights.shape))
-    given = CellField((cell_block(zone, names, values.swapaxes(0, 1)),))
-    own, first = frames.flat_frames(zone)[0][0], random.normal(size=3)
-    a = first - own[2] * (first @ own[2])
-    a /= np.linalg.norm(a)
-    axes = np.array([a, np.cross(-own[2], a)])
-    made = frames.shell_in_axes(zone, given, frames.SurfaceAxes(first, normal=-own[2]))
-    half, turn = (0.5 if support == "strains" else 1.0), axes @ own[:2].T
-    for start in range(0, len(names), 3):
-        part = values[start : start + 3, 0]
-        found = np.array([made.components[n][0] for n in names[start : start + 3]])
-        if start == 6:
-            np.testing.assert_allclose(found, turn @ part)
-            continue
-        T = np.array([[part[0], half * part[2]], [half * part[2], part[1]]])
-        T = np.einsum("ij,jkp,lk->ilp", turn, T, turn)
-        np.testing.assert_allclose(found, [T[0, 0], T[1, 1], T[0, 1] / half])
