@@ -83,3 +83,5 @@ def test_straight_lines_have_their_binormal_near_the_z_axis(count, to, binormal)
     line = Mesh.of(nodes, "SEG2", np.column_stack([ids[:-1], ids[1:]]))
     wanted = [to, np.cross(binormal, to), binormal]
     np.testing.assert_allclose(frenet_frames(line)[1], [wanted] * (count + 1), atol=1e-12)
+    with pytest.raises(MeshError, match="branches"):
+        frenet_frames(Mesh.of(nodes, "SEG2", [*line.blocks[0].connectivity, ids[[0, -1]]][-2:]))
