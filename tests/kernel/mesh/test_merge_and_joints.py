@@ -99,14 +99,15 @@ def test_surface_turned_about_its_edge_gives_prisms(
 
 
 def plate_and_line(cuts: int) -> tuple[Mesh, Mesh, Mesh]:
-    """Two rows of squares about the line y = 0 from x = 0 to 2, and its two halves."""
+    """Squares above the line y = 0 from x = 0 to 2, triangles below, and the line's two halves."""
     nodes = NodeTable()
     first = line(nodes, [0, 0], [1, 0], cuts)
     last = int(first.single_block().connectivity[-1, -1])
     end = int(nodes.add(np.array([[2.0, 0]]))[0])
     second = straight_line(nodes, last, end, cuts)
     both = union(first, second)
-    rows = [sweep_line(both, translation(v), subdivide(1.0, count=2), "QUA4") for v in (UP, DOWN)]
+    cells = ((UP, "QUA4"), (DOWN, "TRI3"))
+    rows = [sweep_line(both, translation(v), subdivide(1.0, count=2), name) for v, name in cells]
     return union(*rows), first, both
 
 
