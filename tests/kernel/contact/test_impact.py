@@ -1,11 +1,15 @@
 """Unilateral relations in time: velocity corrections, methods, modified mass."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from references.assembled import Bench
 from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
 from references.recorder import Recorder
 
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
@@ -129,3 +133,21 @@ def test_methods_on_a_random_contact_problem(method):
     assert np.abs(gap * found.p).max() < within * found.p.max()
     assert (found.p >= 0).all()
     assert (found.p > 0).sum() in range(1, 8)
+
+
+def test_what_sticks_has_no_slip_and_the_smallest_change_of_the_mass_else():
+    """The first and third of four places slide; two directions each, masses unlike."""
+    random = np.random.default_rng(3)
+    mass, H = random.uniform(1.0, 5.0, 12), random.normal(size=(8, 12))
+    stick = np.array([False, True, False, True])
+    rule = ImpactRule.__new__(ImpactRule)
+    friction = SimpleNamespace(H=sp.csr_array(H), width=2)
+    rule.contact = SimpleNamespace(friction=friction, sticking=lambda forces, u: stick)
+    rule._slips = H.T / mass[:, None]
+    rates = random.normal(size=(2, 12))
+    motion = SimpleNamespace(u=None, contact=None, v=rates[0].copy(), a=rates[1].copy())
+    rule._hold(motion)
+    held = H[np.repeat(stick, 2)]
+    for before, after in zip(rates, (motion.v, motion.a), strict=True):
+        pushes = np.linalg.solve(held @ (held.T / mass[:, None]), held @ before)
+        np.testing.assert_allclose(after, before - held.T @ pushes / mass, atol=1e-12)

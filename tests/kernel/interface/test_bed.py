@@ -11,7 +11,8 @@ from references.assembled import Bench
 from references.recorder import Recorder
 from scipy.optimize import brentq
 
-from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.base.errors import ConvergenceError, MaterialError
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.interface.footing import footings_of
 from ssilang.kernel.interface.interface import (
     interface_field,
@@ -30,6 +31,7 @@ from ssilang.kernel.interface.response import (
     local_jumps,
 )
 from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 
@@ -535,3 +537,37 @@ def test_a_rectangle_turned_under_its_weight_about_either_axis_meets_its_effecti
     assert -found[2] == pytest.approx(weight, rel=1e-6)
     assert abs(found[axis]) == pytest.approx(weight * arm / 2 * 0.7, rel=1e-2)
     assert abs(found[7 - axis]) < 1e-6 * abs(found[axis])  # nothing about the other axis
+
+
+@pytest.mark.parametrize(("vertical", "arm"), [(1.3, 0.0), (0.6, 0.3 * B)])
+def test_load_steps_beyond_what_the_ground_bears_are_refused(vertical, arm):
+    """By their weight, or by where it stands; a body beside it is pressed harder and held."""
+    bench, times = Bench(), np.array([0.0, 0.5, 1.5, 2.0])
+    soil, base, top, apart = (bench.node(0.0, y) for y in (-1.0, 0.0, 1.0, 9.0))
+    bench.joint("SEG2", [[soil, base]], "JOI1", "MACRO_SEMELLE", **STRIP, COHE=C)
+    bench.fix(soil, "UX", "UY", "RZ")
+    for name in ("UX", "UY"):
+        bench.spring(1e9, top, base, name)
+        bench.spring(1e9, apart, unknown=name)
+    bench.spring(1.0, base, unknown="RZ")
+    capacity = FACTORS["strip"] * C * B
+    weight = bench.field((top, "FY", -vertical * capacity), (apart, "FY", -9.0 * capacity))
+    turn = bench.field((base, "MZ", vertical * capacity * arm))
+    loads = (bench.load(weight, [0.0, 1.0, 2.0], [0.0, 1.0, 1.0]),
+             bench.load(turn, [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]))  # fmt: skip
+    problem = make_problem(
+        Inputs(bench.stiffness, times, load=Load(tuple(p for x in loads for p in x.parts)),
+               model=bench.model, characteristics=bench.characteristics)
+    )  # fmt: skip
+    with pytest.raises(ConvergenceError) as told:
+        step_statics(problem)
+    data = told.value.data
+    assert data["node"] == bench.table.told(base)
+    if arm:
+        assert (told.value.code, data["step"]) == ("kernel.statics.footing-gives-way", 3)
+        assert data["used"] == pytest.approx(60.0, rel=1e-6)
+        assert 0.0 < data["share"] < 100.0
+    else:
+        assert (told.value.code, data["step"]) == ("kernel.statics.footing-overloaded", 2)
+        assert data["pressing"] == pytest.approx(vertical * capacity, rel=1e-9)
+        assert data["capacity"] == pytest.approx(capacity, rel=1e-9)

@@ -309,6 +309,16 @@ def test_impedances_are_those_of_complex_numbers():
     for (node, name), i in place.items():
         found = f[node, DUAL[name]] + 1j * f[node, "I" + DUAL[name]]
         near(found, (Z @ z)[i])
+    swirled = replace(C, blocks=tuple(
+        replace(b, unknowns=tuple({"UX": "UT"}.get(u, u) for u in b.unknowns)) for b in C.blocks
+    ))  # fmt: skip
+    plain, turned = (
+        terms(impedance(swirled, factors("AMORTISSEMENT", w), "IMPEDANCE", turned=turn))
+        for turn in (False, True)
+    )
+    assert turned == {k: -x if k[1][1].endswith("UT") else x for k, x in plain.items()}
+    assert turned != plain == {(k[0], (k[1][0], k[1][1].replace("UX", "UT"))): x
+                               for k, x in terms(parts[2]).items()}  # fmt: skip
     held = impedance(body(), factors("RAIDEUR", w), "IMPEDANCE")
     assert [r.unknowns for r in held.relations] == [
         ("UX", "UY", "UX"), ("UY", "UY"), ("IUX", "IUY", "IUX"), ("IUY", "IUY"),

@@ -99,14 +99,15 @@ def test_surface_turned_about_its_edge_gives_prisms(
 
 
 def plate_and_line(cuts: int) -> tuple[Mesh, Mesh, Mesh]:
-    """Two rows of squares about the line y = 0 from x = 0 to 2, and its two halves."""
+    """Squares above the line y = 0 from x = 0 to 2, triangles below, and the line's two halves."""
     nodes = NodeTable()
     first = line(nodes, [0, 0], [1, 0], cuts)
     last = int(first.single_block().connectivity[-1, -1])
     end = int(nodes.add(np.array([[2.0, 0]]))[0])
     second = straight_line(nodes, last, end, cuts)
     both = union(first, second)
-    rows = [sweep_line(both, translation(v), subdivide(1.0, count=2), "QUA4") for v in (UP, DOWN)]
+    cells = ((UP, "QUA4"), (DOWN, "TRI3"))
+    rows = [sweep_line(both, translation(v), subdivide(1.0, count=2), name) for v, name in cells]
     return union(*rows), first, both
 
 
@@ -182,13 +183,18 @@ def test_far_meshes_do_not_join() -> None:
         ((3, 3), 1.0, (4, 6)),  # nothing fits
     ],
 )
-def test_the_length_that_is_not_joined_is_told(cells, apart, counts):
+@pytest.mark.parametrize(("height", "measure"), [(1.0, "a length"), (0.3, "an area")])
+def test_the_length_or_area_that_is_not_joined_is_told(cells, apart, counts, height, measure):
     nodes = NodeTable()
     first = line(nodes, [0, 0], [1, 0], 4)
     halves = [line(nodes, [0.5 * i, 0], [0.5 + 0.5 * i, 0], n) for i, n in enumerate(cells)]
-    with pytest.raises(MeshError, match="the two sides are joined over a length of") as told:
-        joint_mesh(first, union(*halves), 1e-3)
+    sides = [first, union(*halves)]
+    if measure == "an area":
+        path = translation(height * UP)
+        sides = [sweep_line(m, path, subdivide(height, count=1), "QUA4") for m in sides]
+    with pytest.raises(MeshError, match=f"the two sides are joined over {measure} of") as told:
+        joint_mesh(*sides, 1e-3)
     data = told.value.data
-    assert data["apart"] == pytest.approx(apart)
-    assert data["joined"] == pytest.approx(1.0 - apart)
+    assert data["apart"] == pytest.approx(apart * height)
+    assert data["joined"] == pytest.approx((1.0 - apart) * height)
     assert (data["n_first"], data["n_second"]) == counts

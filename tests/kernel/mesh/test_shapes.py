@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.interfaces import joints_inside
 from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
 from ssilang.kernel.mesh.lines.curves import arc_about_axis, fillet
-from ssilang.kernel.mesh.lines.lines import frenet_frames, line_chain, mesh_curve, polyline
+from ssilang.kernel.mesh.lines.lines import frenet_frames, line_chain, mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -102,27 +102,6 @@ def test_frames_of_a_closed_circle_are_exact() -> None:
     assert frames[:, 0] == pytest.approx(np.cross(Z, radial), abs=1e-12)
     assert frames[:, 1] == pytest.approx(-radial, abs=1e-12)
     assert frames[:, 2] == pytest.approx(np.tile(Z, (len(ids), 1)), abs=1e-12)
-
-
-def test_frames_of_a_helix_converge_with_second_order() -> None:
-    errors = []
-    for n in (40, 80):
-        nodes = NodeTable()
-        t = np.linspace(0, 4 * math.pi, n + 1)
-        ids = nodes.add(np.column_stack([np.cos(t), np.sin(t), 0.3 * t]))
-        _, frames = frenet_frames(polyline(nodes, ids, False))
-        exact = np.column_stack([-np.sin(t), np.cos(t), 0.3 + 0 * t]) / math.hypot(1, 0.3)
-        errors.append(np.abs(frames[1:-1, 0] - exact[1:-1]).max())
-    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.1)
-
-
-def test_straight_line_keeps_its_binormal_along_z() -> None:
-    nodes = NodeTable()
-    straight = line(nodes, [0, 0, 0], [1, 1, 0], 3)
-    _, frames = frenet_frames(straight)
-    assert frames[:, 2] == pytest.approx(np.tile(Z, (4, 1)))
-    with pytest.raises(MeshError, match="branches"):
-        frenet_frames(union(straight, polyline(nodes, [0, 2], False)))
 
 
 @pytest.mark.parametrize("turned", [(), (0,), (1,), (0, 1)])

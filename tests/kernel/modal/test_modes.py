@@ -1,18 +1,27 @@
 """Natural modes against chains of masses and springs, whose frequencies are known exactly."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy.linalg as la
 from script_runs import ran
 
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.matrices.relations import Term, blocked, relation_rows
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal import eigen
-from ssilang.kernel.modal.modes import complex_modes, eigenvalue, modes_between, modes_near
+from ssilang.kernel.modal.modes import (
+    _eigenpairs,
+    complex_modes,
+    eigenvalue,
+    modes_between,
+    modes_near,
+)
 from ssilang.kernel.statics.stability import negative_eigenvalues
 
 
@@ -172,6 +181,21 @@ def test_damped_modes_of_proportional_damping(n):
         if x < 1.0:
             assert mode.frequency.real == pytest.approx(wi * np.sqrt(1 - x**2) / 2 / np.pi)
             assert mode.frequency.imag == pytest.approx(wi * x / (2 * np.pi))
+
+
+def test_damped_modes_under_a_condition_that_is_kept_are_in_balance_and_meet_it():
+    """Matrices of no symmetry in common: (mu^2 M + mu C + K) x is a multiple of the condition."""
+    random = np.random.default_rng(5)
+    K, M, C = (A @ A.T + np.eye(5) for A in random.normal(size=(3, 5, 5)))
+    S = random.normal(size=(1, 5))
+    given = {k: sp.csr_array(A) for k, A in {"K": K, "M": M, "C": C, "S": S}.items()}
+    values, shapes = _eigenpairs(SimpleNamespace(size=5, **given), 0.0, 5)
+    assert shapes.shape == (5, 8)
+    for mu, x in zip(values, shapes.T, strict=True):
+        x = x / np.abs(x).max()
+        rest, size = (mu**2 * M + mu * C + K) @ x, np.abs(mu) ** 2 * np.abs(M).max()
+        assert np.abs(la.null_space(S).T @ rest).max() < 1e-10 * size
+        assert np.abs(S @ x).max() < 1e-10
 
 
 def test_motions_without_stiffness_and_mass_are_left_out():

@@ -17,7 +17,7 @@ from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.statics import constitutive
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
-from tests.kernel.elements.samples import cell_zone
+from tests.kernel.elements.samples import cell_zone, line_zone
 
 ELASTIC = {"YOUN": 1000.0, "NU": 0.3}
 CURVE = Curve((CurvePart(np.array([0.0, 0.01, 0.1]), np.array([1.0, 2.0, 3.0]), "EPSE", "SIGM"),))
@@ -120,6 +120,14 @@ def test_the_slope_is_youngs_but_where_it_yields(name):
     seen = zone_field(zone, field_of(zone, {"EPSE": EPSE} | zeros))
     found = tangent_modulus(zone, field, stress, seen, 1e-3)
     np.testing.assert_allclose(found[0], [slopes[0], 1000.0, slopes[2], 1000.0])
+    bar = line_zone("BARR", [[0.0, 0.0], [1.0, 2.0]], Mode.PLANE_STRAIN, zone.behaviour)
+    given = {n: v[0] for n, v in field.blocks[0].components.items()} | {"SECT": [2.5]}
+    given = field_of(bar, {n: np.array([v]) for n, v in given.items()}, "GRAVITE")
+    state = {n: np.zeros((1, 2)) for n in CENTRE} | {"EPSE": EPSE[:, :2]}
+    state, force = zone_field(bar, field_of(bar, state)), 2.5 * sizes[None, None, :2]
+    np.testing.assert_allclose(criterion(bar, given, 1.1 * force, state), [0.1 * sizes[:2]])
+    found = tangent_modulus(bar, given, force, state, 1e-3)
+    np.testing.assert_allclose(found, [[slopes[0], 1000.0]], atol=1e-9)
     elastic = cell_zone("QUA4", Mode.PLANE_STRAIN)
     plain = field_of(elastic, {k: np.full((1, 1), v) for k, v in ELASTIC.items()}, "GRAVITE")
     np.testing.assert_allclose(tangent_modulus(elastic, plain, stress, seen, 1e-3), 1000.0)

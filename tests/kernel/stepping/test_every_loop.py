@@ -76,7 +76,8 @@ def run(awkward, rule, lost=None):
             problem = replace(problem, solver=Solver(rule))
         if rule.startswith("adaptive"):
             problem = replace(problem, scheme=replace(problem.scheme, adaptive=True))
-        recorder = Recorder(len(problem.times))
+        recorder, few = (Recorder(len(problem.times)) for _ in range(2))
+        few.wanted[1::3] = False
         if lost:
             late = np.arange(len(problem.times)) >= lost
             curves = tuple((x, np.where(late, np.nan, y)) for x, y in problem.loading.curves)
@@ -85,9 +86,17 @@ def run(awkward, rule, lost=None):
                 integrate(problem, [recorder], full_newton=rule == "full Newton")
             assert recorder.closed
             return failed.value.data, problem.times, len(recorder.snapshots)
-        history = integrate(problem, [recorder], full_newton=rule == "full Newton")
+        history = integrate(problem, [recorder, few], full_newton=rule == "full Newton")
+    check_chosen(few, recorder)
     assert history.loop == choose.rule_named(rule.partition(",")[0]).loop
     return problem, problem.times, history.energies, recorder.snapshots
+
+
+def check_chosen(few, all_of_them):
+    """Who asks for some instants gets these, and no other."""
+    chosen = [s for s, wanted in zip(all_of_them.snapshots, few.wanted, strict=True) if wanted]
+    assert [s.time for s in few.snapshots] == [s.time for s in chosen]
+    np.testing.assert_array_equal([s.u for s in few.snapshots], [s.u for s in chosen])
 
 
 def near(found, expected, size, tolerance=1e-8):
@@ -285,9 +294,11 @@ def test_steps_under_loads_that_follow_are_those_of_the_equations(static, unilat
         problem = awkward.problem()
         hard = 2e2 if static and unilateral else 2e3
         bulk, follows = following_bulk(problem, *UNITS[awkward.units], hard)
-        recorder = Recorder(len(problem.times))
+        recorder, few = (Recorder(len(problem.times)) for _ in range(2))
+        few.wanted[1::3] = False
         state = bulk.begin((), problem.u, 0.0)
-        history = run_bulk(problem, bulk, state, [recorder], dynamic=not static)
+        history = run_bulk(problem, bulk, state, [recorder, few], dynamic=not static)
+        check_chosen(few, recorder)
         instants = recorder.snapshots
         check_steps(problem, problem.times, history.energies, instants, static, follows)
 

@@ -8,11 +8,13 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector
-from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.waves.free_field_forces import (
     Ground,
     Motion,
+    _rows,
     along_columns,
     edge_forces,
     elements_at,
@@ -182,3 +184,13 @@ def test_cells_that_yield_are_told_where_they_touch_an_edge_or_lie_beyond_the_gr
     inside = Mesh.of(b.table, "SEG2", np.array([[n[1], n[0]], n[4:6], n[2:4], n[6:8]]))
     found = yielding_outside(b.model, inside)
     assert (found.count, found.place[0]) == (2, 1.5)
+
+
+def test_cells_that_are_kept_keep_their_own_matrices():
+    table, random = NodeTable(), np.random.default_rng(6)
+    nodes = table.add(random.normal(size=(4, 2)))[np.array([[0, 1], [1, 2], [2, 3]])]
+    values, names = random.normal(size=(3, 2, 2)), (("UX",) * 2, ("FX",) * 2)
+    block = ElementMatrices(table, nodes, np.arange(2), *names, values)
+    kept = _rows(block, np.array([False, True, True]))
+    np.testing.assert_array_equal(kept.raw_nodes, nodes[1:])
+    np.testing.assert_array_equal(kept.values, values[1:])

@@ -5,12 +5,12 @@ import pytest
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.beams.fibre_section import FibreSection
+from ssilang.kernel.elements.beams.fibre_section import FibreSection, fibre_places
 from ssilang.kernel.elements.loads.loads import line_load
 from ssilang.kernel.elements.results.integrals import green_strain
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import (
     assemble,
     field_to_vector,
@@ -18,7 +18,9 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import Matrix
-from tests.kernel.elements.samples import field, line_zone, material
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.nodes import NodeTable
+from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
 
 E, NU, A, IY, IZ, J, L = 2.0e11, 0.25, 0.02, 3e-5, 5e-5, 6e-5, 3.0
 SECTION = {"YOUN": E, "NU": NU, "RHO": 7800.0, "SECT": A, "INRY": IY, "INRZ": IZ, "TORS": J}
@@ -220,3 +222,14 @@ def test_the_energy_of_a_section_is_that_of_its_fibres():
         slides = (sheared_y - z * twist, sheared_z + y * twist)
         energy = areas @ (young * stretch**2 + along_y * slides[0] ** 2 + along_z * slides[1] ** 2)
         assert strain @ section.rigidity @ strain == pytest.approx(energy, rel=1e-12)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_areas_of_fibres_are_those_of_their_cells_whichever_way_round(sense):
+    table = NodeTable()
+    ids = table.add(np.array([[1.0, 0.0], [4.0, 0.0], [4.0, 2.0], [1.0, 2.0]]))
+    block = CellBlock.make(table, "QUA4", ids[::sense][None])
+    zone = Zone(block, "MECANIQUE", ELASTIC, "QUAS", Mode.THREE_DIMENSIONAL)
+    places, areas = fibre_places(zone, "STRESSES")
+    np.testing.assert_allclose(areas.sum(axis=1), 6.0)
+    np.testing.assert_allclose(np.einsum("cp,cpi->ci", areas, places), [[15.0, 6.0]])

@@ -112,12 +112,12 @@ def test_models_take_values_at_their_points_or_in_the_mean_of_squares(source, mo
 TILT = np.linalg.qr(np.random.default_rng(9).standard_normal((3, 3)))[0]
 
 
-def plate():
+def plate(element):
     table = NodeTable()
     x = np.array([[0, 0, 0], [2, 0.3, 0], [1.7, 1.5, 0], [0.1, 1.2, 0]]) @ TILT.T
     ids = table.add(x)
     cells = CellBlock.make(table, "TRI3", ids[[[0, 1, 2], [0, 3, 2]]])
-    return Zone(cells, "MECANIQUE", ELASTIC, "DKT", Mode.THREE_DIMENSIONAL)
+    return Zone(cells, "MECANIQUE", ELASTIC, element, Mode.THREE_DIMENSIONAL)
 
 
 FIRST, OTHER = np.array([1.0, 2.0, 0.5]), np.array([0.3, -1.0, 2.0])
@@ -125,14 +125,16 @@ FIRST, OTHER = np.array([1.0, 2.0, 0.5]), np.array([0.3, -1.0, 2.0])
 
 @pytest.mark.parametrize("strains", [False, True])
 @pytest.mark.parametrize("said", ["plain", "toward", "normal", "otherwise"])
-def test_forces_and_strains_of_shells_turn_with_the_axes(strains, said):
-    zone = plate()
+@pytest.mark.parametrize("element", ["DKT", "DST"])
+def test_forces_and_strains_of_shells_turn_with_the_axes(strains, said, element):
+    zone = plate(element)
     frames = flat_frames(zone)[0]
-    names = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST") if strains else (
-        "N11", "N22", "N12", "M11", "M22", "M12")  # fmt: skip
-    given = np.random.default_rng(1).standard_normal((6, 2, 1))
+    names = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST", "GASN", "GATN") if strains else (
+        "N11", "N22", "N12", "M11", "M22", "M12", "V1", "V2")  # fmt: skip
+    names = names[: 8 if element == "DST" else 6]
+    given = np.random.default_rng(1).standard_normal((len(names), 2, 1))
     field = CellField((CellFieldBlock(zone.cells, dict(zip(names, given, strict=True)), "GRAVITE",
-                                      "DKT"),))  # fmt: skip
+                                      element),))  # fmt: skip
     up = TILT[:, 2]
     axes = {
         "plain": SurfaceAxes(FIRST), "toward": SurfaceAxes(FIRST, toward=OTHER),
@@ -157,6 +159,8 @@ def test_forces_and_strains_of_shells_turn_with_the_axes(strains, said):
             T = own[:2].T @ np.array([[a, half * c], [half * c, b]]) @ own[:2]
             row = [found[n][k, 0] for n in names[start : start + 3]]
             np.testing.assert_allclose(row, [x @ T @ x, y @ T @ y, x @ T @ y / half], atol=1e-12)
+        for i, n in enumerate(names[6:]):  # shears across
+            assert found[n][k, 0] == pytest.approx((x, y)[i] @ (given[6:, k, 0] @ own[:2]))
 
 
 # --- axes that follow

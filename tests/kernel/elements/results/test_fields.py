@@ -27,7 +27,7 @@ from ssilang.kernel.elements.solids.gradients import (
     gradient_values,
 )
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -145,6 +145,12 @@ def test_integral_of_a_coordinate_is_the_first_moment():
     thick = material(zone, DIM3=0.5)
     np.testing.assert_allclose(integrals(zone, cells, "SCAL", thick), [0.25, 0.75, 1.25])
     assert integrals(zone, cells, "NONE") is None
+    zone, random = cell_zone("QUA8", Mode.PLANE_STRAIN), np.random.default_rng(2)
+    for support in ("RIGIDITE", "STRESSES", "MASSE"):  # of no polynomial: by their own points
+        weights = families.family_of(zone).weights(zone, zone_field(zone, None), support)
+        at = {"SCAL": random.uniform(1.0, 2.0, weights.shape)}
+        given = CellField((CellFieldBlock(zone.cells, at, support, zone.element),))
+        np.testing.assert_allclose(integrals(zone, given, "SCAL"), (weights * at["SCAL"]).sum())
 
 
 def test_a_field_follows_the_reduction_of_its_model():

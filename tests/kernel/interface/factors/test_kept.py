@@ -6,8 +6,10 @@ from references.iterations import KINDS, at_rest, compiled_newton, plain_newton,
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.factors.changed import DONE, forget_changes, solve_changed
+from ssilang.kernel.interface.factors.lu import factorise
 from ssilang.kernel.interface.newton import workspace
-from ssilang.kernel.interface.response import accept
+from ssilang.kernel.interface.response import accept, interface_stiffness
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
     solve_factors,
@@ -72,6 +74,28 @@ def test_factors_that_changed_tangents_correct():
         y0[2 * (step // 4 % (q // 2)) + 1] = 2e-3 if step % 4 < 2 else -1e-3  # one pair opens
     assert corrected > 20
     assert fresh >= 1
+
+
+def test_changed_tangents_of_no_symmetry_are_solved_with_exactly():
+    """One point, then three of which it is one, by factors of the tangents before."""
+    whole = soil_block(steps=2, size=(24, 4, 22), joint=FRICTION).interface
+    joints, q, random = whole.points, whole.size, np.random.default_rng(1)
+    root = random.standard_normal((q, q))
+    condensed = Condensed(1e-9 * (root @ root.T / q + np.eye(q)), np.zeros((0, 0)), 0.7)
+    factors = room(joints, q, "changed LU").factors
+    lu, changes = factors.lu, factors.changes
+    known = 1e8 * random.standard_normal((len(joints.weights), 2, 2))
+    assert factorise(joints, condensed, known, lu)
+    forget_changes(changes)
+    D, K = known.copy(), np.zeros((q, q))
+    for points in ([5], [3, 5, 9]):
+        D[points] = 1e8 * random.standard_normal((len(points), 2, 2))
+        interface_stiffness(joints, D, K)
+        b = random.standard_normal(q)
+        x = b.copy()
+        assert solve_changed(joints, condensed, D, known, lu, changes, x) == DONE
+        exact = np.linalg.solve(np.eye(q) + condensed.S @ (0.7 * K), b)
+        np.testing.assert_allclose(x, exact, atol=1e-9 * np.abs(exact).max())
 
 
 @pytest.mark.parametrize("n", [33, 600])

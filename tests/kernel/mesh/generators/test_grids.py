@@ -61,13 +61,16 @@ class Brick:
         outer[1:-1, 1:-1, 1:-1] = False
         self.ids = np.full(shape, -1)
         self.ids[outer] = self.nodes.add(self.x[outer], 0.4)
-        self.rng = np.random.default_rng(seed)
+        self.rng, self.sense = np.random.default_rng(seed), 1 - 2 * (seed % 2)
         self.tables = [self.ids[0], self.ids[-1], self.ids[:, 0], self.ids[:, -1],
                        self.ids[:, :, 0], self.ids[:, :, -1]]  # fmt: skip
 
     def faces(self, first):
-        """Six meshes; the pair of axis `first` comes first."""
-        order = [2 * first, 2 * first + 1, *(k for k in range(6) if k // 2 != first)]
+        """Six meshes; the pair of axis `first` comes first, in the sense of the seed."""
+        order = [
+            *[2 * first, 2 * first + 1][:: self.sense],
+            *(k for k in range(6) if k // 2 != first),
+        ]
         return [self.face(self.tables[k]) for k in order]
 
     def face(self, table):

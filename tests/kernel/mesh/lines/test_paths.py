@@ -4,7 +4,12 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.lines.lines import line_chain, network_of_lines, shortest_line
+from ssilang.kernel.mesh.lines.lines import (
+    frenet_frames,
+    line_chain,
+    network_of_lines,
+    shortest_line,
+)
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -51,3 +56,32 @@ def test_cells_of_a_line_in_no_order_are_put_one_behind_the_other(kind, closed):
     back[2] = back[2, ::-1]
     with pytest.raises(MeshError, match="follow"):
         line_chain(Mesh.of(nodes, kind, back))
+
+
+def test_frames_of_an_arc_in_space_are_those_of_its_circle():
+    """Uneven steps in a slanted plane, nodes and cells in no order; at both ends too."""
+    nodes, order = NodeTable(), np.array([3, 0, 4, 1, 2])
+    nodes.add(np.ones((3, 3)))
+    across, up, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    c, s = (f(np.cumsum([0.3, 0.2, 0.5, 0.1, 0.4]))[:, None] for f in (np.cos, np.sin))
+    out, along = c * across + s * up, c * up - s * across
+    ids = nodes.add(2.0 * out[order])[np.argsort(order)]
+    cells = np.column_stack([ids[:-1], ids[1:]])[[2, 0, 3, 1]]
+    found, frames = frenet_frames(Mesh.of(nodes, "SEG2", cells))
+    frames = frames[np.searchsorted(found, ids)]
+    wanted = np.stack([along, -out, np.cross(along, -out)], axis=1)
+    np.testing.assert_allclose(frames, wanted, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("to", "binormal"), [([0.6, 0, 0.8], [-0.8, 0, 0.6]), ([0, 0, 1], [0, 1, 0])]
+)
+@pytest.mark.parametrize("count", [1, 3])
+def test_straight_lines_have_their_binormal_near_the_z_axis(count, to, binormal):
+    nodes = NodeTable()
+    ids = nodes.add(np.arange(count + 1)[:, None] ** 1.5 * np.array(to))
+    line = Mesh.of(nodes, "SEG2", np.column_stack([ids[:-1], ids[1:]]))
+    wanted = [to, np.cross(binormal, to), binormal]
+    np.testing.assert_allclose(frenet_frames(line)[1], [wanted] * (count + 1), atol=1e-12)
+    with pytest.raises(MeshError, match="branches"):
+        frenet_frames(Mesh.of(nodes, "SEG2", [*line.blocks[0].connectivity, ids[[0, -1]]][-2:]))

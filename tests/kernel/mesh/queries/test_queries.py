@@ -43,7 +43,7 @@ def test_volumes_follow_the_determinant_of_a_map(name):
 def grid():
     """Two slanted layers of squares 3 x 2, some cut in triangles, with colours, and a line."""
     table, at = NodeTable(), {}
-    table.add(np.full((4, 3), -9.0))  # the cells' nodes are not the first ones
+    table.add(np.full((90, 3), -9.0))  # the cells' nodes are not the first ones
     for j, i in itertools.product(range(3), range(4)):
         at[i, j] = int(table.add(np.array([[i + 0.2 * j, 0.9 * j, 0.05 * i]]))[0])
     squares, triangles = [], []

@@ -90,6 +90,10 @@ def test_cells_follow_the_wanted_sizes() -> None:
     at = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
     coarse = fill_surface(line, chart, "TRI3", sizes=(at, np.full(4, 0.3)))
     assert coarse.n_cells < 0.8 * usual.n_cells
+    for side in (line, reversed_line(line)):  # the chart sees the second one from behind
+        made = fill_surface(side, chart, "TRI3", sizes=(at, np.array([0.08, 0.08, 0.4, 0.4])))
+        low = made.single_block().coordinates[:, :, 1].mean(axis=1) < 0.5
+        assert np.count_nonzero(low) > 0.7 * len(low)
 
 
 def test_cap_of_a_sphere_has_its_area() -> None:

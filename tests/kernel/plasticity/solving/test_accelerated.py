@@ -1,6 +1,6 @@
 """Steps that keep their factor against Newton's method on all unknowns."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -126,8 +126,17 @@ def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not(monkeyp
         (replace(problem, solver=Solver("SuperLU")), False),
         (replace(problem, contact=object()), False), (replace(problem, constraints=sided), False),
     ]  # fmt: skip
-    assert [choose(p, bulk, A) for p, _ in others] == [wanted for _, wanted in others]
-    assert not choose(problem, replace(bulk, zones=()), A)
+    parts = {f.name: getattr(bulk, f.name) for f in fields(bulk) if f.init}
+    bulks = [
+        (bulk, True),
+        (replace(bulk, zones=()), False),
+        (type("", (Bulk,), {})(**parts), False),
+    ]
+    for order in (object(), None):  # None: the matrix has no places to be dissected by
+        monkeypatch.setattr(accelerated, "ordering_of", lambda *of, order=order: order)
+        cases = [*((p, bulk, x) for p, x in others), *((problem, b, x) for b, x in bulks)]
+        for p, b, wanted in cases:
+            assert choose(p, b, A) == (wanted and order is not None)
 
 
 def test_the_way_of_a_part_to_the_root_is_all_that_its_solve_needs() -> None:
