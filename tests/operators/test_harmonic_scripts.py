@@ -48,6 +48,8 @@ def test_one_harmonic_by_hbm_and_continu_is_duffings_closed_form(found):
     left = ((1 + 0.75 * CUBIC * A**2 - w**2) ** 2 + (DAMPING * w) ** 2) * A**2
     np.testing.assert_allclose(left, LOAD**2, rtol=1e-7)
     assert np.abs(mean).max() < 1e-9
+    drawn = T.get("RESULTATS_HBM").get("RESULTATS_EVOL").parts
+    np.testing.assert_array_equal([p.ordinates for p in drawn], [mean, cosine, sine] * 2)
     assert w[-1] > 2.4
     turns = np.flatnonzero(np.diff(np.sign(np.diff(w))))
     assert len(turns) == 2  # two limit points
@@ -89,10 +91,15 @@ def test_a_further_call_goes_on_from_the_last_solution(found):
     n1, T = found(text, "N1", "T")
     w = reals(T, "TEMPS_PROG")
     assert n1 == 11
-    assert len(reals(T, "RESULTATS_HBM", 2, "RESULTATS")) == len(w)
+    cosine, sine = (reals(T, "RESULTATS_HBM", j, "RESULTATS") for j in (2, 3))
+    A = np.hypot(cosine, sine)
+    left = ((1 + 0.75 * CUBIC * A**2 - w**2) ** 2 + (DAMPING * w) ** 2) * A**2
+    np.testing.assert_allclose(left, LOAD**2, rtol=1e-7)
     assert len(reals(T, "RESULTATS_STABILITE", "FLOQ", "STABILITE")) == len(w) - 1
     assert (w[n1:] > w[n1 - 1])[:5].all()
-    assert w.max() == pytest.approx(reals(once, "TEMPS_PROG").max(), abs=0.06)
+    whole = reals(once, "TEMPS_PROG")
+    np.testing.assert_allclose(w[:n1], whole[:n1], rtol=1e-9)
+    assert w.max() == pytest.approx(whole.max(), abs=0.06)
 
 
 def test_names_of_coefficients_follow_harmonics_and_unknowns(found):

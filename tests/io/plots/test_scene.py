@@ -303,7 +303,9 @@ def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
 def test_section_of_surfaces_is_a_line_that_leaves_joints_out() -> None:
     table = NodeTable()
     ids = table.add(np.array([(x, y, 0.0) for y in (0, 1, 3) for x in (0, 2, 5)]))
-    cells = {"LIA4": [[0, 1, 4, 3, 0, 1, 4, 3]], "TRI3": [[1, 2, 5], [3, 4, 7]],
+    above = table.add(np.array([(0, 0, 0.5), (2, 0, 0.5), (2, 1, 0.5), (0, 1, 0.5)]))
+    ids = np.concatenate([ids, above])
+    cells = {"LIA4": [[0, 1, 4, 3, 9, 10, 11, 12]], "TRI3": [[1, 2, 5], [3, 4, 7]],
              "QUA4": [[0, 1, 4, 3], [4, 5, 8, 7]]}  # fmt: skip
     parts = [Mesh.of(table, kind, ids[rows]) for kind, rows in cells.items()]
     blocks = [
