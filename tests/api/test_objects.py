@@ -89,6 +89,10 @@ def test_all_values_in_time_as_xarray(oscillator, touched):
     at = u.sel(node=2, component="UX")
     assert at.values == pytest.approx(0.5 * exact(u.time.values), abs=2e-4)
     assert u.x.values.tolist() == [0.0, 1.0]
+    v = r["T2"].xarray("VITE").sel(node=2, component="UX")
+    assert v.values == pytest.approx(r.history("VITE", "UX", 2).y, rel=1e-12)
+    slope = np.gradient(at.values, u.time.values)[1:-1]
+    assert slope == pytest.approx(v.values[1:-1], abs=0.02 * float(np.abs(v).max()))
 
 
 def test_results_of_pasapas_are_read_in_the_same_way():

@@ -278,7 +278,7 @@ def test_names_that_nothing_reads_are_told_together_where_a_person_reads():
         assert not check_file(Source("test", text), False, "en", out)
         return out.getvalue()
 
-    several = said("B = 1 ;\nMESS 'x' ;\nA = 2 ;\nC D = 3 4 ;\nMESS D ;")
+    several = said("B = 1 ;\nMESS 'x' ;\nA = 2 ;\nC D = 3 4 ;\nMESS D ;\nA = 5 ;")
     assert several.count("warning") == 1
     assert "names get values that nothing reads: B (1), A (3)" in several
     assert "X gets a value that nothing reads" in said("X = 1 ;")

@@ -22,6 +22,7 @@ SCRIPT = """
 X = PROG 1. 2. ;
 OPTI SORT 'a.csv' ; SORT 'EXCE' X ;
 SORT 'BILA' 'sum' 3. 3.1 0.2 ; SORT 'BILA' 'low' 2.7 3.1 0.2 ; SORT 'BILA' 'count' 2 ;
+SORT 'BILA' 'limit' -3.5 -3.25 0.25 ;
 """
 
 
@@ -41,9 +42,10 @@ def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
         ("sum", 3.0, True),
         ("low", 2.7, False),
         ("count", 2.0, None),
+        ("limit", -3.5, True),
     ]
     assert made["seconds"] > 0
-    assert made["statements"] == 6
+    assert made["statements"] == 7
 
 
 def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Checkpoints read back, by themselves and by numpy and zipfile alone."""
 
 import json
+import os
 import zipfile
 from pathlib import Path
 
@@ -43,8 +44,14 @@ def _same(a: dict[str, np.ndarray], b: dict[str, np.ndarray]) -> bool:
     )
 
 
-def test_what_is_kept_comes_back(tmp_path: Path) -> None:
+def test_what_is_kept_comes_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    forced: list[tuple[int, int]] = []  # to the disk, before a name says that it is there
+    monkeypatch.setattr(
+        os, "fsync", lambda file: forced.append((os.fstat(file).st_ino, os.fstat(file).st_size))
+    )
     _kept(tmp_path)
+    kept = {(p.stat().st_ino, p.stat().st_size) for p in tmp_path.iterdir()}
+    assert kept <= set(forced)
     going_on = Checkpoints(tmp_path, DECK, resume=True)
     assert going_on.found
     assert not going_on.kept

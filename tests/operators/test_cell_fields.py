@@ -1,6 +1,8 @@
 """Fields in cells: making, algebra, components, masks."""
 
 import numpy as np
+import pytest
+from script_runs import ran
 
 LINE = (
     "OPTI DIME 2 ELEM SEG2 ; PA = 0. 0. ; PB = 4. 0. ; L = DROI 4 PA PB ; "
@@ -30,9 +32,18 @@ def test_support_words_compare_on_their_eight_letters(found):
 
 
 def test_type_and_constituent_change(found):
-    field = found(LINE + "D = CHAN 'CONS' (CHAN 'TYPE' C 'CARACTERISTIQUES') 'SOIL' ;", "D")
+    field = found(LINE + "D = CHAN 'CONS' (CHAN 'TYPE' C 'CARACTERISTIQUES') 'AB  ' ;", "D")
     assert field.title == "CARACTERISTIQUES"
-    assert field.blocks[0].constituent == "SOIL"
+    assert field.blocks[0].constituent == "AB"
+
+
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [("C", []), ("C * 2.", [["A", "B"]]), ("CHAN 'CONS' (C * 2.) 'W'", []), ("S", [])],
+)
+def test_other_values_of_a_component_in_the_same_cells_are_told(other, told):
+    done = ran(f"{LINE}D = C ET ({other}) ;")
+    assert [w.data["names"] for w in done.session.warnings] == told
 
 
 def test_zero_hooke_matrices_make_no_stiffness(found):

@@ -50,6 +50,24 @@ def test_a_force_of_time_is_the_load_of_that_curve(found, scheme):
         assert np.abs(gap).max() <= 1e-12
 
 
+def test_the_state_that_it_is_given_is_that_of_the_step(found):
+    load = "T1 . 'CHAR' = CHAR 'MECA' (FORC (0. 1.) P) EVF ; "
+    kept = procedure(("ADDI_CNL", "APPU 'UY' 0.4 P")).replace(
+        "TC = TABL ;", "TC = TABL ; T1 . 'SEEN' = T0 . 'ETAT' ;"
+    )
+    words = ("DEPL", "VITE", "ACCE")
+    last = "".join(
+        f"S{w} = EXTR (T1 . 'SEEN' . '{w}') 'UY' P ; "
+        f"C{w} = EXTR (EVOL 'TEMP' T2 '{w}' 'UY' P) 'ORDO' ; " for w in words
+    )  # fmt: skip
+    t, *pairs = found(
+        COARSE + EVO + load + kept + RUN + "TS = T1 . 'SEEN' . 'TEMP' ; " + last,
+        "TS", *(name + w for w in words for name in "SC"),
+    )  # fmt: skip
+    for seen, curve in zip(pairs[::2], pairs[1::2], strict=True):
+        assert seen == pytest.approx(curve.values[round(t / 0.02)], rel=1e-9)
+
+
 @pytest.mark.parametrize("scheme", SCHEMES)
 def test_constant_matrices_are_those_of_the_table(found, scheme):
     both = "T1 . 'RIGI' = (T1 . 'RIGI') ET (APPU 'UY' 30. P) ; T1 . 'AMOR' = APPU 'UY' 0.4 P ; "

@@ -1,9 +1,13 @@
 """PASAPAS with GRANDS_DEPLACEMENTS: a stretched string that swings, refusals."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from script_runs import failed, ran
+
+from ssilang.operators.statics.bodies import warn_of_strains
 
 STRING = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P1 = 0. 0. ; P2 = 2. 0. ; S = DROI 1 P1 P2 ;
@@ -209,11 +213,30 @@ def test_total_carries_strength_times_stretch_and_says_that_strains_are_too_larg
     assert told.data["strain"] == pytest.approx(0.5 * (1.08**2 - 1.0))
 
 
-def test_elastic_bodies_in_large_strains_say_which_law_they_have(tmp_path):
-    text = BARS["CUB8"] + "LAST = 1.2 ; " + PULLED.split("E = MAXI")[0]
-    result = ran(text.replace(" 'PLASTIQUE' 'PARFAIT'", "").replace(" 'SIGY' 200.", ""),
-                      output_directory=tmp_path)  # fmt: skip
-    assert [w.code for w in result.session.warnings] == ["operators.statics.elastic-strains-large"]
+@pytest.mark.parametrize(
+    ("finite", "word", "told"),
+    [
+        (True, "TOTAL", {"elastic-strains-large": 0.5 * (1.3**2 - 1), "small-strains-left": 0.22}),
+        (True, "FIN_PAS", {"elastic-strains-large": 0.5 * (1.3**2 - 1)}),
+        (False, "TOTAL", {"displacements-not-small": 0.2}),
+    ],
+)
+def test_each_law_is_told_of_the_strains_of_its_own_bodies(finite, word, told):
+    """An elastic body drawn out by 0.3 beside one that may yield by 0.2."""
+    find = ran(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0. 0.) (0. 1.) ; A = TRAN 1 L (2. 0.) "
+        "; B = TRAN 1 (L PLUS (2. 0.)) (1. 0.) ; M = (MODE A 'MECANIQUE' 'ELASTIQUE') ET (MODE B "
+        "'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT') ; "
+        "U = (NOMC 'UX' (0.3 * (COOR 1 A))) ET (NOMC 'UX' (0.2 * (COOR 1 B))) ;"
+    ).session.root.find
+    found = {}
+    entries = SimpleNamespace(
+        get={"MODELE": find("M"), "LAGRANGIEN": word}.get, flag=lambda _: finite, place=None,
+        call=SimpleNamespace(session=SimpleNamespace(warnings=[])),
+        warn=lambda code, strain, error: found.update({code.split(".")[-1]: strain}),
+    )  # fmt: skip
+    warn_of_strains(entries, find("U"))
+    assert found == pytest.approx(told)
 
 
 def test_a_word_that_lagrangien_does_not_have_is_refused(tmp_path):

@@ -1,7 +1,9 @@
 """The progress line of long loops."""
 
 import io
+import re
 
+from ssilang.cli.sweeping import sweep
 from ssilang.messages.message import teller
 from ssilang.operators.session import progress
 from ssilang.operators.session.progress import ProgressLine
@@ -37,6 +39,18 @@ def test_time_left_does_not_count_what_came_before_the_first_report(monkeypatch)
     assert "20/40, 2 s left" in shown[2]
     assert "30/40, 1 s left" in shown[3]
     line.close()
+    assert stream.getvalue().endswith(" \r")
+
+
+def test_runs_of_a_sweep_are_counted_as_they_end(monkeypatch):
+    for name in ("PATIENCE", "REFRESH"):
+        monkeypatch.setattr(progress, name, 0.0)
+    rows, stream = [{"run": 2}, {"run": 1}], Terminal()
+    assert list(sweep._progress(iter(rows), 5, teller("fr"), stream)) == rows
+    assert re.findall(r"\r(\w+) \[.*?\] (\d)/5", stream.getvalue()) == [
+        ("calculs", "1"),
+        ("calculs", "2"),
+    ]
     assert stream.getvalue().endswith(" \r")
 
 

@@ -23,7 +23,10 @@ def test_free_body_is_named_or_its_load_left_out_when_told():
     result = failed(free + "U = RESO K2 F1 ;")
     assert "translation along X" in result.message
     assert "UX at node" in result.message
-    assert len(ran(free + "U = RESO K2 F1 'NOID' ; W = RESO K2 F1 'SOUC' ;").session.warnings) == 1
+    told = ran(free + "U = RESO K2 F1 'NOID' ; W X = RESO K2 F1 ((-3.) * F1) 'SOUC' ;").session
+    assert len(told.warnings) == 1
+    u, w, x = (at(told.root.find(name), "UX", told.root.find("PB")) for name in "UWX")
+    assert (w, x) == pytest.approx((u, -3.0 * u), rel=1e-12)
 
 
 def test_force_on_an_unknown_that_the_matrix_lacks_is_refused():

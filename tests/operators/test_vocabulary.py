@@ -28,6 +28,7 @@ from ssilang.language.registry import find_operator
 from ssilang.language.say.reference import operator_page, page_text
 from ssilang.language.vocabulary.examples import EXAMPLES, example
 from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
+from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 from ssilang.operators.models.contact import METHODS
 from ssilang.operators.models.mode import LAW_WORDS
@@ -195,6 +196,16 @@ def test_help_of_a_word(word, parts):
     text = help_text(word, "en")
     for part in parts:
         assert part in text
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_pages_of_unknowns_and_of_their_duals_name_each_other(language):
+    head = teller(language)("help.dual")
+    for primal, dual in PRIMAL_TO_DUAL.items():
+        for one, other in ((primal, dual), (dual, primal)):
+            for word in vocabulary.meanings("component", one):
+                lines = vocabulary_text("component", word, language).split("\n")
+                assert [s.split()[1:] for s in lines if s.startswith(f"{head} ")] == [[other]], one
 
 
 def test_a_word_with_several_meanings_lists_them_all():

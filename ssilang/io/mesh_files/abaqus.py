@@ -175,8 +175,6 @@ def _cell_type(kind: str) -> str:
         return _BEAMS.get(digits[1:2], "")
     if family == "STRI":
         return {"3": "TRI3", "65": "TRI6"}.get(digits, "")
-    if family == "S" and digits in ("4", "3", "6", "8", "9"):
-        return _SURFACES.get(int(digits), "")
     return _NUMBERED.get(family, {}).get(int(digits), "")
 
 

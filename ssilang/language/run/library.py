@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from functools import cached_property
 from pathlib import Path
 
-from ssilang.language.say.errors import SsiError
+from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, Item, Name, Quoted
@@ -69,9 +69,9 @@ class Library:
     def find(self, name: str) -> Procedure | None:
         """The procedure of that name, loaded if it is not yet, None if there is none."""
         if name not in self._loaded:
-            self._loaded[name] = None
             if (path := self._path(name)) is not None:
                 self._load(path)
+            self._loaded.setdefault(name, None)
         return self._loaded[name]
 
     def called(self, items: Sequence[Item]) -> Sequence[Item]:
@@ -121,7 +121,11 @@ class Library:
         if origin != "stdlib":
             self.read.append(path)
         changed = _last_change(path)
-        for node in parse(read_source(path)).body:
+        try:
+            script = parse(read_source(path))
+        except SeveralErrors as several:  # as of a statement that went wrong: the first
+            raise several.errors[0] from None
+        for node in script.body:
             if isinstance(node, Definition):
                 self._loaded[node.name] = Procedure(node.name, node, origin)
                 self._files[node.name] = path, changed

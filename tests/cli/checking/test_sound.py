@@ -135,6 +135,10 @@ def test_procedures_beside_the_script_are_read_anew_when_they_change(tmp_path):
         file.write_text(f"DEBP @HALF A*{kind} ; R = A ; FINP R ;", encoding="utf-8")
         os.utime(file, ns=(i * 10**9, i * 10**9))
         assert ("missing-parameter" in codes()) is wrong
+    file.write_text("* one\n* two\nDEBP @HALF A ;\n R = (A ; FINP R ;", encoding="utf-8")
+    assert codes() == ["unclosed-paren"]
+    (told,) = find_problems(source, "en").problems  # at no place of this text, nor mended there
+    assert (told.start, told.end, told.fixes) == (0, 0, ())
     file.unlink()
     assert "unknown-operator" in codes()
 

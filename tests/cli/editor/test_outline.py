@@ -47,6 +47,7 @@ def test_what_folds():
         (0, 1, "comment"), (3, 9, "region"), (5, 8, "region"), (10, 12, "region"),
         (14, 16, "region"), (18, 19, "comment"),
     ]  # fmt: skip
+    assert list(folds(Document.of("REPE B 2 ;\nX = 1 ;\nFIN B ;"))) == [(0, 2, "region")]
 
 
 def test_the_colour_of_each_word():

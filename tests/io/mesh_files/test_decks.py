@@ -75,11 +75,14 @@ def test_meshio_reads_the_same_volumes(
 )
 def test_surfaces_are_what_the_mode_says(tmp_path: Path, mode: str, name: str) -> None:
     text = f"OPTI DIME 2 MODE {mode} ELEM QUA8 SORT 'plate' ; "
-    text += "S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; SORT 'ABAQ' S ;"
+    text += "S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; T = MANU 'TRI6' (3. 0.) (4. 0.) (5. 0.) "
+    text += "(4. 1.) (3. 2.) (3. 1.) ; SORT 'ABAQ' (S ET T) ;"
     assert run_text(text, tmp_path).exit_code == 0
     lines = (tmp_path / "plate.inp").read_text().splitlines()
     at = lines.index(f"*ELEMENT, TYPE={name}, ELSET=E1")
     nodes = {f[0]: np.array(f[1:], float) for f in (line.split(",") for line in lines[2:at])}
+    firsts = [lines[i + 1].split(",")[0] for i, s in enumerate(lines) if s.startswith("*ELEMENT")]
+    assert firsts == ["1", "2"]
     corners = [nodes[n.strip()] for n in lines[at + 1].split(",")[1:5]]
     middles = [nodes[n.strip()] for n in lines[at + 1].split(",")[5:9]]
     for i in range(4):

@@ -42,6 +42,9 @@ UNV = """    -1
          1         0         0         0         0         0         0         2
 base side
          8         5         0         0         7        13         0         0
+         2         0         0         0         0         0         0         1
+face
+         8         7         0         0
     -1
 """
 
@@ -54,10 +57,11 @@ def test_nodes_cells_and_groups(tmp_path: Path) -> None:
     assert np.array_equal(read.cells["QUA4"], [[0, 1, 2, 3]])
     assert np.array_equal(read.cells["SEG2"], [[0, 1]])
     assert held(read) == ({"SEG2": [0]}, [2])
+    assert held(read, "face") == ({"QUA4": [0]}, [])
 
 
-def held(read: FileMesh) -> tuple[dict[str, list[int]], list[int]]:
-    part = read.parts["base side"]
+def held(read: FileMesh, name: str = "base side") -> tuple[dict[str, list[int]], list[int]]:
+    part = read.parts[name]
     return {k: rows.tolist() for k, rows in part.cells.items()}, part.nodes.tolist()
 
 

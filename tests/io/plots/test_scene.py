@@ -1,6 +1,7 @@
 """Pictures of meshes and fields, looked at pixel by pixel."""
 
 import io
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -299,13 +300,26 @@ def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
     assert set(colours) == {0}
 
 
-def test_section_of_a_surface_is_a_line() -> None:
-    mesh = grid(3)
-    plane = Plane.through(*np.array([(0.3, 0, 0), (0.3, 1, 0), (0.3, 0, 1)]))
-    values = mesh.nodes.coordinates @ np.array([1.0, 2.0, 0.0])
-    points, found, _ = section_of(mesh, plane, mesh.nodes.coordinates, values, 2)
-    assert np.linalg.norm(points[:, 1] - points[:, 0], axis=1).sum() == pytest.approx(1.0)
+def test_section_of_surfaces_is_a_line_that_leaves_joints_out() -> None:
+    table = NodeTable()
+    ids = table.add(np.array([(x, y, 0.0) for y in (0, 1, 3) for x in (0, 2, 5)]))
+    above = table.add(np.array([(0, 0, 0.5), (2, 0, 0.5), (2, 1, 0.5), (0, 1, 0.5)]))
+    ids = np.concatenate([ids, above])
+    cells = {"LIA4": [[0, 1, 4, 3, 9, 10, 11, 12]], "TRI3": [[1, 2, 5], [3, 4, 7]],
+             "QUA4": [[0, 1, 4, 3], [4, 5, 8, 7]]}  # fmt: skip
+    parts = [Mesh.of(table, kind, ids[rows]) for kind, rows in cells.items()]
+    blocks = [
+        replace(b, colours=np.full(len(b), k, np.int8))
+        for k, p in enumerate(parts)
+        for b in p.blocks
+    ]
+    mesh = Mesh(table, tuple(blocks))
+    plane = Plane.through(*np.array([(1.5, 0, 0), (1.5, 3, 0), (1.5, 0, 1)]))
+    values = table.coordinates @ np.array([1.0, 2.0, 0.0])
+    points, found, colours = section_of(mesh, plane, table.coordinates, values, 2)
     assert np.allclose(found, points @ np.array([1.0, 2.0, 0.0]))
+    ends = {c: np.sort(points[colours == c, :, 1]).round(9).tolist() for c in set(colours)}
+    assert ends == {1: [[1.0, 2.5]], 2: [[0.0, 1.0]]}  # the joint's colour is 0
 
 
 def test_a_plane_needs_three_points_off_a_line() -> None:

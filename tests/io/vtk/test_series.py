@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ssilang.io.errors import OutputError
-from ssilang.io.vtk import Part, SeriesWriter
+from ssilang.io.vtk import Encoding, Part, SeriesWriter
 from ssilang.io.vtk.series import read_pvd
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
@@ -29,13 +29,15 @@ def scaled(field: NodeField, by: float) -> NodeField:
 def test_each_step_is_a_file_and_the_list_has_its_time(tmp_path: Path) -> None:
     mesh, field = bar()
     times = [0.0, 0.1, 0.30000000000000004]
-    with SeriesWriter(tmp_path / "run" / "bar.vtk") as series:
+    with SeriesWriter(tmp_path / "run" / "bar.vtk", Encoding.TEXT) as series:
         for t in times:
             series.write(t, mesh, {"": scaled(field, t)})
     entries = read_pvd(tmp_path / "run" / "bar.pvd")
     assert [e.time for e in entries] == times
     assert [e.file for e in entries] == ["bar.0001.vtu", "bar.0002.vtu", "bar.0003.vtu"]
     for t, e in zip(times, entries, strict=True):
+        written = (tmp_path / "run" / e.file).read_text()
+        assert ('format="ascii"' in written, 'format="binary"' in written) == (True, False)
         read = meshio.read(tmp_path / "run" / e.file)
         assert np.array_equal(read.point_data["displacement"][:, 0], t * np.array([0.0, 0.5, 1.0]))
 

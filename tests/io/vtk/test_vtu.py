@@ -1,6 +1,7 @@
 """Grids written as .vtu are read back by meshio, an independent reader."""
 
 import itertools
+from dataclasses import replace
 from pathlib import Path
 
 import meshio
@@ -9,7 +10,7 @@ import pytest
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Encoding, grid_of, write_vtu
-from ssilang.io.vtk.grid import ORDERS, cell_arrays
+from ssilang.io.vtk.grid import ORDERS, DataArray, cell_arrays
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -201,6 +202,16 @@ def test_forces_of_a_shell_are_named_each_by_its_component() -> None:
     ones = {c: np.ones((6, 1)) for c in ("N11", "M11")}
     forces = CellField((CellFieldBlock(mesh.blocks[0], ones, "STRESSES"),))
     assert set(cell_arrays(forces, mesh, "F")) == {"F_N11", "F_M11"}
+
+
+@pytest.mark.parametrize("encoding", Encoding)
+@pytest.mark.parametrize("kind", ["<f8", ">f8", "<f4", ">f4", "<i4", ">i8", "u1", "?"])
+def test_numbers_of_any_kind_and_order_are_read_back(kind, encoding, tmp_path: Path) -> None:
+    mesh, _, _ = square_with_fields()
+    values = np.arange(24).reshape(2, 12).astype(kind).T  # neither contiguous nor of one value
+    grid = replace(grid_of(mesh), point_data={"V": DataArray(values)})
+    write_vtu(tmp_path / "k.vtu", grid, encoding)
+    assert np.array_equal(meshio.read(tmp_path / "k.vtu").point_data["V"], values)
 
 
 def test_component_names_of_gibiane_stay_readable(tmp_path: Path) -> None:

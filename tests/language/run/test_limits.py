@@ -63,10 +63,13 @@ def test_large_scripts_run(run, text, x):
     assert run(text)["x"] == x
 
 
-def test_a_very_long_line_is_shown_around_its_error(tmp_path):
-    result = run_text("x = " + "1 + " * 2000 + "FOO 3 ;", output_directory=tmp_path)
-    assert max(len(line) for line in result.message.split("\n")) < 200
-    assert "FOO" in result.message
+@pytest.mark.parametrize(("before", "behind"), [(2000, 0), (0, 2000), (900, 900)])
+def test_a_very_long_line_is_shown_around_its_error(before, behind):
+    text = "x = " + "1 + " * before + "(FOO 3.)" + " + 1" * behind + " ;"
+    shown, marks = run_text(text).message.split("\n")[3:5]
+    assert (len(shown), shown[marks.index("^") : len(marks)]) == (164, "FOO")
+    assert shown[4:].strip(".") in text
+    assert (shown[4:7] == "...", shown[-3:] == "...") == (before > 0, behind > 0)
 
 
 def test_a_long_integer_does_not_hide_the_errors_behind_it():
