@@ -248,11 +248,11 @@ class ReducedIntegration:
                 moved = np.abs(basis.J @ answers).max(initial=0.0)
                 enough = moved <= SHARE * self.tolerance * largest
                 if enough or turn == TURNS or basis.room < len(left) + ANSWERS:
+                    few.append(answers)
+                    done.append((chunk, trace.model))
                     break
                 basis.take(answers)
                 trace.again(before, basis.model())
-            few.append(answers)
-            done.append((chunk, trace.model))
         poor = trace.model
         basis.take(np.hstack(few))
         return Pair(basis, poor, basis.model(), [_on(poor, *parts) for parts in done])

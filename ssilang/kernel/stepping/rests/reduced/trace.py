@@ -203,9 +203,10 @@ class Trace:
         p, start = self.problem, self.model.start
         joints = joint_state(p)
         energies = initial_energies(p, admissible_velocity(p), joints)
+        u, v, a = (start[:, i].copy() for i in range(3))
         self.motion = Motion(
-            *(start[:, i].copy() for i in range(3)), joints.delta, joints.f, joints.w, joints.t,
-            joints.state, np.zeros(0), energies, np.zeros(0),
+            u, v, a, joints.delta, joints.f, joints.w, joints.t, joints.state, np.zeros(0),
+            energies, np.zeros(0),
         )  # fmt: skip
         self.energies = np.zeros((len(p.times), N_ENERGIES))
         self.energies[0] = energies
