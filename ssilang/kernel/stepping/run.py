@@ -33,6 +33,7 @@ from ssilang.kernel.stepping.keeping import (
     told_to_leave,
 )
 from ssilang.kernel.stepping.problem.bodies import full_uplift
+from ssilang.kernel.stepping.problem.equilibrium import react
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     closed_at_start,
@@ -171,15 +172,12 @@ class Integration:
         v = admissible_velocity(p)
         self._closed = closed_at_start(p)
         a, pushing = with_contact(p, v, initial_acceleration(p, v, joints), self._closed)
-        load = p.loading.forces @ p.loading.at(p.times[:1])[0]
-        reaction = p.M @ a + p.C @ v + p.K @ p.u - load
-        if p.interface is not None:
-            reaction = reaction + p.interface.J.T @ joints.f
         energies = initial_energies(p, v, joints)
         self.motion = Motion(
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
-            reaction, energies, pushing,
+            np.zeros_like(a), energies, pushing,
         )  # fmt: skip
+        react(p, self.motion, p.loading.at(p.times[:1])[0])
         self._choices: dict[float, Choice] = {}
         self._begun: dict[float, list[Any]] = {}  # states in which choices were made, if kept
         self._done, self._rule = 0, ""

@@ -109,8 +109,8 @@ class View:
         return (room or Room(0)).tap(row, self.at, self.shapes)
 
 
-def whole_view(motion: Motion, unknowns: IntArray, *without: str) -> View:
-    """The view of a loop on the problem's own unknowns; `without`: parts that it does not have."""
+def whole_view(motion: Motion | Snapshot, unknowns: IntArray, *without: str) -> View:
+    """The view of arrays on the problem's own unknowns; `without`: parts that are not there."""
     shapes = dict.fromkeys((*FIELDS, "reaction"), unknowns.shape)
     shapes |= {name: getattr(motion, name).shape for name in ("w", "t", "state", "contact")}
     return View(unknowns, {k: v for k, v in shapes.items() if k not in without})
@@ -271,7 +271,7 @@ def balance_of(problem: Problem, at: IntArray) -> Balance:
 
 def rows_of_snapshot(snapshot: Snapshot, unknowns: IntArray) -> Rows:
     """One instant as rows."""
-    s, view = snapshot, whole_view_of(snapshot, unknowns)
+    s, view = snapshot, whole_view(snapshot, unknowns)
     tap = view.tap(np.zeros(1, np.int64))
     for name in (*FIELDS, "reaction"):
         getattr(tap, name)[0] = getattr(s, name)[unknowns]
@@ -279,13 +279,6 @@ def rows_of_snapshot(snapshot: Snapshot, unknowns: IntArray) -> Rows:
         getattr(tap, name)[0] = getattr(s, name)
     factors = s.problem.loading.at(np.array([s.time]))
     return Rows(s.problem, np.array([s.step]), unknowns, view, tap, factors)
-
-
-def whole_view_of(snapshot: Snapshot, unknowns: IntArray) -> View:
-    """The view of an instant's own arrays."""
-    shapes = dict.fromkeys((*FIELDS, "reaction"), unknowns.shape)
-    shapes |= {name: getattr(snapshot, name).shape for name in ("w", "t", "state", "contact")}
-    return View(unknowns, shapes)
 
 
 def rows_of_tap(

@@ -1,10 +1,11 @@
-"""Forces of the conditions at instants of a motion, from its balance."""
+"""Forces of the conditions at instants of a motion, from its balance; closed joints' stiffness."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.state import Motion, Recorder
 
@@ -30,6 +31,16 @@ def joint_forces(problem: Problem, t: FloatArray) -> FloatArray:
     f = np.zeros((len(t), joints.size))
     np.add.at(f, (np.arange(len(t))[:, None, None], places[None]), local)
     return f
+
+
+def closed_stiffness(problem: Problem) -> sp.csr_array:
+    """The stiffness (n_y, n_y) with closed joints on the motions that the supports leave."""
+    T, joints = problem.constraints.T, problem.interface
+    K = sp.csr_array(T.T @ problem.K @ T)
+    if joints is None:
+        return K
+    J, R = sp.csr_array(joints.J @ T), sp.csr_array(joints.closed_stiffness())
+    return sp.csr_array(K + J.T @ R @ J)
 
 
 # Supports that do not move take no part in loops on coordinates; their reactions follow.

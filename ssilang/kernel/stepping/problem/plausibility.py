@@ -15,12 +15,12 @@ from functools import cached_property
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translation
+from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
 from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -190,16 +190,11 @@ def swings(problem: Problem) -> list[Swing]:
     Of a force f the static displacement x has the period `2 pi sqrt(x M x / x f)`, an upper
     estimate of those of the modes that it excites, weighed by their compliance (Rayleigh).
     """
-    T, joints = problem.constraints.T, problem.interface
-    given = _forces(problem)
+    T, given = problem.constraints.T, _forces(problem)
     if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
         return []
-    stiffness = problem.K
-    if joints is not None:
-        closed = sp.csr_array(joints.closed_stiffness())
-        stiffness = stiffness + joints.J.T @ (closed @ joints.J)
     forces = np.column_stack([T.T @ f for f, _ in given])
-    K = (T.T @ (stiffness @ T)).toarray()
+    K = closed_stiffness(problem).toarray()
     if not K.any() or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return []
     try:

@@ -22,6 +22,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     initial_acceleration,
@@ -137,6 +138,10 @@ class ReducedModel:
         """Whole fields (n, k) of coordinates (r, k)."""
         return self.whole(self.X @ q)
 
+    def taken(self, poorer: ReducedModel, q: FloatArray) -> FloatArray:
+        """Coordinates (..., r) of those (..., s) on the first s vectors."""
+        return (q @ poorer.X.T) @ self.X[: poorer.size]
+
     def whole(self, z: FloatArray) -> FloatArray:
         """Whole fields (n, k) of combinations (r, k) of the basis."""
         found: FloatArray = self.T @ (self.basis.T @ z)
@@ -198,16 +203,6 @@ def on_motions(T: sp.csr_array, fields: FloatArray) -> FloatArray:
     """Fields (n, k) that the supports allow on the motions y that they leave, (n_y, k)."""
     found: FloatArray = invert(sp.csr_array(T.T @ T), True).solve(T.T @ fields)
     return found
-
-
-def closed_stiffness(problem: Problem) -> sp.csr_array:
-    """The stiffness (n_y, n_y) with closed joints on the motions that the supports leave."""
-    T, joints = problem.constraints.T, problem.interface
-    K = sp.csr_array(T.T @ problem.K @ T)
-    if joints is None:
-        return K
-    J, R = sp.csr_array(joints.J @ T), sp.csr_array(joints.closed_stiffness())
-    return sp.csr_array(K + J.T @ R @ J)
 
 
 class Basis:
@@ -366,7 +361,8 @@ class Basis:
         values, X = la.eigh(self._KV[:r, :r])
         k = np.maximum(values, 0.0)
         m = np.maximum(1.0 - k / self.shift**2, 0.0)  # m + k / s**2 = 1: the vectors' length
-        J, F, start = self.J @ V.T, V @ self.F, V @ (self.N @ self._start)
+        felt = np.unique(self.J.indices)
+        J, F, start = self.J[:, felt] @ V[:, felt].T, V @ self.F, V @ (self.N @ self._start)
         d = self.damping
         B, sense = d.on(V, self._RV[:r, :r])
         return ReducedModel(

@@ -21,8 +21,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.interface.response import interface_forces
 from ssilang.kernel.stepping.keeping import digest
+from ssilang.kernel.stepping.problem.equilibrium import reactions
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import (
     Basis,
@@ -33,6 +33,7 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
 )
 from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
 from ssilang.kernel.stepping.rests.reduced.trained import (
+    ANSWERS,
     Learner,
     Shelf,
     TrainedBasis,
@@ -40,7 +41,8 @@ from ssilang.kernel.stepping.rests.reduced.trained import (
 )
 from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.kernel.stepping.state import closed_tap
+from ssilang.kernel.stepping.state import Motion, closed_tap
+from ssilang.kernel.stepping.times import runs_of
 from ssilang.kernel.stepping.track import Rows, View
 
 INSTANTS = 64  # at which whole fields are compared
@@ -49,6 +51,9 @@ MOST_VECTORS = 0.5  # of the unknowns: more do not pay
 MOST = 4000  # vectors, for memory
 MOST_VALUES = 30_000_000  # reduced states kept until the estimate is known
 LIFTED = 0.5  # share of the joints' points that opens at once: from there on motions may amplify
+TOGETHER = 16  # of these instants: the steps between are made again where the basis grows
+TURNS = 3  # of growth for the same steps
+SHARE = 0.25  # of the tolerance: how far an answer may move the joints, of the largest jump
 BATCH = 64  # instants expanded together
 PAIRS_KEPT = 2  # models whose bases stay in memory
 
@@ -89,6 +94,13 @@ def _grown(basis: Basis, wanted: float) -> ReducedModel:
         if basis.size == before:
             raise NoReduction("kernel.stepping.krylov-exhausted")
     return basis.model()
+
+
+def _on(richer: ReducedModel, chunk: Chunk, poorer: ReducedModel) -> Chunk:
+    """Steps of a model on more vectors."""
+    rows = chunk.rows
+    u, v, a = (richer.taken(poorer, x) for x in (rows.u, rows.v, rows.a))
+    return replace(chunk, rows=rows._replace(u=u, v=v, a=a))
 
 
 _PAIRS: OrderedDict[str, Pair] = OrderedDict()
@@ -164,8 +176,9 @@ class ReducedIntegration:
         given = Integration(p, self.observers)
         given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
-        basis, rounds = self._basis(), 0
-        pair = self._answered(basis, basis.model()) if basis else _pair_of(p, self.tolerance)
+        basis = self._basis()
+        begun = basis.size if basis else 0
+        pair = self._answered(basis) if basis else _pair_of(p, self.tolerance)
         while True:
             built = time.perf_counter()
             rich, difference, chunks = self._both(pair, wanted)
@@ -176,12 +189,12 @@ class ReducedIntegration:
                 if basis is None:
                     pair.grow()
                 else:
-                    pair, rounds = self._answered(basis, pair.rich), rounds + 1
+                    pair = self._answered(basis)
             except NoReduction as reason:
                 raise NoReduction(
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
                 ) from None
-        if self.shelf is not None and basis is not None and rounds:
+        if self.shelf is not None and basis is not None and pair.poor.size > begun:
             basis.learn(_model_of(p), self.shelf)
         given.begin()
         nested = basis is None and self.lifted > LIFTED
@@ -210,31 +223,45 @@ class ReducedIntegration:
             raise NoReduction("kernel.stepping.trained-supports-move")
         return trained_basis(self.problem, _model_of(self.problem), self.shelf)
 
-    def _answered(self, basis: TrainedBasis, poor: ReducedModel) -> Pair:
-        """The model of a basis, and that with the step's answers to what it leaves out of balance.
+    def _answered(self, basis: TrainedBasis) -> Pair:
+        """The model of a basis that grew in the run, and that with all answers of the step.
+
+        The answers are to what is out of balance at some instants. Where they move the joints, the
+        steps since the last of them are made again with their help.
 
         Raises
         ------
         NoReduction
             If there is no room for them, or steps on it do not converge.
         """
-        p, ahead, left = self.problem, list[Chunk](), list[FloatArray]()
-        trace = Trace(p, poor, self._sampled)
-        for run in comparing(p.times):
-            if (chunk := trace.advance(run)) is None:
-                raise basis.inexact()
-            left += [-s.reaction for s in expanded(p, poor, chunk, np.arange(len(chunk.steps)))]
-            ahead.append(chunk)
-        basis.answer(np.array(left).T)
-        return Pair(basis, poor, basis.model(), ahead)
+        p, trace, largest = self.problem, Trace(self.problem, basis.model(), self._sampled), 0.0
+        done, few = list[tuple[Chunk, ReducedModel]](), list[FloatArray]()
+        for run in runs_of(p.times, math.ceil((len(p.times) - 1) * TOGETHER / INSTANTS)):
+            for turn in range(TURNS + 1):
+                before = Motion(*(x.copy() for x in trace.motion))
+                if (chunk := trace.advance(run)) is None:
+                    raise basis.inexact()
+                at = expanded(p, trace.model, chunk, np.arange(len(chunk.steps)))
+                left = [snapshot.reaction for snapshot in at]
+                answers = basis.answers(np.array(left).T)
+                largest = max(largest, float(np.abs(chunk.rows.jumps).max(initial=0.0)))
+                moved = np.abs(basis.J @ answers).max(initial=0.0)
+                enough = moved <= SHARE * self.tolerance * largest
+                if enough or turn == TURNS or basis.room < len(left) + ANSWERS:
+                    few.append(answers)
+                    done.append((chunk, trace.model))
+                    break
+                basis.take(answers)
+                trace.again(before, basis.model())
+        poor = trace.model
+        basis.take(np.hstack(few))
+        return Pair(basis, poor, basis.model(), [_on(poor, *parts) for parts in done])
 
     @property
     def _sampled(self) -> np.ndarray:
         """Instants (n_times,) at which whole fields are compared."""
         n = len(self.problem.times)
-        sampled = np.zeros(n, bool)
-        sampled[np.unique(np.linspace(1, n - 1, INSTANTS).round().astype(int))] = True
-        return sampled
+        return np.isin(np.arange(n), np.linspace(1, n - 1, INSTANTS).round())
 
     def _both(
         self, pair: Pair, wanted: np.ndarray
@@ -248,7 +275,7 @@ class ReducedIntegration:
         poor = Trace(p, pair.poor, sampled)
         rich = Trace(p, pair.rich, sampled | wanted if fits else sampled)
         difference, chunks = Difference(p), []
-        for run in comparing(p.times):
+        for run in [chunk.run for chunk in pair.ahead] or comparing(p.times):
             a = pair.ahead.pop(0) if pair.ahead else poor.advance(run)
             b = rich.advance(run) if a is not None else None
             if a is None or b is None:
@@ -366,22 +393,18 @@ def expanded(
 ) -> Iterator[Snapshot]:
     """Whole fields of some rows of a chunk, with the reactions that their balance asks for."""
     p, x = problem, chunk.rows
-    u, v, a = (model.expand(part[rows].T) for part in (x.u, x.v, x.a))
+    parts = np.concatenate([x.u[rows], x.v[rows], x.a[rows]])
+    u, v, a = np.split(model.expand(parts.T), 3, axis=1)
     steps = chunk.steps[rows]
     if chunk.course is not None:
         X, c, now = model.supports.columns.X, chunk.course, steps - chunk.run.first
         u, v, a = u + X @ c.c[now].T, v + X @ c.v[now].T, a + X @ c.a[now].T
-    rest = p.M @ a + p.C @ v + p.K @ u - p.loading.forces @ p.loading.at(p.times[steps]).T
-    joints = p.interface
-    if joints is not None:
-        f = np.zeros((len(rows), joints.size))
-        for i, row in enumerate(rows):
-            interface_forces(joints.points, x.t[row], f[i])
-        rest = rest + joints.J.T @ f.T
+    loads = p.loading.at(p.times[steps]) @ p.loading.forces.T
+    rest = reactions(p, u.T, v.T, a.T, x.t[rows], loads)
     for i, (row, step) in enumerate(zip(rows, steps.tolist(), strict=True)):
         yield Snapshot(
             p, step, float(p.times[step]), u[:, i].copy(), v[:, i].copy(), a[:, i].copy(),
-            rest[:, i].copy(), x.w[row], x.t[row], x.state[row], np.zeros(0),
+            rest[i], x.w[row], x.t[row], x.state[row], np.zeros(0),
         )  # fmt: skip
 
 

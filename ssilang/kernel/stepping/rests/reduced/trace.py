@@ -204,17 +204,20 @@ class Trace:
         p, start = self.problem, self.model.start
         joints = joint_state(p)
         energies = initial_energies(p, admissible_velocity(p), joints)
-        u, v, a = (np.ascontiguousarray(start[:, i]) for i in range(3))
+        u, v, a = (start[:, i].copy() for i in range(3))
         self.motion = Motion(
-            u.copy(), v.copy(), a.copy(), joints.delta, joints.f, joints.w, joints.t, joints.state,
-            np.zeros(0), energies, np.zeros(0),
+            u, v, a, joints.delta, joints.f, joints.w, joints.t, joints.state, np.zeros(0),
+            energies, np.zeros(0),
         )  # fmt: skip
         self.energies = np.zeros((len(p.times), N_ENERGIES))
         self.energies[0] = energies
-        m = self.model
         self._joints = joints_of(p)
+        self._take(self.model)
+
+    def _take(self, m: ReducedModel) -> None:
+        self.model = m
         self._steps: dict[float, ReducedStep | Coordinates] = {}
-        q, own = len(m.J), p.loading.forces.shape[1]
+        q, own = len(m.J), self.problem.loading.forces.shape[1]
         lift = np.zeros((q, m.forces.shape[1]))
         lift[:, lift.shape[1] - m.supports.count :] = m.supports.columns.lift
         self._own = np.ascontiguousarray(m.forces[:, own:].T)
@@ -223,6 +226,12 @@ class Trace:
             np.ascontiguousarray(m.forces.T), lift if lift.any() else lift[:, :0].copy(),
         )  # fmt: skip
         self._rates = m.supports.start[1:]
+
+    def again(self, motion: Motion, richer: ReducedModel) -> None:
+        """Go on from a motion of before, on more vectors."""
+        u, v, a = (richer.taken(self.model, x) for x in motion[:3])
+        self.motion = motion._replace(u=u, v=v, a=a)
+        self._take(richer)
 
     def advance(self, run: Run) -> Chunk | None:
         """The steps of a run; None if one of them did not converge."""

@@ -21,12 +21,12 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.stepping.effective import effective_matrix, ordering_of
 from ssilang.kernel.stepping.keeping import digest
+from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import (
     HIGHEST_SHIFT,
     Basis,
     NoReduction,
-    closed_stiffness,
     on_motions,
 )
 from ssilang.kernel.stepping.snapshot import Snapshot
@@ -112,18 +112,26 @@ class TrainedBasis(Basis):
         self.size = self._fixed
         self._add(self._start[:, self._start.any(axis=0)])
 
-    def answer(self, left: FloatArray) -> None:
-        """Add the step's answers to what is out of balance (n, k).
+    @property
+    def room(self) -> int:
+        """Vectors that there may be besides."""
+        return len(self._store) - self.size
+
+    def answers(self, left: FloatArray) -> FloatArray:
+        """The step's answers (n_y, k) to what is out of balance (n, k)."""
+        return self._step.solve(self.T.T @ left)
+
+    def take(self, answers: FloatArray) -> None:
+        """Add answers to the vectors.
 
         Raises
         ------
         NoReduction
             If there is no room for them.
         """
-        try:
-            self._add(self._step.solve(self.T.T @ left))
-        except NoReduction as full:
-            raise self.inexact() from full
+        if answers.shape[1] > self.room:
+            raise self.inexact()
+        self._add(answers)
 
     def inexact(self) -> NoReduction:
         """Why a record has to run whole."""

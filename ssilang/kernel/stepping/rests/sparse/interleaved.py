@@ -14,6 +14,7 @@ from ssilang.kernel.solvers.cholesky.triangular import longest
 from ssilang.kernel.stepping.effective import Effective, RootResponse
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import split_damping
+from ssilang.kernel.stepping.problem.equilibrium import keep_reactions, react
 from ssilang.kernel.stepping.problem.moving_supports import (
     MOST,
     Columns,
@@ -43,7 +44,7 @@ from ssilang.kernel.stepping.state import (
 )
 from ssilang.kernel.stepping.track import View, whole_view
 
-KEPT = ("u", "v", "a", "f", "w", "t", "state")
+KEPT = ("u", "v", "a", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
 
@@ -120,9 +121,10 @@ class InterleavedLoop:
                 block.factors, kept,
             )  # fmt: skip
             self.finish(block, given, kept, done)
-            self.put(block, given, kept, r, first, done, seen)
+            self.put(block, kept, r, first, done, seen)
             if first + done == steps or turns <= 0:
-                self.react(given[done])
+                react(self.problem, self.motion, given[done])
+                keep_reactions(self.problem, factors, r)
                 self._compare(peaks, r.peaks)
             if turns <= 0:
                 return first + done, turns, residual
@@ -186,11 +188,6 @@ class InterleavedLoop:
             m.energies[:] = history[-1]
         m.u[:], m.v[:], m.a[:] = self._unfolded(block, few.u, few.v, few.a, done)
 
-    def react(self, factors: FloatArray) -> None:
-        """The reactions of the motion under the loads of its last step."""
-        m = self.motion
-        m.reaction[:] = self._reaction(m.u, m.v, m.a, m.f, factors)
-
     def _unfolded(
         self, block: PreparedBlock, u: FloatArray, v: FloatArray, a: FloatArray, k: int
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -221,17 +218,6 @@ class InterleavedLoop:
         found: FloatArray = self._gram_factor.solve(b)
         return found
 
-    def _reaction(
-        self, u: FloatArray, v: FloatArray, a: FloatArray, f: FloatArray, factors: FloatArray
-    ) -> FloatArray:
-        p = self.problem
-        r: FloatArray = p.M @ a + p.K @ u - p.loading.forces @ factors
-        if p.C.nnz:
-            r += p.C @ v
-        if p.interface is not None:
-            r += p.interface.J.T @ f
-        return r
-
     def room(self, block: PreparedBlock, to: Recorder, part: slice, seen: Seen) -> Recorder:
         """Room for the kept steps of a block, that is a part of all steps."""
         row, m = to.row[part], block.motion
@@ -243,15 +229,13 @@ class InterleavedLoop:
         return recorder_of(m, rows_of(row >= 0), energies, KEPT, work=work, tap=tap)
 
     def put(
-        self, block: PreparedBlock, factors: FloatArray, kept: Recorder, to: Recorder, first: int,
-        done: int, seen: Seen,
-    ) -> None:  # fmt: skip
+        self, block: PreparedBlock, kept: Recorder, to: Recorder, first: int, done: int, seen: Seen
+    ) -> None:
         """Kept instants of a block that begins with step `first` as whole arrays, and the tap."""
         for k in np.flatnonzero(kept.row[:done] >= 0).tolist():
             row, at = int(kept.row[k]), int(to.row[first + k])
             u, v, a = self._unfolded(block, kept.u[row], kept.v[row], kept.a[row], k + 1)
             to.u[at], to.v[at], to.a[at] = u, v, a
-            to.reaction[at] = self._reaction(u, v, a, kept.f[row], factors[k + 1])
             to.w[at], to.t[at], to.state[at] = kept.w[row], kept.t[row], kept.state[row]
         steps = np.flatnonzero(kept.tap.row[:done] >= 0)
         if not len(steps):

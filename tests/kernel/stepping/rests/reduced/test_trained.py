@@ -16,11 +16,13 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import interface_stiffness
 from ssilang.kernel.stepping.newmark import Scheme, hht, newmark_of
 from ssilang.kernel.stepping.rests.reduced import basis as reduced_basis
-from ssilang.kernel.stepping.rests.reduced import trained
+from ssilang.kernel.stepping.rests.reduced import run, trained
+from ssilang.kernel.stepping.rests.reduced.basis import on_motions
 from ssilang.kernel.stepping.rests.reduced.damping import split
-from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+from ssilang.kernel.stepping.rests.reduced.run import ReducedIntegration, integrate_reduced
 from ssilang.kernel.stepping.rests.reduced.trace import Coordinates, Trace, comparing
 from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.times import Run
 
 STEPS, SIZE = 150, (16, 6, 8)
 
@@ -65,11 +67,16 @@ def copy_of(file, folder):
     return TrainingFile(path)
 
 
-def test_a_record_that_trained_nothing_is_within_its_estimate(suite):
-    problem, stamp = record(4), suite.stamp()
+def beside_the_whole(problem, tolerance, file):
+    """What was kept of the whole run and of the reduced one, the history of each."""
     whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
     exact = integrate(problem, [whole])
-    history = integrate_reduced(problem, 5e-2, [found], shelf=suite)
+    return whole, found, exact, integrate_reduced(problem, tolerance, [found], shelf=file)
+
+
+def test_a_record_that_trained_nothing_is_within_its_estimate(suite):
+    stamp = suite.stamp()
+    whole, found, exact, history = beside_the_whole(record(4), 5e-2, suite)
     assert (history.loop, suite.stamp()) == ("reduced", stamp)
     assert found.closed
     assert whole.of("w")[..., 1].max() > 1e-3  # it lifts off
@@ -108,10 +115,10 @@ def test_newton_on_the_coordinates_steps_as_the_condensed_interface(
     basis.meet(problem)
     model, joints = basis.model(), problem.interface.points
     one, two = (Trace(problem, model, np.ones(STEPS + 1, bool)) for _ in range(2))
-    for run in comparing(problem.times):
-        step = Watched(two._reduced, newmark_of(problem.scheme, run.dt), joints)
-        two._steps[run.dt] = step
-        a, b = one.advance(run), two.advance(run)
+    for part in comparing(problem.times):
+        step = Watched(two._reduced, newmark_of(problem.scheme, part.dt), joints)
+        two._steps[part.dt] = step
+        a, b = one.advance(part), two.advance(part)
         for name in ("u", "w", "t", "state", "jumps"):
             assert relative(getattr(b.rows, name), getattr(a.rows, name)) < 1e-7
     assert relative(two.energies, one.energies) < 1e-8
@@ -128,10 +135,7 @@ def test_more_joints_than_vectors(suite, monkeypatch, tmp_path):
     few = replace(suite.read(), vectors=suite.read().vectors[-12:])
     file = TrainingFile(tmp_path / "few.npz")
     file.write(few)
-    problem = record(4)
-    whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
-    integrate(problem, [whole])
-    history = integrate_reduced(problem, 0.9, [found], shelf=file)
+    whole, found, _, history = beside_the_whole(record(4), 0.9, file)
     assert history.loop == "reduced"
     assert relative(found.of("w"), whole.of("w")) <= 1.2 * history.reduction.estimate
 
@@ -139,11 +143,9 @@ def test_more_joints_than_vectors(suite, monkeypatch, tmp_path):
 def test_answers_to_what_is_out_of_balance_reach_the_tolerance_and_stay(suite, tmp_path):
     file, tolerance = copy_of(suite, tmp_path), 2e-4
     for seed, kept in ((8, "learns"), (9, "has learnt")):
-        whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
-        integrate(record(seed), [whole])
         trained._LAST.clear()  # as another process would read it
         stamp = file.stamp()
-        history = integrate_reduced(record(seed), tolerance, [found], shelf=file)
+        whole, found, _, history = beside_the_whole(record(seed), tolerance, file)
         assert history.loop == "reduced"
         assert max(relative(found.of(x), whole.of(x)) for x in ("u", "w")) <= 1.2 * tolerance
         assert (file.stamp() != stamp) == (kept == "learns")
@@ -153,11 +155,54 @@ def test_answers_to_what_is_out_of_balance_reach_the_tolerance_and_stay(suite, t
     assert len(now.answers) >= trained.ANSWERS
 
 
+@pytest.mark.parametrize("begun", [0, 70])
+def test_a_motion_goes_on_as_if_it_had_had_more_vectors_from_the_start(suite, begun):
+    problem = record(5)
+    basis = trained.TrainedBasis(problem, suite.read())
+    basis.meet(problem)
+    dt, kept = float(problem.times[1]), np.ones(STEPS + 1, bool)
+    one = Trace(problem, basis.model(), kept)
+    before = one.advance(Run(0, begun, dt)).rows if begun else None
+    fields = [one.model.expand(x[:, None]) for x in one.motion[:3]]
+    basis.take(np.random.default_rng(1).normal(size=(basis.T.shape[1], 5)))
+    rich = basis.model()
+    one.again(one.motion, rich)
+    two = Trace(problem, rich, kept)
+    if before is not None:  # by projection, vectors being orthonormal in N
+        u, v, a = (rich.X.T @ basis.vectors @ (basis.N @ on_motions(basis.T, x)) for x in fields)
+        two.motion = one.motion._replace(
+            **{name: x[:, 0] for name, x in zip("uva", (u, v, a), strict=True)},
+            **{
+                k: getattr(one.motion, k).copy()
+                for k in ("delta", "f", "w", "t", "state", "energies")
+            },
+        )
+    a, b = (x.advance(Run(begun, STEPS, dt)).rows for x in (one, two))
+    for name in ("u", "v", "w", "t", "jumps", "energies"):
+        assert relative(getattr(a, name), getattr(b, name)) < 1e-8
+
+
+def test_a_basis_grows_in_the_run_that_needs_it(suite, tmp_path, monkeypatch):
+    """Within the tolerance at once, where answers after the run want more rounds."""
+    rounds, seen = ReducedIntegration._answered, []
+    monkeypatch.setattr(
+        ReducedIntegration, "_answered", lambda *given: seen.append(rounds(*given)) or seen[-1]
+    )
+    counts = []
+    for share in (run.SHARE, np.inf):
+        monkeypatch.setattr(run, "SHARE", share)
+        history = integrate_reduced(record(8), 3e-4, shelf=copy_of(suite, tmp_path))
+        assert history.reduction.estimate <= 3e-4
+        counts.append(len(seen))
+        seen.clear()
+    assert counts[0] == 1 < counts[1]
+
+
 def test_answers_of_two_processes_are_both_kept_as_long_as_there_is_room(suite, tmp_path):
     file, problem, sound = copy_of(suite, tmp_path), record(8), suite.read()
     basis = trained.TrainedBasis(problem, sound)
     basis.meet(problem)
-    basis.answer(np.random.default_rng(1).normal(size=(problem.numbering.size, 5)))
+    basis.take(np.random.default_rng(1).normal(size=(sound.vectors.shape[1], 5)))
     other = np.ones((trained.ROUNDS * trained.ANSWERS - 5, sound.vectors.shape[1]))
     for answers, kept in ((other[3:], len(other) + 5), (other, len(other))):
         file.write(replace(sound, answers=answers))
@@ -169,9 +214,7 @@ def test_answers_of_two_processes_are_both_kept_as_long_as_there_is_room(suite, 
 def test_beyond_the_tolerance_a_record_runs_whole_and_trains(suite, tmp_path, monkeypatch):
     monkeypatch.setattr(trained, "ROUNDS", 0)
     file, problem = copy_of(suite, tmp_path), record(6)
-    whole, found = Recorder(STEPS + 1), Recorder(STEPS + 1)
-    integrate(problem, [whole])
-    history = integrate_reduced(problem, 1e-9, [found], shelf=file)
+    whole, found, _, history = beside_the_whole(problem, 1e-9, file)
     said = str(history.reduction.refused)
     assert "trained by 3 records does not reach the tolerance (estimated error" in said
     np.testing.assert_array_equal(found.of("u"), whole.of("u"))
