@@ -108,6 +108,11 @@ def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
 
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.plausibility import masses_alone
+def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
+    if inputs.damping is None and any(b.viscous for b in inputs.stiffness.blocks):
+        yield "operators.dynamics.viscosity-unread", {}
+
+
 
     nodes = masses_alone(problem)
     if len(nodes):
@@ -153,7 +158,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
-    _joints_of_others,
+    _joints_of_others, _viscosity_unread,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)
