@@ -251,6 +251,11 @@ class TableCheck:
         said, told = usual.flaw(value, entry.index), {"where": shown(where), "en": entry.en}
         if said is not None:
             self._warn(_ODD[said[0]], **told, fr=entry.fr, **said[1])
+        axis = getattr(value, "over", "") if entry.over else ""
+        if axis and axis != entry.over:
+            self._warn(
+                "over-other", **told, fr=entry.fr, name=told["where"], over=entry.over, axis=axis
+            )
         if self.aloud and is_of_noughts(value):
             self._warn("entry-of-noughts", **told, fr=entry.fr)
         if isinstance(value, Table) and self.declared.inside(entry.path):
