@@ -19,6 +19,7 @@ COMMANDS = [
     ("run {} --lang fr", "y = 1 / 0 ;", 1, [], ["division par zéro"]),
     ("{}", "OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;", 1, [], ["division par zéro"]),
     ("run {} --lang fr", "SI (EGA 'ABC' 1) ; FINSI ;", 0, [],
+    ("run {} --set AG=3.", "AG = 1. ;\nAG = 2. ;", 0, [], ["deck.ssi:2:", "line 2 gives it"]),
      ["avertissement : le mot ABC est comparé à un nombre"]),
     ("run {} --max-statements 500", "REPE b ; x = &b ; FIN b ;", 1, [], ["500"]),
     (NO_FILE, "", 2, [], [NO_FILE]),
