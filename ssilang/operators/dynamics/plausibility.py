@@ -31,6 +31,8 @@ OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
+SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
+"""Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
 
 
@@ -43,7 +45,7 @@ def warn_of_start(
         guards += OF_STIFFNESS
     for find in guards:
         for code, told in find(problem, inputs):
-            entries.warn(code, **told)
+            entries.warn(code, supports=SUPPORTS[entries.procedure], **told)
 
 
 def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
@@ -106,13 +108,13 @@ def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
                 yield "operators.dynamics.joints-of-others", {"off": off}
 
 
-def _masses_alone(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import masses_alone
 def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
     if inputs.damping is None and any(b.viscous for b in inputs.stiffness.blocks):
         yield "operators.dynamics.viscosity-unread", {}
 
 
+def _masses_alone(problem: Problem, _: Inputs) -> Told:
+    from ssilang.kernel.stepping.problem.plausibility import masses_alone
 
     nodes = masses_alone(problem)
     if len(nodes):
