@@ -38,7 +38,7 @@ from ssilang.language.text import tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import first_assignments
+from ssilang.language.text.tree import first_assignments, given_again
 from ssilang.language.values import Mot
 from ssilang.messages.message import sentence
 
@@ -148,6 +148,10 @@ def execute(session: Session, source: Source) -> None:
     for name in sorted(session.given.keys() - session.assignments.keys()):
         refuse_unknown(name, source, session.assignments)
         session.root.assign(name, session.given.pop(name))
+    for name in session.given:
+        if (again := given_again(script.body, name)) is not None:
+            told = {"name": name, "line": source.position(again.start)[0]}
+            session.warn("cli.value-lost", again, **told)
     for left in script.unclosed:
         session.report(left)
     try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from references.small_motions import OSCILLATOR
@@ -13,16 +14,20 @@ from ssilang.kernel.base.compiled import beside, cache
 from ssilang.language.text.source import Source
 
 NO_FILE = "no_such_file.ssi"
+NOTEBOOK = Path(__file__).parents[2] / "docs" / "first_uplift.ipynb"
 # arguments, {} being the script's file; the script; exit code; words on standard output, on error
 COMMANDS = [
     ("run {} --debug", "y = 1 / 0 ;", 1, [], ["Traceback"]),
     ("run {} --lang fr", "y = 1 / 0 ;", 1, [], ["division par zéro"]),
+    ("run {} --set AG=3.", "AG = 1. ;\nAG = 2. ;", 0, [], ["deck.ssi:2:", "line 2 gives it"]),
     ("{}", "OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;", 1, [], ["division par zéro"]),
     ("run {} --lang fr", "SI (EGA 'ABC' 1) ; FINSI ;", 0, [],
      ["avertissement : le mot ABC est comparé à un nombre"]),
     ("run {} --max-statements 500", "REPE b ; x = &b ; FIN b ;", 1, [], ["500"]),
     (NO_FILE, "", 2, [], [NO_FILE]),
     (f"check {NO_FILE}", "", 2, [], [NO_FILE]),
+    (f"check {NOTEBOOK}", "", 2, [], ["is a notebook of Jupyter"]),
+    (str(NOTEBOOK), "", 2, [], ["is a notebook of Jupyter"]),
     (f"check {NO_FILE} {{}}", "X = 1 2 ;\nY = ;", 2, ["deck.ssi:1:"], []),
     ("check {}", "MESS 'never said' ;\ny = PORG 1. 2. ;", 1, ["did you mean PROG?"], []),
     ("check {}", "x = FLUX 1 2 3 ; MESS x ;", 1, [], []),

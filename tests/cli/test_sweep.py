@@ -343,11 +343,18 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     motions.mkdir()
     for name, unit in (("a.csv", "g"), ("b.csv", "g"), ("c.csv", "cm/s^2")):
         (motions / name).write_text(f"t (s);a ({unit})\n0;0\n1;1\n")
-    deck.write_text("AG = 1. ; MOTION = 'a.csv' ; MESS MOTION ;")
-    options = SweepOptions(deck, ["AG=0.1"], motions=motions, out=tmp_path / "out", jobs=1)
+    deck.write_text(
+        "AG = 1. ; MOTION = 'a.csv' ; MESS MOTION ; H = 1. ;\n"
+        "H = H + 1. ; B = 1. ;\nB = 2. ; MESS B ;"
+    )
+    options = SweepOptions(
+        deck, ["AG=0.1", "B=3.", "H=4."], motions=motions, out=tmp_path / "out", jobs=1
+    )
     code, _, wrong = run(options)
     assert code == 0
     assert "a value is given to AG, and the script does not read it again" in wrong
+    assert [line.split()[0] for line in wrong.splitlines() if "line 3 gives" in line] == ["B"]
+    assert "H is set from outside" not in wrong
     assert "a.csv and b.csv hold the same motion" in wrong
     assert "different units (a.csv G, b.csv G and c.csv CM/S2)" in wrong
     assert "no run has a figure" in wrong

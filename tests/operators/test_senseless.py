@@ -502,6 +502,8 @@ DATA: dict[str, dict[str, object]] = {
     "beyond critical": {"ratio": 10.0},
     "Rayleigh's beta for a ratio": {"ratio": 50.0},
     "damping below zero": {"ratio": -2.5e-4},
+    "imposed on a condition of no matrix": {"supports": "RIGI", "count": 3},
+    "the same in load steps": {"supports": "BLOCAGES_MECANIQUES", "count": 3},
     "steps longer than a period": {"dt": 0.5, "period": PERIOD, "wanted": PERIOD / 20.0},
     "a pulse between load steps": {"time": 0.5, "value": 1.0, "seen": 0.0, "name": "MECA"},
     "loads that begin late": {"begin": 0.5, "value": 3.0, "first": 0.0},

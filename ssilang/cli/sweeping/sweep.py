@@ -38,7 +38,7 @@ from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import first_assignments
+from ssilang.language.text.tree import first_assignments, given_again
 from ssilang.messages.message import Sentence, Teller, sentence, teller
 from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
 from ssilang.report.sweep_table import read_sweep
@@ -184,8 +184,12 @@ def _check_names(source: Source, values: Iterable[str], options: SweepOptions, e
     A script that cannot be read says so in each run.
     """
     with suppress(SeveralErrors):
-        assigned = first_assignments(parse(source).body)
+        body = parse(source).body
+        assigned = first_assignments(body)
         for name in values:
+            if (again := given_again(body, name)) is not None:
+                told = {"name": name, "line": source.position(again.start)[0]}
+                err.write(sentence("cli.value-lost", told, options.language) + "\n")
             if name not in assigned:
                 refuse_unknown(name, source, assigned)
             if len(re.findall(rf"\b{re.escape(name)}\b", source.code, re.IGNORECASE)) < 2:

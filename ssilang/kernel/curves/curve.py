@@ -38,7 +38,11 @@ class CurvePart:
         return replace(self, colour=colour).measured(*self.units)
 
 
-_OVER = {"TEMP": "s", "TEMPS": "s", "TIME": "s", "FREQ": "Hz", "FREQUENCE": "Hz", "F(HZ)": "Hz"}
+_OVER = {
+    "s": ("TEMP", "TEMPS", "TIME", "T(S)", "PERI", "PERIOD", "PERIODE", "PÉRIODE"),
+    "Hz": ("FREQ", "FREQUENCE", "FRÉQUENCE", "FREQUENCY", "F(HZ)"),
+}
+"""First words of names of axes, by the unit that they say."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,8 +56,8 @@ class Curve:
     @property
     def over(self) -> str:
         """Unit of its abscissas, by the name that all curves give them; '' where that says none."""
-        names = {p.abscissa_name.strip().upper() for p in self.parts}
-        return _OVER.get(names.pop(), "") if len(names) == 1 else ""
+        names = {p.abscissa_name.strip().upper().partition(" ")[0] for p in self.parts}
+        return next((unit for unit, known in _OVER.items() if names and names <= {*known}), "")
 
     def at(self, x: float) -> float:
         """Value of the first curve at `x`, linear between its points, constant outside."""

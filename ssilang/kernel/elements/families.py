@@ -111,7 +111,8 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
         return element_matrices(zone, whole[1], whole[0], "RIGIDITE")
     moduli = _moduli(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)
-    return element_matrices(zone, family.layout(zone), values, "RIGIDITE")
+    made = element_matrices(zone, family.layout(zone), values, "RIGIDITE")
+    return replace(made, viscous="VISQ" in parameters)
 
 
 def viscosity(zone: Zone, material: CellField) -> ElementMatrices:

@@ -217,16 +217,8 @@ def element_matrices(
     zone: Zone, layout: Layout, values: FloatArray, kind: str, keep_zone: bool = True
 ) -> ElementMatrices:
     """The block of a matrix that a zone contributes."""
-    return ElementMatrices(
-        layout.table,
-        layout.raw_nodes,
-        layout.local,
-        layout.unknowns,
-        layout.duals,
-        values,
-        kind,
-        zone if keep_zone else None,
-    )
+    rows = layout.table, layout.raw_nodes, layout.local, layout.unknowns, layout.duals
+    return ElementMatrices(*rows, values, kind, zone if keep_zone else None)
 
 
 def cell_block(

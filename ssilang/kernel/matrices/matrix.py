@@ -33,6 +33,8 @@ class ElementMatrices:
         Model zone it was made from (None: made by hand); lets a law that replaces the linear
         stiffness of its zone take these blocks out.
     symmetric : bool
+    viscous : bool
+        Whether its material has a viscosity, which a matrix of damping is made of.
     """
 
     table: NodeTable
@@ -44,6 +46,7 @@ class ElementMatrices:
     kind: str = "RIGIDITE"
     zone: Zone | None = None
     symmetric: bool = True
+    viscous: bool = False
 
     @property
     def nodes(self) -> IntArray:

@@ -43,12 +43,15 @@ class Mode:
         Largest displacement component 1; with the multipliers LX of the conditions.
     along : tuple of 3 floats
         Generalised displacements `x^T M d` for a unit translation d along X, Y, Z.
+    moving : tuple of 3 floats
+        Mass of the whole model along X, Y, Z that no support holds.
     """
 
     frequency: float
     mass: float
     shape: NodeField
     along: tuple[float, float, float]
+    moving: tuple[float, ...] = (0.0, 0.0, 0.0)
 
 
 def eigenvalue(frequency: float) -> float:
@@ -100,6 +103,8 @@ def modes_between(
 def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
     directions = unit_translations(problem.numbering)
     squares, found = problem.stiffness.multiply(problem.stiffness), []
+    free = directions * (abs(problem.T).sum(axis=1) > 0.0)[:, None]
+    moving = tuple((free * (problem.mass @ free)).sum(axis=0).tolist())
     for value, q in zip(pairs.values, pairs.shapes.T, strict=True):
         u = problem.T @ q
         u = u / largest_displacement(problem.numbering, u)
@@ -110,7 +115,7 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
         mass = float(inertia @ u)
         rounding = FREE * float(np.sqrt(u**2 @ (squares @ u**2))) / abs(mass or 1.0)
         frequency = frequency_of(value) if abs(value) > rounding else 0.0
-        found.append(Mode(frequency, mass, shape, (x, y, z)))
+        found.append(Mode(frequency, mass, shape, (x, y, z), moving))
     return found
 
 

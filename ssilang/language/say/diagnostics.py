@@ -247,6 +247,10 @@ def _keyword_hint(data: dict[str, object]) -> hints.Hint:
         dual = _dual_of_keyword(word.upper(), keywords) if word.upper() in others else ""
         if word.upper()[:_LETTERS] in beginnings and not dual:
             continue
+        alike = [o for o in OPERATORS.values() if o.family == found.family]
+        owner = next((o.name.strip() for o in alike if word.upper() in keywords_of(o)), "")
+        if owner:
+            return Sentence("keyword-of-another", word=word, operator=found.name, owner=owner)
         if dual:
             return Sentence("no-keyword", word=word, operator=found.name.strip(), near=dual)
         near = nearest(word, keywords) or nearest(word, others, SHORT_LIKE)

@@ -15,10 +15,12 @@ def read_source(path: Path) -> Source:
     Raises
     ------
     SsiError
-        'missing-file' if it cannot be read.
+        'missing-file' if it cannot be read, 'notebook' for one of Jupyter.
     """
     try:
         data = path.read_bytes()
     except OSError as error:
         raise SsiError("missing-file", None, path=str(path), reason=system_reason(error)) from None
+    if path.suffix.lower() == ".ipynb":
+        raise SsiError("notebook", None, path=str(path))
     return Source.decode(str(path), data, path)

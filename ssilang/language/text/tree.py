@@ -193,6 +193,20 @@ def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:
     return found
 
 
+def given_again(nodes: tuple[Node, ...], name: str) -> Span | None:
+    """Where a script gives a name a value behind its first one, and not from its own; blocks apart.
+
+    What stands there holds whatever the first value was.
+    """
+    first, own = first_assignments(nodes).get(name), rf"(?<![\w@!&]){re.escape(name)}(?!\w)"
+    for node in nodes if first is not None else ():
+        targets = node.targets if isinstance(node, Statement) else ()
+        again = [t.span for t in targets if isinstance(t, Name) and t.text == name]
+        if again and again[0] != first and len(re.findall(own, node.span.text, re.I)) == 1:
+            return again[0]
+    return None
+
+
 _PLAIN_WORD = re.compile(r"[^\W\d]\w*\Z|[@&!#$]\w+\Z")
 
 

@@ -22,7 +22,7 @@ script is meant to write its own procedure of that name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
@@ -91,6 +91,10 @@ class TableEntry:
         Numbers outside of `range` are refused, outside of `usual` told.
     only : dict
         Words of entries beside it without which it counts for nothing.
+    under : str
+        A word of OPTI under which it counts in any case.
+    over : str
+        Unit of the abscissas of a curve.
     by : str
         What any index is the name of: 'unknown'.
     """
@@ -111,7 +115,9 @@ class TableEntry:
     taken_over: bool = False
     range: Range = UNSAID
     usual: Range = UNSAID
-    only: Mapping[str, tuple[str, ...]] | None = None
+    only: Mapping[str, Sequence[str]] | None = None
+    under: str = ""
+    over: str = ""
     by: str = ""
 
     @property
@@ -263,27 +269,16 @@ def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[Tabl
                 yield from _like(said.get("like", ()), entry.path, theme)
 
 
+_FORMS: dict[str, Callable[[Any], Any]] = {
+    "types": tuple, "values": tuple, "means": tuple, "range": read_range, "usual": read_range,
+    "default": lambda said: (said["en"], said["fr"]) if isinstance(said, dict) else said,
+}  # fmt: skip
+"""How what a file says of an entry is kept, where not as it stands there."""
+
+
 def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntry:
-    default = said.get("default")
-    return TableEntry(
-        path,
-        tuple(said.get("types", ())),
-        theme,
-        said["en"],
-        said["fr"],
-        said.get("role", READ),
-        said.get("unit", ""),
-        (default["en"], default["fr"]) if isinstance(default, dict) else default,
-        tuple(said.get("values", ())),
-        said.get("older"),
-        said.get("length", 0),
-        said.get("needed", False),
-        tuple(said.get("means", ())),
-        range=read_range(said.get("range", "")),
-        usual=read_range(said.get("usual", "")),
-        only={i: tuple(words) for i, words in said["only"].items()} if "only" in said else None,
-        by=said.get("by", ""),
-    )
+    kept = {k: _FORMS[k](v) if k in _FORMS else v for k, v in said.items() if k != "like"}
+    return TableEntry(**{"path": path, "types": (), "theme": theme, **kept})
 
 
 def _like(sources: tuple[str, ...], path: tuple[str, ...], theme: str) -> Iterator[TableEntry]:

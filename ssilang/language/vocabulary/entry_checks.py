@@ -23,7 +23,7 @@ from ssilang.language.vocabulary.unit_systems import SOIL, usual_of, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from ssilang.language.run.scopes import Frame
     from ssilang.language.run.session import Session
@@ -203,8 +203,9 @@ class TableCheck:
     ) -> None:
         """Warn, once for a table, of what changes nothing; FAUX and a default ask for nothing."""
         known = [(i, v, self.declared.at(path, i)) for i, v in given if v is not False]
+        options = self.session.options
         for index, _, entry in known if self.aloud else ():
-            if entry is not None and entry.only and entry.is_read:
+            if entry and entry.only and entry.is_read and not options.get(entry.under):
                 self._only_with(table, path, (*where, index), entry.only)
         # other entries that nobody reads are those of tables that operators make
         unused = [(i, e) for i, v, e in known if e and e.theme == UNUSED and v != e.fallback]
@@ -222,7 +223,7 @@ class TableCheck:
         table: Table,
         path: tuple[str, ...],
         where: tuple[object, ...],
-        only: Mapping[str, tuple[str, ...]],
+        only: Mapping[str, Sequence[str]],
     ) -> None:
         """Warn of an entry that counts with other words of the entries beside it."""
         for index, words in only.items():
@@ -250,6 +251,11 @@ class TableCheck:
         said, told = usual.flaw(value, entry.index), {"where": shown(where), "en": entry.en}
         if said is not None:
             self._warn(_ODD[said[0]], **told, fr=entry.fr, **said[1])
+        axis = getattr(value, "over", "") if entry.over else ""
+        if axis and axis != entry.over:
+            self._warn(
+                "over-other", **told, fr=entry.fr, name=told["where"], over=entry.over, axis=axis
+            )
         if self.aloud and is_of_noughts(value):
             self._warn("entry-of-noughts", **told, fr=entry.fr)
         if isinstance(value, Table) and self.declared.inside(entry.path):

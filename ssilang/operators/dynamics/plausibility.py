@@ -32,6 +32,8 @@ OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
+SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
+"""Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
 
 
@@ -44,7 +46,7 @@ def warn_of_start(
         guards += OF_STIFFNESS
     for find in guards:
         for code, told in find(problem, inputs):
-            entries.warn(code, **told)
+            entries.warn(code, supports=SUPPORTS[entries.procedure], **told)
 
 
 def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
@@ -105,6 +107,11 @@ def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
             off = np.abs(sum(given) - own).max(initial=0.0) / most
             if off > OTHER:
                 yield "operators.dynamics.joints-of-others", {"off": off}
+
+
+def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
+    if inputs.damping is None and any(b.viscous for b in inputs.stiffness.blocks):
+        yield "operators.dynamics.viscosity-unread", {}
 
 
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
@@ -169,7 +176,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
-    _joints_of_others, _on_supports,
+    _joints_of_others, _on_supports, _viscosity_unread,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 OF_STIFFNESS = (_masses_alone, _loose, _swings)

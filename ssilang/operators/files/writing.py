@@ -111,4 +111,8 @@ def _bila(
     for number in (value, expected, tolerance):
         if number is not None and not math.isfinite(number):
             raise call.error("operators.files.figure-not-finite", number, name=str(name).strip())
-    call.session.checks.append(Check(str(name).strip(), value, expected, tolerance))
+    said, checks = str(name).strip(), call.session.checks
+    before = next((c.value for c in checks if c.name == said), value)
+    if before != value:
+        call.warn("operators.files.figure-twice", name=said, value=value, before=before)
+    checks.append(Check(said, value, expected, tolerance))

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
+from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.matrices.element import amor, mass, rigi
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.prelude import *
 
 
-def _diagonal(modes: list[Shape], values: list[float], kind: str) -> Matrix:
+def _diagonal(modes: list[Shape], values: ArrayLike, kind: str) -> Matrix:
     nodes = np.array([m.mark.node for m in modes])
     order = np.argsort(nodes, kind="stable")
     table = modes[0].field.table
@@ -46,6 +48,8 @@ def _stiffnesses(call: Call, modes: list[Shape]) -> list[float]:
 # --- modes and static shapes -----------------------------------------------------------------
 
 
+_PER_CENT = Range(0.1, nought=True)
+"""Less is a ratio; nought is a mode without damping."""
 _BASIS = arg("basis", "TABLE", en="modes, or static shapes")
 _OTHER = opt("other", "TABLE", en="the other of both")
 
@@ -128,18 +132,11 @@ def projected_mass(
 def modal_damping(
     call: Call,
     basis: Table = _BASIS,
-    ratios: ListReel = Arg("LISTREEL", usual=NOT_NEGATIVE, en="damping ratios", unit="%"),
+    ratios: ListReel = Arg("LISTREEL", usual=_PER_CENT, en="5. for 5 %", unit="%"),
 ) -> Matrix:
     modes, masses, frequencies = _modal(call, basis)
     if len(ratios) != len(modes):
-        raise call.error(
-            "operators.modal.dampings-and-modes-differ",
-            ratios,
-            n_modes=len(modes),
-            n_ratios=len(ratios),
-        )
-    values = [
-        2.0 * m * abs(2.0 * np.pi * f) * xi / 100.0
-        for m, f, xi in zip(masses, frequencies, ratios.values, strict=True)
-    ]
-    return _diagonal(modes, values, "AMORTISSEMENT")
+        told = {"n_modes": len(modes), "n_ratios": len(ratios)}
+        raise call.error("operators.modal.dampings-and-modes-differ", ratios, **told)
+    critical = 4.0 * np.pi * np.array(masses) * np.abs(frequencies)
+    return _diagonal(modes, critical * ratios.values / 100.0, "AMORTISSEMENT")

@@ -32,11 +32,8 @@ def _wanted(call: Call, method: Chosen) -> list[tuple[float, int]]:
     frequencies, counts = method["frequencies"].values, method["counts"]
     numbers = [1] * len(frequencies) if counts is None else list(counts.values)
     if len(numbers) != len(frequencies):
-        raise call.error(
-            "operators.modal.frequencies-and-numbers-differ",
-            n_frequencies=len(frequencies),
-            n_numbers=len(numbers),
-        )
+        told = {"n_frequencies": len(frequencies), "n_numbers": len(numbers)}
+        raise call.error("operators.modal.frequencies-and-numbers-differ", **told)
     return [(float(f), int(n)) for f, n in zip(frequencies, numbers, strict=True)]
 
 
@@ -170,6 +167,7 @@ def _real_entry(mode: Mode, signed: bool) -> dict[str, Any]:
         "FREQUENCE": mode.frequency if signed else abs(mode.frequency),
         "MASSE_GENERALISEE": mode.mass,
         "DEPLACEMENTS_GENERALISES": directions(mode.along),
+        "MASSES_MOBILES": directions(mode.moving),
         "DEFORMEE_MODALE": mode.shape,
     }
 

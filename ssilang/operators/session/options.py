@@ -64,7 +64,7 @@ _RESIDUAL = opt(
 _SCALES = arg("NORM", "LISTREEL", en="scales of unknowns", range=POSITIVE)
 _ENGLISH = {"STRESS": "CONT", "STRAIN": "DEFO"}  # behind MODE PLAN
 _UNNUMBERED = 5  # what an error without a number of Cast3M's counts as
-_KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI"})
+_KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI", "FREQ"})
 
 
 def reader(*words: str) -> Callable[[Reader], Reader]:
@@ -157,7 +157,7 @@ def _mode(call: Call, word: str) -> None:
     ws = workspace(call.session)
     said = _one_of(call, "MODE", ("PLAN", "AXIS", "FOURIER", "TRID", "UNID", "FREQ"))
     glued = str(call.used[-1].value).upper().rstrip()[4:]  # PLANCONT, as VALE 'MODE' says it
-    ws.options["FREQ"] = said == "FREQ"
+    _store(call, "FREQ", said == "FREQ")
     if said == "FREQ":  # the hypothesis on displacements stays
         return
     if said == "PLAN":
