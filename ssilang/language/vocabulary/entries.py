@@ -278,7 +278,8 @@ _FORMS: dict[str, Callable[[Any], Any]] = {
 
 def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntry:
     kept = {k: _FORMS[k](v) if k in _FORMS else v for k, v in said.items() if k != "like"}
-    return TableEntry(**{"path": path, "types": (), "theme": theme, **kept})
+    told: dict[str, Any] = {"path": path, "types": (), "theme": theme, **kept}
+    return TableEntry(**told)
 
 
 def _like(sources: tuple[str, ...], path: tuple[str, ...], theme: str) -> Iterator[TableEntry]:
