@@ -29,7 +29,7 @@ SENSELESS = (math.nan, math.inf, -math.inf, -1e300, -1.0, 0.0, 0.3, 1.0, 91.0, 1
 def belongs(bound: Range, value: float) -> bool:
     """Whether a number is in a range, by what help prints of it."""
     text = bound.text("x")
-    if bound.carried:
+    if bound.carried or (bound.nought and value == 0):
         return True
     return math.isfinite(value) and (not text or eval(text.replace("|x|", "abs(x)"), {"x": value}))
 

@@ -22,6 +22,7 @@ script is meant to write its own procedure of that name.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -269,7 +270,8 @@ def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[Tabl
                 yield from _like(said.get("like", ()), entry.path, theme)
 
 
-_FORMS: dict[str, Callable[[Any], Any]] = {
+_FORMS: defaultdict[str, Callable[[Any], Any]] = defaultdict(lambda: lambda said: said)
+_FORMS |= {
     "types": tuple, "values": tuple, "means": tuple, "range": read_range, "usual": read_range,
     "default": lambda said: (said["en"], said["fr"]) if isinstance(said, dict) else said,
 }  # fmt: skip
@@ -277,9 +279,8 @@ _FORMS: dict[str, Callable[[Any], Any]] = {
 
 
 def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntry:
-    kept = {k: _FORMS[k](v) if k in _FORMS else v for k, v in said.items() if k != "like"}
-    told: dict[str, Any] = {"path": path, "types": (), "theme": theme, **kept}
-    return TableEntry(**told)
+    kept: dict[str, Any] = {k: _FORMS[k](v) for k, v in said.items() if k != "like"}
+    return TableEntry(path, kept.pop("types", ()), theme, **kept)
 
 
 def _like(sources: tuple[str, ...], path: tuple[str, ...], theme: str) -> Iterator[TableEntry]:
