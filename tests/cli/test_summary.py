@@ -65,7 +65,7 @@ def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path: Path) -> None:
     made = run(tmp_path, SCRIPT + "SORT 'CHAI' 'more' ;\nY = X . 3 ;\nSORT 'CHAI' 'never' ;\n")
     assert made["exit_code"] == 1
     (error,) = made["errors"]
-    assert (error["code"], error["line"]) == ("not-a-table", 6)
+    assert (error["code"], error["line"]) == ("not-a-table", 7)
     assert (tmp_path / "out" / "a.csv").read_text() == "1.0\n2.0\nmore\n"
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a.csv", "summary.json"]
 
