@@ -136,6 +136,13 @@ def test_what_does_not_stop_a_run_is_called_a_warning(ssilang, script, language,
     assert "error" not in done.err
 
 
+def test_a_setting_has_the_kind_of_the_number_that_it_replaces(ssilang, script):
+    deck = script("AG = 4. ; N = 3 ; M = 4. ; MESS (AG / 10) ; MESS (N / 2) ; MESS (M / 10) ;\n")
+    said = "AG=1", "--set", "N=5", "--set", "M=1.5"
+    done = ssilang("run", deck, "--set", *said)
+    assert [float(x) for x in done.out.split()[:3]] == [0.1, 2.0, 0.15]
+
+
 def test_wrong_settings_are_told_in_the_language_asked_for(ssilang, script, capsys):
     with pytest.raises(SystemExit) as left:
         ssilang("run", script("A = 1 ;\n"), "--set", "A", "--lang", "fr")

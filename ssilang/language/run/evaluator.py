@@ -350,8 +350,9 @@ class Evaluator(PhraseRunner):
         """Give a value to a target: name, table access or attribute."""
         if isinstance(target, tree.Name):
             given = self.session.given
-            if given and self.session.frame is self.session.root:
-                value = given.pop(target.text, value)
+            if target.text in given and self.session.frame is self.session.root:
+                said = given.pop(target.text)
+                value = float(said) if isinstance(value, float) and type(said) is int else said
             self.session.frame.variables[target.text] = value
         elif isinstance(target, tree.Path):
             self._store_in_table(target, value)
