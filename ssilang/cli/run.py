@@ -35,7 +35,7 @@ from ssilang.language.say.errors import (
 )
 from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.text import tree
-from ssilang.language.text.source import Source
+from ssilang.language.text.source import Source, Span
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments, given_again
@@ -148,10 +148,8 @@ def execute(session: Session, source: Source) -> None:
     for name in sorted(session.given.keys() - session.assignments.keys()):
         refuse_unknown(name, source, session.assignments)
         session.root.assign(name, session.given.pop(name))
-    for name in session.given:
-        if (again := given_again(script.body, name)) is not None:
-            told = {"name": name, "line": source.position(again.start)[0]}
-            session.warn("cli.value-lost", again, **told)
+    for again, told in values_lost(source, script.body, session.given):
+        session.warn("cli.value-lost", again, **told)
     for left in script.unclosed:
         session.report(left)
     try:
@@ -164,6 +162,15 @@ def execute(session: Session, source: Source) -> None:
         if error.span is None:
             error.span = session.evaluator.current_span
         raise
+
+
+def values_lost(
+    source: Source, body: tuple[tree.Node, ...], names: Iterable[str]
+) -> Iterator[tuple[Span, dict[str, Any]]]:
+    """Where a script gives names that are set from outside another value, and what tells it."""
+    for name in names:
+        if (again := given_again(body, name)) is not None:
+            yield again, {"name": name, "line": source.position(again.start)[0]}
 
 
 def refuse_unknown(name: str, source: Source, assigned: Iterable[str]) -> None:

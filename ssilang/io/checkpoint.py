@@ -156,14 +156,13 @@ class Checkpoints:
         length, total, batches = self._lengths.get(number, (0, 0, 0))
         try:
             names = np.frombuffer(json.dumps(list(rows)).encode(), np.uint8)
-            arrays = [names, *rows.values()]
-            length, total = _append(self._path(number, "rows"), length, total, arrays)
-        except OSError as error:
             path = self._path(number, "rows")
+            length, total = _append(path, length, total, [names, *rows.values()])
+        except OSError as error:
             raise OutputError(
                 "io.cannot-written", path=path, strerror=system_reason(error)
             ) from error
-        arrays = []
+        arrays: list[NDArray[Any]] = []
         head = {
             "format": FORMAT,
             "version": VERSION,

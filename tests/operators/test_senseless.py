@@ -185,6 +185,13 @@ PASAPAS = (
 )
 
 MATRICES = "operators.matrices."
+PART = (
+    SQUARE.replace("DROI 2", "DROI 4") + "G = B PLUS (0. 0.) ; Q = TRAN 1 G (0 -1) ; "
+    "N = MODE Q 'MECANIQUE' 'ELASTIQUE' ; MJ = MODE (RACC 0.001 (B ELEM (LECT 1 2)) "
+    "(G ELEM (LECT 1 2))) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI2' ; "
+    "AJ = MATE MJ 'KN' 1.E5 'KS' 1.E5 ; K = K ET (RIGI MJ AJ) ET (BLOQ 'DEPL' (COTE 3 Q)) "
+    "ET (RIGI N (MATE N 'YOUN' 1.E7 'NU' 0.)) ; {0} U = RESO K (FORC (0. -1.) H) ;"
+)
 MACRO = (
     TIMES + "OPTI ELEM SEG2 ; {0} PT = 0. 1. ; MJ = MODE (MANU 'SEG2' {1}) 'MECANIQUE' 'ELASTIQUE' "
     "'MACRO_SEMELLE' 'JOI1' ; AJ = MATE MJ 'KN' 1.E7 'KS' 1.E7 'LARG' 4. ; K = BLOQ 'DEPL' 'ROTA' "
@@ -314,15 +321,23 @@ MODELS = {
         "D.load-before",
     ),
     "joints under a part of the body": (
-        SQUARE.replace("DROI 2", "DROI 4") + "G = B PLUS (0. 0.) ; Q = TRAN 1 G (0 -1) ; "
-        "N = MODE Q 'MECANIQUE' 'ELASTIQUE' ; MJ = MODE (RACC 0.001 (B ELEM (LECT 1 2)) "
-        "(G ELEM (LECT 1 2))) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI2' ; "
-        "AJ = MATE MJ 'KN' 1.E5 'KS' 1.E5 ; K = K ET (RIGI MJ AJ) ET (BLOQ 'DEPL' (COTE 3 Q)) "
-        "ET (RIGI N (MATE N 'YOUN' 1.E7 'NU' 0.)) ; U = RESO K (FORC (0. -1.) H) ;",
+        PART.format(""),
         "operators.matrices.beside-joints",
     ),
     "a footing that leans": (MACRO.format("PB = 0.5 0. ;", "PB PT"), MATRICES + "footing-inclined"),
     "a footing upside down": (MACRO.format("PB = 0. 0. ;", "PT PB"), MATRICES + "footing-turned"),
+    "one instant of a motion": (
+        FOOTING.format(WEIGHT, "T . 'PAS_SAUVES' = 'FINAL' ;").replace(
+            "DYNAMIC T ;",
+            "R = DYNAMIC T ; V = TABL ; V . 'RESULTATS' = R ; V . 'MODELE' = MJ ; "
+            "V . 'CARACTERISTIQUES' = AJ ; X = @BILANSSI V ;",
+        ),
+        "stdlib.bilanssi-one-instant",
+    ),
+    "a record that drifts": (
+        TIMES + "D V = INSI (EVOL 'MANU' 'TEMP' LT 'ACCE' (0.3 + (SIN (LT * 3600.)))) ;",
+        "operators.curves.drifts",
+    ),
     "a large mesh, by its matter": (
         SQUARE.replace("(1 0)", "(9000 0)"),
         "operators.models.unusual-size",
@@ -463,6 +478,10 @@ SENSIBLE_MODELS = {
     "bodies that touch, tied": TWO
     + "K = K ET (BLOQ 'DEPL' B) ET (RELA 'UX' (COTE 2 S) - 'UX' (COTE 4 Q)) ; "
     + "U = RESO K (FORC (1. 0.) H) ;",
+    "joints under a part of the body, conditions under the other": PART.format(
+        "X = B ELEM (LECT 3 4) ; Y = G ELEM (LECT 3 4) ; "
+        "K = K ET (RELA 'UX' X - 'UX' Y) ET (RELA 'UY' X - 'UY' Y) ;"
+    ),
     "bodies that touch, made one": TWO.replace("; B = B", "; ELIM 1.E-4 S Q ; B = B")
     + "U = RESO (K ET (BLOQ 'DEPL' B)) (FORC (1. 0.) H) ;",
     "an oscillator": OSCILLATOR.format("", "T . 'AMOR' = AMOR 'UX' 2. P ;"),

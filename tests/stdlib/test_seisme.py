@@ -55,6 +55,7 @@ def test_a_random_record_against_a_fine_quadrature():
 def test_drift_and_units_are_told_and_nothing_is_refused():
     t = 0.01 * np.arange(100)
     assert figures(t, np.ones(100))[1] == ["stdlib.seisme-drifts"]
+    assert figures(t, 0.3 + np.sin(2 * np.pi * t / t[-1] * 12))[1] == ["stdlib.seisme-drifts"]
     swing = 300.0 * np.cos(2 * np.pi * t)
     assert figures(t, swing)[1] == ["stdlib.seisme-large"]
     result = run_text("T = @SEISME (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 0.)) ;")

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
 
-from ssilang.cli.run import deck_of, refuse_unknown, write_report
+from ssilang.cli.run import deck_of, refuse_unknown, values_lost, write_report
 from ssilang.cli.sweeping.given import MOTION, Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.histories import Joined, join_histories
 from ssilang.cli.sweeping.pool import (
@@ -38,7 +38,7 @@ from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import first_assignments, given_again
+from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller
 from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
 from ssilang.report.sweep_table import read_sweep
@@ -178,7 +178,9 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     return [rows[k] for k in sorted(rows)]
 
 
-def _check_names(source: Source, values: Iterable[str], options: SweepOptions, err: TextIO) -> None:
+def _check_names(
+    source: Source, values: Collection[str], options: SweepOptions, err: TextIO
+) -> None:
     """Refuse a name that the script does not have, tell of one that it does not read.
 
     A script that cannot be read says so in each run.
@@ -186,10 +188,9 @@ def _check_names(source: Source, values: Iterable[str], options: SweepOptions, e
     with suppress(SeveralErrors):
         body = parse(source).body
         assigned = first_assignments(body)
+        for _, told in values_lost(source, body, values):
+            err.write(sentence("cli.value-lost", told, options.language) + "\n")
         for name in values:
-            if (again := given_again(body, name)) is not None:
-                told = {"name": name, "line": source.position(again.start)[0]}
-                err.write(sentence("cli.value-lost", told, options.language) + "\n")
             if name not in assigned:
                 refuse_unknown(name, source, assigned)
             if len(re.findall(rf"\b{re.escape(name)}\b", source.code, re.IGNORECASE)) < 2:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
@@ -21,11 +21,10 @@ _POINTS = {"POI1": 1, "SEG2": 2, "SEG3": 3, "TRI3": 7, "TRI6": 7, "QUA4": 4, "QU
 
 @dataclass(frozen=True, eq=False)
 class Parents:
-    """For each face: zone (n,) and cell (n,) it lies on, -1 where none; whether several have it."""
+    """For each face: zone (n,) and cell (n,) it lies on, -1 where there is none."""
 
     zone: IntArray
     cell: IntArray
-    inner: BoolArray
 
 
 def face_rule(cell_type: str) -> Rule:
@@ -44,7 +43,7 @@ def parents(faces: CellBlock, model: Model) -> Parents:
     """Cells of a model on which faces lie (the first found)."""
     zone = np.full(len(faces), -1, dtype=np.int64)
     cell = np.full(len(faces), -1, dtype=np.int64)
-    wanted, known = _keys(faces.connectivity), np.zeros(len(faces), dtype=np.int64)
+    wanted = _keys(faces.connectivity)
     for number, part in enumerate(model.zones):
         sides = [s for kind, s in part.cells.kind.faces if kind == faces.cell_type]
         if not sides or not len(part.cells):
@@ -57,10 +56,7 @@ def parents(faces: CellBlock, model: Model) -> Parents:
         rows = order[place]
         found = (keys[rows] == wanted) & (zone < 0)
         zone[found], cell[found] = number, owner[rows[found]]
-        if not part.constituent:
-            known += np.searchsorted(keys, wanted, "right", sorter=order)
-            known -= np.searchsorted(keys, wanted, "left", sorter=order)
-    return Parents(zone, cell, known > 1)
+    return Parents(zone, cell)
 
 
 def require_parents(faces: CellBlock, model: Model) -> Parents:

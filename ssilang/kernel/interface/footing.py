@@ -192,7 +192,7 @@ def footings_of(interface: Interface, numbering: Numbering) -> tuple[Footing, ..
         found.append(_footing([(interface.joints[i], starts[i], c) for i, c in parts], numbering))
     for j, first in zip(interface.joints, starts, strict=True):
         every = np.arange(len(j.upper))
-        if is_macro(j):
+        if is_macro(j.zone):
             found += [_macro(j, first + int(c), int(c), interface) for c in every]
         elif not _is_face(j):
             found.append(_footing([(j, first, every)], numbering))

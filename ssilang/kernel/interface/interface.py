@@ -214,17 +214,17 @@ def _refuse_unfit_macro(zone: Zone, law: Law, table: FloatArray) -> None:
         raise MaterialError("kernel.interface.macro-semelle-needs-long")
 
 
-def is_macro(joints: JointCells) -> bool:
+def is_macro(zone: Zone) -> bool:
     """Whether the zone's law is that of a whole footing."""
-    return law_of(joints.zone.behaviour).macro
+    return law_of(zone.behaviour).macro
 
 
 def _jumps(
     joints: list[JointCells], numbering: Numbering, beds: tuple[Bed, ...]
 ) -> tuple[sp.csr_array, IntArray, FloatArray]:
     """Jump matrix, pairs of each point, operators of the points."""
-    plain = [j for j in joints if not is_macro(j)]
-    macro = [j for j in joints if is_macro(j)]
+    plain = [j for j in joints if not is_macro(j.zone)]
+    macro = [j for j in joints if is_macro(j.zone)]
     d = joints[0].element.dimension
     rows: list[sp.csr_array] = []
     places, B = np.zeros((0, 1), dtype=np.int64), np.zeros((0, d, d))
@@ -419,7 +419,7 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
         if kind == "plastic jump" and law_of(j.zone.behaviour).code not in _SLIDING:
             continue
         names = j.element.stresses if kind == "traction" else j.element.strains
-        if is_macro(j):
+        if is_macro(j.zone):
             names = MACRO_NAMES[kind][interface.dimension]
         if kind == "plastic jump":
             names = tuple(name[0] + "I" + name[2:] for name in names)
@@ -444,7 +444,7 @@ def point_values(interface: Interface, field: CellField, kind: str) -> FloatArra
     for j in interface.joints:
         given = zone_field(j.zone, field)
         names = j.element.stresses if kind == "traction" else j.element.strains
-        if is_macro(j):
+        if is_macro(j.zone):
             names = MACRO_NAMES[kind][interface.dimension]
         missing = [n for n in names if n not in given]
         if missing:
@@ -536,7 +536,7 @@ def point_history(
     at_places = () if bed is None else tuple(x[:, bed.points] for x in joints)
     if kind != "variables":
         names = j.element.strains if kind == "jump" else j.element.stresses
-        if is_macro(j):
+        if is_macro(j.zone):
             names = MACRO_NAMES[kind][interface.dimension]
         places = {names[i]: i for i in component_order(j.zone)}
         if bed is not None and kind == "traction":

@@ -36,6 +36,17 @@ def sharing(table: IntArray) -> tuple[IntArray, IntArray]:
     return counts[group], group
 
 
+def faces_inside(faces: Mesh, mesh: Mesh) -> int:
+    """How many of some faces have cells of the mesh on both sides."""
+    count = 0
+    for block in faces.blocks:
+        own = block.connectivity
+        known, _ = faces_of(mesh, block.kind.dimension + 1).get(block.cell_type, (own[:0], own))
+        together, _ = sharing(np.concatenate([known, own]))
+        count += int((together[len(known) :] - sharing(own)[0] > 1).sum())
+    return count
+
+
 def _boundary(mesh: Mesh, dimension: int, shared: tuple[int, int]) -> Mesh:
     blocks = []
     for name, (table, colours) in faces_of(mesh, dimension).items():

@@ -183,11 +183,7 @@ def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
     """
     tables = [b.nodes for b in matrix.blocks]
     tables += [matrix.table.resolve(z.cells.raw) for z in joints]
-    links = [np.stack([np.repeat(t[:, 0], t.shape[1] - 1), t[:, 1:].ravel()]) for t in tables]
-    for relations in matrix.relations:
-        firsts = relations.nodes[relations.row_start[:-1]]
-        links.append(np.stack([np.repeat(firsts, np.diff(relations.row_start)), relations.nodes]))
-    body = parts_of(len(matrix.table), *links)
+    body = _bodies(matrix, tables)
     solid = [b.nodes.ravel() for b in matrix.blocks if b.zone is not None and b.nodes.shape[1] > 1]
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
     if len(np.unique(body[nodes])) < 2:
@@ -201,22 +197,29 @@ def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
     None where they are fewer than a joint's side has: an edge of two bodies, no face.
     """
     faces = [z.cells.nodes.resolve(z.cells.raw) for z in joints if z.element != "JOI1"]
-    solid = [b.nodes for b in matrix.blocks if b.zone is not None and not is_joint(b.zone)]
-    solid = [x for x in solid if x.shape[1] > 1]
+    others = [b for b in matrix.blocks if b.zone is None or not is_joint(b.zone)]
+    solid = [b.nodes for b in others if b.zone is not None and b.nodes.shape[1] > 1]
     if not faces or not solid:
         return np.zeros(0, np.int64)
     points, joined = matrix.table.coordinates, np.unique(np.concatenate([x.ravel() for x in faces]))
     middle = points[joined].mean(axis=0)
     _, sizes, axes = np.linalg.svd(points[joined] - middle, full_matrices=False)
     flat = axes[sizes <= NEAR * sizes[0]]
-    body = parts_of(
-        len(points), *(np.stack([np.repeat(x[:, 0], x.shape[1]), x.ravel()]) for x in solid)
-    )
+    body = _bodies(matrix, [b.nodes for b in others])
     nodes = np.setdiff1d(np.concatenate([x.ravel() for x in solid]), joined)
     off = np.abs((points[nodes] - middle) @ flat.T).max(axis=1, initial=0.0)
     nodes = nodes[(off <= NEAR * sizes[0]) & (len(flat) > 0)]
     found = _met(points, nodes, body[nodes]) if len(nodes) else nodes
     return found if len(found) >= min(x.shape[1] for x in faces) // 2 else nodes[:0]
+
+
+def _bodies(matrix: Matrix, tables: Iterable[IntArray]) -> IntArray:
+    """The body (n,) of each node: cells (m, k) of the tables and conditions tie theirs together."""
+    links = [np.stack([np.repeat(t[:, 0], t.shape[1] - 1), t[:, 1:].ravel()]) for t in tables]
+    for relations in matrix.relations:
+        firsts = relations.nodes[relations.row_start[:-1]]
+        links.append(np.stack([np.repeat(firsts, np.diff(relations.row_start)), relations.nodes]))
+    return parts_of(len(matrix.table), *links)
 
 
 def _met(coordinates: FloatArray, nodes: IntArray, own: IntArray) -> IntArray:

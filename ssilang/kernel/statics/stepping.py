@@ -118,7 +118,7 @@ def _at_load_step(
 def _cuts(problem: Problem) -> int:
     """How often a step may be halved: whole footings lift off and yield within one."""
     joints = problem.interface
-    return 0 if joints is None or not any(is_macro(j) for j in joints.joints) else HALVINGS
+    return 0 if joints is None or not any(is_macro(j.zone) for j in joints.joints) else HALVINGS
 
 
 def _cut_step(

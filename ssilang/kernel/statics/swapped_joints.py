@@ -64,9 +64,9 @@ def swapped_joints(
         return ()
     found = []
     for zone in joint_zones(model):
-        joints = joint_cells(zone, zone_field(zone, characteristics))
-        if is_macro(joints):
+        if is_macro(zone):
             continue
+        joints = joint_cells(zone, zone_field(zone, characteristics))
         cosine, middle = _cosines(joints, stiffness)
         if len(cosine) and (cosine < AGAINST).all():
             found.append(SwappedJoints(middle, zone.element == "JOI1", _overlap(joints)))
@@ -78,8 +78,8 @@ def inclinations(
 ) -> Iterator[tuple[int, float]]:
     """Upper node of each macro-element, and its normal's angle with the upward axis (degrees)."""
     for zone in () if model is None else joint_zones(model):
-        joints = joint_cells(zone, zone_field(zone, characteristics))
-        if is_macro(joints):
+        if is_macro(zone):
+            joints = joint_cells(zone, zone_field(zone, characteristics))
             nodes = zone.cells.nodes.resolve(joints.upper).ravel()
             cosines = np.clip(joints.frames[:, 0, -1, -1], -1.0, 1.0)
             yield from zip(nodes.tolist(), np.degrees(np.arccos(cosines)).tolist(), strict=True)

@@ -186,6 +186,11 @@ class Session:
         except OSError:  # nobody can be told; it is in the summary
             self.on_warning = None
 
+    @property
+    def in_library(self) -> bool:
+        """Whether a procedure of the library runs: its numbers are not the script's own."""
+        return self.frame.procedure in self.library.standard_names
+
     def own_place(self, place: Span) -> Span:
         """A place in what runs, as the script's own line: not one of the library."""
         frame = self.frame

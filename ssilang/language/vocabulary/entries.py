@@ -22,7 +22,6 @@ script is meant to write its own procedure of that name.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
@@ -270,8 +269,7 @@ def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[Tabl
                 yield from _like(said.get("like", ()), entry.path, theme)
 
 
-_FORMS: defaultdict[str, Callable[[Any], Any]] = defaultdict(lambda: lambda said: said)
-_FORMS |= {
+_FORMS: dict[str, Callable[[Any], Any]] = {
     "types": tuple, "values": tuple, "means": tuple, "range": read_range, "usual": read_range,
     "default": lambda said: (said["en"], said["fr"]) if isinstance(said, dict) else said,
 }  # fmt: skip
@@ -279,7 +277,8 @@ _FORMS |= {
 
 
 def _entry(path: tuple[str, ...], theme: str, said: dict[str, Any]) -> TableEntry:
-    kept: dict[str, Any] = {k: _FORMS[k](v) for k, v in said.items() if k != "like"}
+    kept: dict[str, Any] = {k: v for k, v in said.items() if k != "like"}
+    kept |= {k: form(kept[k]) for k, form in _FORMS.items() if k in kept}
     return TableEntry(path, kept.pop("types", ()), theme, **kept)
 
 

@@ -44,8 +44,9 @@ def insi(call: Call, curve: Curve = RECORD, rule: str = _RULE) -> tuple[Curve, C
     moved, fast = [], []
     for p in curve.parts:
         v, d = integrated(p.ordinates, constant_step(p.abscissas), linear)
-        turns = np.count_nonzero(np.diff(np.signbit(p.ordinates)))
-        if turns > _SHAKEN and abs(v[-1]) > _DRIFT * np.abs(v).max():
+        shaken = np.count_nonzero(np.diff(np.signbit(p.ordinates))) > _SHAKEN
+        # @SEISME tells it itself
+        if shaken and not call.session.in_library and abs(v[-1]) > _DRIFT * np.abs(v).max():
             call.warn("operators.curves.drifts", curve, speed=float(v[-1]), way=float(d[-1]))
         moved.append(dataclasses.replace(p, ordinates=d, ordinate_name="DEPL"))
         fast.append(dataclasses.replace(p, ordinates=v, ordinate_name="VITE"))

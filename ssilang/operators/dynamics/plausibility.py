@@ -130,8 +130,8 @@ def _on_supports(problem: Problem, inputs: Inputs) -> Told:
     if held_joints(problem):
         yield "operators.dynamics.joints-held", {}
     loads, dashpots = on_supports(problem)
-    parts = () if inputs.load is None else inputs.load.parts
-    names = [part.name for part in parts for _ in nodal_terms(part)]
+    if inputs.load is not None and len(loads):
+        names = [part.name for part in inputs.load.parts for _ in nodal_terms(part)]
     for name in dict.fromkeys(names[k] for k in loads):
         yield "operators.dynamics.load-on-supports", {"name": name}
     if dashpots:
@@ -221,12 +221,11 @@ def warn_of_loads(
             entries.warn("operators.dynamics.load-twice", name=part.name)
         known.add(key)
         for curve in curves:
-            for code, told in _flaws(curve.abscissas, curve.ordinates, times):
-                if at_rest or code != "operators.dynamics.load-before":
-                    entries.warn(code, name=part.name, **told)
+            for code, told in _flaws(curve.abscissas, curve.ordinates, times, at_rest):
+                entries.warn(code, name=part.name, **told)
 
 
-def _flaws(x: FloatArray, y: FloatArray, times: FloatArray) -> Told:
+def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> Told:
     """What a curve (x, y) and the instants of a calculation have not in common."""
     size, slack = float(np.abs(y).max(initial=0.0)), 1e-6 * float(times[-1] - times[0])
     if len(x) < 2 or not size:
@@ -241,7 +240,7 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray) -> Told:
     if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     before = np.append(y[x < first], np.interp(first, x, y))
-    if np.abs(np.diff(before)).sum() > SWUNG * size:
+    if at_rest and np.abs(np.diff(before)).sum() > SWUNG * size:
         yield "operators.dynamics.load-before", told
     inside = (x > first) & (x < last)
     seen = np.interp(x[inside], times, np.interp(times, x, y))

@@ -101,7 +101,7 @@ class UpliftWatch(Track):
         from ssilang.kernel.interface.interface import is_macro
 
         joints, n = problem.interface, len(problem.times)
-        if joints is None or any(is_macro(j) for j in joints.joints):
+        if joints is None or any(is_macro(j.zone) for j in joints.joints):
             return None
         wanted = np.zeros(n, bool)
         wanted[np.unique(np.linspace(0, n - 1, SAMPLES).round().astype(int))] = True

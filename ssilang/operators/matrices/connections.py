@@ -160,8 +160,7 @@ def _warn_footings(
         if angle > _TURNED:
             tell("operators.matrices.footing-turned", node=matrix.table.told(node))
         elif _UPRIGHT < angle < 90.0 - _UPRIGHT:
-            told = {"node": matrix.table.told(node), "angle": angle}
-            tell("operators.matrices.footing-inclined", **told)
+            tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

@@ -11,7 +11,6 @@ import numpy as np
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
-from ssilang.kernel.elements.boundary import parents
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
@@ -19,6 +18,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.mesh.boundary import faces_inside
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.language.registry import Argument
 from ssilang.messages.message import Refusal, find
@@ -231,8 +231,7 @@ def amor(
 ) -> Matrix:
     """Absorbing boundary."""
     shown = present(call, model)
-    inner = sum(int(parents(block, shown).inner.sum()) for block in boundary.blocks)
-    if inner:
+    if inner := faces_inside(boundary, shown.mesh):
         call.warn("operators.matrices.border-inside", boundary, count=inner)
     return absorbing_boundary(shown, boundary, joined(fields))
 

@@ -178,7 +178,7 @@ def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any
     """Warn of a modulus or section of nought, which leaves a system singular where nothing else
     holds it, and of what changes nothing in the zone's mode."""
     session = call.session
-    if session.frame.procedure in session.library.standard_names:
+    if session.in_library:
         return
     told = [(n, "operators.models.idle-parameter") for n in idle_names(zone) if n in values]
     for name in ("SECT",) if "VISQ" in values else ("YOUN", "SECT"):

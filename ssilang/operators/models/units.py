@@ -36,10 +36,9 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         Parameters of the zone: their values, and what the script gave for them.
     """
     session, system = call.session, workspace(call.session).units
-    ours = session.frame.procedure in session.library.standard_names
-    shown = system or (None if ours else _of_matter(call, given))
-    if shown is not None and not ours:
-        _warn_of_size(call, zone, shown)
+    ours = session.in_library
+    if not ours and (meant_in := system or _of_matter(call, given)) is not None:
+        _warn_of_size(call, zone, meant_in)
     for name, (array, said) in given.items():
         meant = words.parameter(name, zone)
         ends = _ends(array) if meant is not None and array.dtype == float else ()

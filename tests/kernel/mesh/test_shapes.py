@@ -7,7 +7,7 @@ import pytest
 from references.straight_line import straight_line
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.boundary import envelope
+from ssilang.kernel.mesh.boundary import envelope, faces_inside
 from ssilang.kernel.mesh.changes.merge import merge_close
 from ssilang.kernel.mesh.changes.transform import NodeCopier, shift
 from ssilang.kernel.mesh.combine import union
@@ -16,7 +16,7 @@ from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, tran
 from ssilang.kernel.mesh.lines.curves import arc_about_axis, fillet
 from ssilang.kernel.mesh.lines.lines import frenet_frames, line_chain, mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
@@ -132,3 +132,19 @@ def test_touching_parts_are_joined_once_and_open_as_they_part(
         assert len(joints_inside(union(*ends), 1e-6).single_block()) == 1
     with pytest.raises(MeshError, match="face each other"):
         joints_inside(low, 1e-6)
+
+
+def test_faces_with_cells_on_both_sides() -> None:
+    """A square beside two triangles; faces in either sense, and twice."""
+    nodes = NodeTable()
+    nodes.add(np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]], float))
+    cells = {"QUA4": [[0, 1, 2, 3]], "TRI3": [[1, 4, 5], [1, 5, 2]]}
+    mesh = Mesh(nodes, tuple(CellBlock.make(nodes, k, np.array(t)) for k, t in cells.items()))
+    for pairs, inside in (
+        ([[0, 1], [4, 5], [3, 0]], 0),
+        ([[2, 1], [0, 1]], 1),
+        ([[1, 2], [5, 1], [2, 1]], 3),
+        ([[0, 5], [0, 1], [1, 0]], 0),
+    ):
+        faces = Mesh(nodes, (CellBlock.make(nodes, "SEG2", np.array(pairs)),))
+        assert faces_inside(faces, mesh) == inside

@@ -163,7 +163,7 @@ def _oriented(
 ) -> tuple[CellBlock, SurfaceGeometry, FloatArray]:
     part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
     geometry = face_geometry(part, zone.mode, harmonic(zone))
-    mine = Parents(of.zone[rows], of.cell[rows], of.inner[rows])
+    mine = Parents(of.zone[rows], of.cell[rows])
     return part, geometry, outward(part, geometry, model, mine)
 
 

@@ -252,7 +252,7 @@ def against_supports(problem: Problem) -> dict[str, IntArray]:
 def masses_alone(problem: Problem) -> IntArray:
     """Nodes (n,) with mass or dashpots that nothing holds, joins, pushes or moves."""
     joints, contact, loading = problem.interface, problem.contact, problem.loading
-    others = [problem.K, problem.constraints.C, problem.C - sp.diags_array(problem.C.diagonal())]
+    others = [problem.K, problem.constraints.C]
     others += [] if joints is None else [joints.J]
     others += [] if contact is None else [contact.G]
     used = np.zeros(problem.numbering.size, bool)
@@ -261,7 +261,11 @@ def masses_alone(problem: Problem) -> IntArray:
     used |= loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
     nodes = problem.numbering.nodes
     heavy, damped = (nodes[matrix.diagonal() != 0.0] for matrix in (problem.M, problem.C))
-    return np.setdiff1d(np.union1d(heavy, damped), nodes[used])
+    found = np.setdiff1d(np.union1d(heavy, damped), nodes[used])
+    rows = np.flatnonzero(np.isin(nodes, found))
+    dashpots = sp.coo_array(problem.C[rows])
+    joined = (dashpots.data != 0.0) & (rows[dashpots.row] != dashpots.col)
+    return np.setdiff1d(found, nodes[rows[dashpots.row[joined]]])
 
 
 def held_joints(problem: Problem) -> bool:
@@ -275,17 +279,13 @@ def held_joints(problem: Problem) -> bool:
 def on_supports(problem: Problem) -> tuple[IntArray, bool]:
     """Loads that change, all on what supports hold, and whether all dashpots are there."""
     T, forces = problem.constraints.T, problem.loading.forces
-    sizes, left = (
-        np.abs(forces).max(axis=0, initial=0.0),
-        abs(T.T @ forces).max(axis=0, initial=0.0),
-    )
-    some = T @ (1.0 + np.cos(np.arange(T.shape[1])))
-    felt, damping = problem.C @ some, abs(problem.C) @ np.ones(len(some))
-    idle = bool(damping.any()) and bool(
-        np.abs(T.T @ felt).max(initial=0.0) <= ROUNDING * damping.max()
-    )
+    sizes = np.abs(forces).max(axis=0, initial=0.0)
+    left = np.abs(T.T @ forces).max(axis=0, initial=0.0)
+    damping = np.abs(problem.C.diagonal()).max(initial=0.0)
+    moving = problem.C @ (T @ (1.0 + np.cos(np.arange(T.shape[1]))))
+    idle = damping > 0.0 and np.abs(T.T @ moving).max(initial=0.0) <= ROUNDING * damping
     changes = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
-    return np.flatnonzero(changes & (sizes > 0.0) & (left <= ROUNDING * sizes)), idle
+    return np.flatnonzero(changes & (sizes > 0.0) & (left <= ROUNDING * sizes)), bool(idle)
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.
