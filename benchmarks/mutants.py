@@ -438,14 +438,15 @@ class Ran:
 
         self.data = CoverageData(str(path))
         self.data.read()
-        self.paths = {p[p.rindex("/ssilang/") + 1 :]: p for p in self.data.measured_files()}
+        paths = [path.rpartition("/ssilang/") for path in self.data.measured_files()]
+        ((self.tree, _),) = Counter(tree for tree, _, _ in paths).most_common(1)  # others: copies
 
     def tests(self, fault: Fault) -> frozenset[str] | None:
         """Tests that ran lines of a fault; None: they are none of a test's."""
         if compiled(fault):
             return None
         last = fault.line + fault.old.count("\n")
-        by_line = self.data.contexts_by_lineno(self.paths.get(fault.path, fault.path))
+        by_line = self.data.contexts_by_lineno(f"{self.tree}/{fault.path}")
         found = [c for line, some in by_line.items() if fault.line <= line <= last for c in some]
         named = [re.sub(r"\|\w+$", "", c[c.index("tests/") :]) for c in found if "tests/" in c]
         ran = frozenset(named)
