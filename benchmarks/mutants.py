@@ -438,8 +438,8 @@ class Ran:
 
         self.data = CoverageData(str(path))
         self.data.read()
-        paths = [path.rpartition("/ssilang/") for path in self.data.measured_files()]
-        ((self.tree, _),) = Counter(tree for tree, _, _ in paths).most_common(1)  # others: copies
+        trees = {path.rpartition("/ssilang/")[0] for path in self.data.measured_files()}
+        self.tree = min(trees, key=len)  # copies that tests made lie deeper
 
     def tests(self, fault: Fault) -> frozenset[str] | None:
         """Tests that ran lines of a fault; None: they are none of a test's."""
