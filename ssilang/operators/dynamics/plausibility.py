@@ -12,6 +12,7 @@ from ssilang.kernel.interface.interface import joint_zones
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.operators.dynamics.shaking import warn_of_shaking
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ def warn_of_start(
     for find in guards:
         for code, told in find(problem, inputs):
             entries.warn(code, supports=SUPPORTS[entries.procedure], **told)
+    if not in_statics:
+        warn_of_shaking(entries, problem, inputs)
 
 
 def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:

@@ -51,6 +51,7 @@ def warn_connections(
     _warn_swapped_joints(tell, matrix, model, characteristics)
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
+    _warn_cells(tell, matrix)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         _warn_apart(tell, matrix, model)
         _warn_springs_apart(tell, matrix, model, laden)
@@ -140,8 +141,10 @@ def _warn_swapped_joints(
     characteristics: CellField | None,
 ) -> None:
     from ssilang.kernel.mesh.nodes import told_coordinates
-    from ssilang.kernel.statics.swapped_joints import swapped_joints
+    from ssilang.kernel.statics.swapped_joints import drawn_gaps, swapped_joints
 
+    for node, gap in drawn_gaps(model, characteristics):
+        tell("operators.matrices.gap-drawn", node=matrix.table.told(node), gap=gap)
     for found in swapped_joints(matrix, model, characteristics):
         place = told_coordinates(matrix.table.shown(np.round(found.middle, 9)))
         told = {"points": found.points, "overlap": found.overlap}
@@ -161,6 +164,17 @@ def _warn_footings(
             tell("operators.matrices.footing-turned", node=matrix.table.told(node))
         elif _UPRIGHT < angle < 90.0 - _UPRIGHT:
             tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
+
+
+def _warn_cells(tell: Tell, matrix: Matrix) -> None:
+    from ssilang.kernel.statics.cells_amiss import bent_layer, hanging_nodes
+
+    if len(nodes := hanging_nodes(matrix)):
+        told = {"count": len(nodes), "node": matrix.table.told(int(nodes[0]))}
+        tell("operators.matrices.nodes-hang", **told)
+    if (layer := bent_layer(matrix)) is not None:
+        told = {"count": layer.count, "node": matrix.table.told(layer.node)}
+        tell("operators.matrices.layer-bends", **told, slender=layer.slender, stiffer=layer.stiffer)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

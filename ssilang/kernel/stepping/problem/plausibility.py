@@ -207,7 +207,9 @@ def swings(problem: Problem) -> list[Swing]:
     found = []
     for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
-            if x @ (problem.C @ x) <= ROUNDING * (x**2 @ abs(problem.C.diagonal())):
+            drag, pull = problem.C @ x, problem.M @ x  # damping by mass holds nothing
+            drag = drag - pull * (x @ drag) / ((x @ pull) or 1.0)
+            if np.abs(x * drag).max() <= LITTLE * (x**2 @ abs(problem.C.diagonal())):
                 found.append(Swing(np.inf, 0.0, sudden))
             continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)

@@ -1,0 +1,168 @@
+"""What DYNAMIC warns of where a motion enters: how strong it is, in which frame, what it meets.
+
+A load shakes where it is the mass times an acceleration of the whole; supports move as one where
+their imposed values are those of a translation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.interface import is_macro
+from ssilang.kernel.stepping.problem.bodies import FREE, ROUNDING
+from ssilang.kernel.stepping.problem.loading import nodal_terms
+from ssilang.kernel.stepping.problem.plausibility import AXES
+from ssilang.operators.prelude import *
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+
+GRAVITY = 9.81  # m/s2
+STRONG = 3.0  # g; more than the ground of any earthquake but one
+WEIGHT = (0.05, 3.0)  # g; what pulls down
+SAME = 1e-6  # of a force, that is rounding
+LEVELS = 3  # heights of a side; a base has one
+NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
+"""What a curve is of, by the first letters of the name of its ordinates."""
+
+
+def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
+    """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
+    for find in (_motions, _moved_base, _sides, _bridged, _held_footings):
+        for code, told in find(entries, problem, inputs):
+            entries.warn(f"operators.dynamics.{code}", **told)
+
+
+Told = Iterator[tuple[str, dict[str, Any]]]
+
+
+def _translations(problem: Problem) -> FloatArray:
+    """The model's translations (n, d) by one along the axes that it has."""
+    there = [a for a in AXES if a in problem.numbering.unknowns]
+    return np.column_stack([problem.numbering.codes == problem.numbering.code(a) for a in there])
+
+
+def _shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:
+    """What makes each of `wholes` (n, k) of `parts` (n, d): (d, k), nought where nothing does."""
+    shares = np.linalg.lstsq(parts, wholes, rcond=None)[0]
+    off = np.abs(parts @ shares - wholes).max(axis=0, initial=0.0)
+    return np.where(off > SAME * np.abs(wholes).max(axis=0, initial=0.0), 0.0, shares)
+
+
+def accelerations(problem: Problem) -> FloatArray:
+    """Of the loads that are the mass times one, it (d, k); nought for the others."""
+    T = problem.constraints.T
+    along = T.T @ (problem.M @ _translations(problem).astype(float))
+    return _shares(along, T.T @ problem.loading.forces)
+
+
+def _motions(entries: Entries, problem: Problem, inputs: Inputs) -> Told:
+    terms = [(p, t) for p in inputs.load.parts for t in nodal_terms(p)] if inputs.load else []
+    found, factors = accelerations(problem), problem.loading.at(problem.times)
+    changing = np.ptp(factors, axis=0) > 0.0
+    sizes = np.linalg.norm(found, axis=0) * np.abs(factors).max(axis=0)
+    system = workspace(entries.call.session).units
+    known = [s for s in sizes[~changing] for g in (1.0, 1e3) if abs(s / g / GRAVITY - 1.0) < 0.01]
+    g = GRAVITY / system.length if system else known[0] if known else np.inf
+    for k, (part, _) in enumerate(terms):
+        curve = part.time.parts[0] if part.time is not None else None
+        kind = "" if curve is None else NAMES.get(curve.ordinate_name.strip().upper()[:4], "")
+        shakes = changing[k] and sizes[k] > 0.0
+        told = {"name": part.name, "value": sizes[k], "times": sizes[k] / g}
+        of = {"name": part.name, "velocities": kind == "VITE"}
+        if shakes and sizes[k] > STRONG * g:
+            yield "shaken-strongly", {**told, "most": STRONG}
+        if shakes and curve is not None and curve.units[1] == "g":
+            yield "shaken-in-g", told
+        if shakes and kind in ("VITE", "DEPL"):
+            yield "shaken-by-others", of
+        if kind in ("VITE", "ACCE") and problem.loading.imposed[:, k].any():
+            yield "imposed-by-others", of
+        down = abs(found[-1, k]) * np.abs(factors[:, k]).max() if len(found) > 1 else 0.0
+        if system and not changing[k] and down and not WEIGHT[0] < down / g < WEIGHT[1]:
+            yield "weight-unusual", {**told, "wanted": g, "unit": system.written("m/s2")}
+
+
+def _base(problem: Problem) -> FloatArray:
+    """Translations (d, k) of all supports that imposed values that change make; nought else."""
+    rows, imposed = problem.constraints.C, problem.loading.imposed
+    changing = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
+    return _shares(rows @ _translations(problem).astype(float), imposed * changing)
+
+
+def _moved_base(_: Entries, problem: Problem, __: Inputs) -> Told:
+    base, T, translations = _base(problem), problem.constraints.T, _translations(problem)
+    changing = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
+    if not base.any():
+        return
+    if (np.abs(base).sum(axis=1) * np.abs(accelerations(problem) * changing).sum(axis=1)).any():
+        yield "shaken-twice", {}
+    moved = translations @ base
+    braked, pulled = (T.T @ (m @ moved) for m in (problem.C, problem.M))
+    size = np.abs(problem.C.diagonal()).max(initial=0.0)
+    for k in np.flatnonzero(np.abs(braked).max(axis=0, initial=0.0) > ROUNDING * size):
+        if _shares(pulled[:, k : k + 1], braked[:, k : k + 1]).any():
+            yield "damped-against-ground", {}
+            return
+
+
+def _sides(_: Entries, problem: Problem, __: Inputs) -> Told:
+    """Rollers along the shaking: held that way and free to move up, at several heights."""
+    numbering, T = problem.numbering, problem.constraints.T
+    changing = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
+    shaken = (np.abs(accelerations(problem) * changing) + np.abs(_base(problem))).max(axis=1)
+    names = [a for a in AXES if a in numbering.unknowns]
+    fixed = np.asarray(abs(T).sum(axis=1)).ravel() <= FREE
+    upward = numbering.code(names[-1])
+    rising = numbering.nodes[(numbering.codes == upward) & ~fixed]
+    for axis in [a for a, s in zip(names[:-1], shaken, strict=False) if s > SAME * shaken.max()]:
+        held = numbering.nodes[(numbering.codes == numbering.code(axis)) & fixed]
+        nodes = held[np.isin(held, rising)]
+        heights = numbering.table.coordinates[nodes, len(names) - 1]
+        if len(np.unique(heights.round(9))) >= LEVELS:
+            node = numbering.table.told(int(nodes[0]))
+            yield "sides-held", {"axis": axis, "count": len(nodes), "node": node}
+
+
+def _bridged(_: Entries, problem: Problem, inputs: Inputs) -> Told:
+    """Springs and dashpots to the ground on the upper side of joints, along their normal."""
+    for joint in () if problem.interface is None else problem.interface.joints:
+        upper = joint.zone.cells.nodes.resolve(joint.upper).ravel()
+        normal = np.abs(joint.frames[..., -1, :]).reshape(-1, joint.frames.shape[-1]).mean(axis=0)
+        along = displacement_names(joint.zone)[int(normal.argmax())]
+        for entry, matrix in (("RIGI", inputs.stiffness), ("AMOR", inputs.damping)):
+            for block in () if matrix is None else matrix.blocks:
+                alone = block.zone is None and block.nodes.shape[1] == 1 and block.kind != "MASSE"
+                if not alone or along not in block.unknowns:
+                    continue
+                place = block.unknowns.index(along)
+                there = np.isin(block.nodes[:, 0], upper) & (block.values[:, place, place] > 0.0)
+                if there.any():
+                    node = block.table.told(int(block.nodes[there.argmax(), 0]))
+                    told = {"entry": entry, "springs": entry == "RIGI"}
+                    yield "joints-bridged", {**told, "axis": along, "node": node}
+
+
+def _held_footings(_: Entries, problem: Problem, __: Inputs) -> Told:
+    """Joints, by zone, that supports keep from opening, and macro-elements from rocking."""
+    joints = problem.interface
+    if joints is None or problem.loading.imposed.any() or not joints.n_points:
+        return
+    left = abs(joints.J @ problem.constraints.T).max(axis=1).toarray().reshape(-1, joints.dimension)
+    moving = (left > ROUNDING)[joints.pairs].reshape(joints.n_points, 1, -1)
+    moves = ((np.abs(joints.B) > ROUNDING) & moving).any(axis=2)
+    if not moves.any():
+        return  # joints-held tells it
+    first = 0
+    for joint in sorted(joints.joints, key=lambda j: is_macro(j.zone)):
+        count = len(joint.upper) if is_macro(joint.zone) else joint.weights.size
+        own, first = moves[first : first + count].any(axis=0), first + count
+        node = problem.numbering.table.told(int(joint.zone.cells.nodes.resolve(joint.upper).min()))
+        if not own[-1] or (is_macro(joint.zone) and not own[:-1].any()):
+            yield "joint-kept", {"node": node, "rocking": bool(own[-1])}
