@@ -206,6 +206,13 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
             warn_repeated(*place, matrix, kind, inputs.stiffness)
+    for block in () if inputs.damping is None else inputs.damping.blocks:
+        diagonal = np.diagonal(block.values, axis1=1, axis2=2)
+        if diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0):
+            node = block.table.told(int(block.nodes[0, 0]))
+            own = {"kind": block.kind}
+            entries.warn("operators.dynamics.damping-negative", node=node, **own)
+            break
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:

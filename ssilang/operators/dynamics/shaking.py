@@ -14,7 +14,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import is_macro
-from ssilang.kernel.stepping.problem.bodies import FREE, ROUNDING
+from ssilang.kernel.stepping.problem.bodies import FREE, ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import AXES
 from ssilang.operators.prelude import *
@@ -69,6 +69,7 @@ def _motions(entries: Entries, problem: Problem, inputs: Inputs) -> Told:
     sizes = np.linalg.norm(found, axis=0) * np.abs(factors).max(axis=0)
     system = workspace(entries.call.session).units
     known = [s for s in sizes[~changing] for g in (1.0, 1e3) if abs(s / g / GRAVITY - 1.0) < 0.01]
+    rests = problem.contact is None and not (problem.u.any() or problem.v.any())
     g = GRAVITY / system.length if system else known[0] if known else np.inf
     for k, (part, _) in enumerate(terms):
         curve = part.time.parts[0] if part.time is not None else None
@@ -84,6 +85,9 @@ def _motions(entries: Entries, problem: Problem, inputs: Inputs) -> Told:
             yield "shaken-by-others", of
         if kind in ("VITE", "ACCE") and problem.loading.imposed[:, k].any():
             yield "imposed-by-others", of
+        shaken = any(changing[n] and sizes[n] > 0.0 for n in range(len(terms)))
+        if shaken and rests and not changing[k] and found[-1, k] and len(found) > 1:
+            yield "weight-dropped", told
         down = abs(found[-1, k]) * np.abs(factors[:, k]).max() if len(found) > 1 else 0.0
         if system and not changing[k] and down and not WEIGHT[0] < down / g < WEIGHT[1]:
             yield "weight-unusual", {**told, "wanted": g, "unit": system.written("m/s2")}
@@ -131,22 +135,24 @@ def _sides(_: Entries, problem: Problem, __: Inputs) -> Told:
 
 
 def _bridged(_: Entries, problem: Problem, inputs: Inputs) -> Told:
-    """Springs and dashpots to the ground on the upper side of joints, along their normal."""
-    for joint in () if problem.interface is None else problem.interface.joints:
+    """Dashpots to the ground, along the normal of joints, on the upper side that these alone hold."""
+    joints = problem.interface
+    if joints is None or inputs.damping is None:
+        return
+    if not loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
+        return
+    alone = [b for b in inputs.damping.blocks if b.zone is None and b.nodes.shape[1] == 1]
+    for joint in joints.joints:
         upper = joint.zone.cells.nodes.resolve(joint.upper).ravel()
         normal = np.abs(joint.frames[..., -1, :]).reshape(-1, joint.frames.shape[-1]).mean(axis=0)
         along = displacement_names(joint.zone)[int(normal.argmax())]
-        for entry, matrix in (("RIGI", inputs.stiffness), ("AMOR", inputs.damping)):
-            for block in () if matrix is None else matrix.blocks:
-                alone = block.zone is None and block.nodes.shape[1] == 1 and block.kind != "MASSE"
-                if not alone or along not in block.unknowns:
-                    continue
-                place = block.unknowns.index(along)
-                there = np.isin(block.nodes[:, 0], upper) & (block.values[:, place, place] > 0.0)
-                if there.any():
-                    node = block.table.told(int(block.nodes[there.argmax(), 0]))
-                    told = {"entry": entry, "springs": entry == "RIGI"}
-                    yield "joints-bridged", {**told, "axis": along, "node": node}
+        for block in alone:
+            place = block.unknowns.index(along) if along in block.unknowns else -1
+            there = np.isin(block.nodes[:, 0], upper) & (block.values[:, place, place] > 0.0)
+            if block.kind != "MASSE" and place >= 0 and there.any():
+                node = block.table.told(int(block.nodes[there.argmax(), 0]))
+                yield "joints-bridged", {"axis": along, "node": node}
+                return
 
 
 def _held_footings(_: Entries, problem: Problem, __: Inputs) -> Told:

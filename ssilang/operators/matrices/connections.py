@@ -44,7 +44,8 @@ def warn_connections(
         tell("operators.matrices.mass-for-stiffness")
 
     foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
-    _warn_doubled_supports(tell, matrix, model, {n for w in foreign for n in w.data["names"]})
+    known = {n for w in foreign for n in w.data["names"]}
+    _warn_doubled_supports(tell, matrix, model, known, laden)
     made = _joints_in(matrix)
     if model is None and made:
         model = Model(made)
@@ -68,15 +69,19 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
 
 
 def _warn_doubled_supports(
-    tell: Tell, matrix: Matrix, model: Model | None, known: set[str]
+    tell: Tell, matrix: Matrix, model: Model | None, known: set[str], laden: Iterable[IntArray]
 ) -> None:
-    from ssilang.kernel.statics.doubled import doubled_supports, held_nowhere
+    from ssilang.kernel.statics.doubled import doubled_supports, held_nowhere, holding_nothing
 
     if model is None and (names := sorted(held_nowhere(matrix) - known)):
         tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
     found = doubled_supports(matrix, used)
     if found is None:
+        joined = [np.zeros(0, np.int64) if used is None else used, *laden]
+        if len(idle := holding_nothing(matrix, np.concatenate(joined))):
+            told = {"count": len(idle), "node": matrix.table.told(int(idle[0]))}
+            tell("operators.matrices.holds-nothing", **told)
         return
     x, y, z = matrix.table.coordinates[found.held[0]]
     tell("operators.matrices.held-nodes-without-stiffness", n_held=len(found.held), x=x, y=y, z=z)

@@ -13,6 +13,8 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.waves.free_field_forces import Ground, Motion, Share
 
+_LOWEST = 3  # heights that the elements of the base may have
+_UNBALANCED = 0.3  # of the forces of inertia: what damping leaves is less
 _MOTION = ("DEPL", "VITE", "ACCE")
 
 
@@ -44,8 +46,35 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     motion = _motion(entries, row.numbering)
     _free_field_is_linear(entries, row)
     _tell_coarse(entries, motion)
+    if entries.get("COLONNE") is not None:
+        _tell_other_ground(entries, row, motion)
     forces = edge_forces(row, edge, entries.needed("AMORTISSEURS"), motion)
     return load_of(row.numbering, motion.times, forces)
+
+
+def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
+    """Warn of a column whose motion is not in balance with the ground's elements, by height.
+
+    What the elements above those of the base exert sums to nought at a height, the motion being
+    the same along it; of damping that the table does not name a part is left.
+    """
+    u, v, a = (np.nan_to_num(of) for of in motion.at(row.touched))
+    numbering, axis = row.numbering, _upward(row.numbering)
+    moving = row.numbering.codes == numbering.code(
+        max(numbering.unknowns, key=lambda n: _size(a, numbering, n))
+    )
+    heights = numbering.table.coordinates[numbering.nodes, axis].round(6)
+    levels, at = np.unique(heights, return_inverse=True)
+    sums = np.zeros((2, len(levels), u.shape[1]))
+    for total, forces in zip(sums, (row.force(u, v, a), row.mass @ a), strict=True):
+        np.add.at(total, at[moving], forces[moving])
+    left, whole = np.linalg.norm(sums[:, _LOWEST:], axis=(1, 2))
+    if left > _UNBALANCED * whole > 0.0:
+        entries.warn("operators.dynamics.column-of-others", share=100.0 * left / whole)
+
+
+def _size(of: FloatArray, numbering: Numbering, name: str) -> float:
+    return float(np.abs(of[numbering.where(name)]).max(initial=0.0))
 
 
 def _outside_is_linear(entries: Entries) -> None:
