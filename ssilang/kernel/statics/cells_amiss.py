@@ -84,10 +84,11 @@ def bent_layer(matrix: Matrix) -> Layer | None:
         middles = [points[:, list(local)].mean(axis=1) for _, local in kind.faces]
         sides = [{*local} for _, local in kind.faces]
         across = [(i, j) for i in range(len(sides)) for j in range(i) if not sides[i] & sides[j]]
-        sizes = [np.linalg.norm(middles[i] - middles[j], axis=1) for i, j in across]
         loose = ~np.isin(block.nodes, tied).all(axis=1)
-        for (i, j), thick in zip(across, sizes, strict=True):
-            slender = np.max(sizes, axis=0) / thick
+        for i, j in across:
+            thick = np.linalg.norm(middles[i] - middles[j], axis=1)
+            side = points[:, list(kind.faces[i][1])]
+            slender = np.linalg.norm(side - np.roll(side, 1, 1), axis=2).max(axis=1) / thick
             alone = border[i] & border[j] & loose & (slender > _LONG)
             size = np.ptp(points[alone].reshape(-1, 3), axis=0).max() if alone.any() else 0.0
             if size > _PLATE * thick[alone].max(initial=0.0):

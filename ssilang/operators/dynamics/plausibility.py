@@ -128,10 +128,8 @@ def _masses_alone(problem: Problem, _: Inputs) -> Told:
 
 def _on_supports(problem: Problem, inputs: Inputs) -> Told:
     from ssilang.kernel.stepping.problem.loading import nodal_terms
-    from ssilang.kernel.stepping.problem.plausibility import held_joints, on_supports
+    from ssilang.kernel.stepping.problem.plausibility import on_supports
 
-    if held_joints(problem):
-        yield "operators.dynamics.joints-held", {}
     loads, dashpots = on_supports(problem)
     if inputs.load is not None and len(loads):
         names = [part.name for part in inputs.load.parts for _ in nodal_terms(part)]
