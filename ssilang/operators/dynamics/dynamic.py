@@ -24,7 +24,6 @@ from ssilang.operators.dynamics.motion_files import (
     nodes_asked,
     vtk_observer,
 )
-from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_motion, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import (
     report,
@@ -62,6 +61,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         from ssilang.kernel.stepping.extremes import Extremes
         from ssilang.kernel.stepping.node_histories import NodeHistories
         from ssilang.kernel.stepping.problem.problem import make_problem
+        from ssilang.operators.dynamics import plausibility
 
     entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)
@@ -69,8 +69,8 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     problem = make_problem(inputs)
     warn_of_connections(entries, inputs)
     warn_at_rest(entries, problem)
-    warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
-    warn_of_start(entries, problem, inputs)
+    plausibility.warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
+    plausibility.warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     warn_resolution(entries, problem)
@@ -109,7 +109,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
         again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
-    warn_of_motion(entries, problem, results.track)
+    plausibility.warn_of_motion(entries, problem, results.track)
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history, added=entries.flag("CHARMECA"))

@@ -7,18 +7,29 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import joint_zones
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
+from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.stepping.problem.loading import nodal_terms
+from ssilang.kernel.stepping.problem.plausibility import (
+    AXES,
+    Bodies,
+    against_supports,
+    masses_alone,
+    on_supports,
+    swings,
+)
+from ssilang.operators.dynamics.reports import conserved
 from ssilang.operators.dynamics.shaking import warn_of_shaking
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
@@ -53,8 +64,6 @@ def warn_of_start(
 
 
 def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
-    from ssilang.kernel.matrices.assembly import outside
-
     for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
         lost = [] if field is None else outside(field, problem.numbering, dual=False)
         if lost:
@@ -64,8 +73,6 @@ def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
 
 
 def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import against_supports
-
     for index, rows in against_supports(problem).items():
         if len(rows):
             told = {"index": index, "count": len(rows), "moved": index == "DEPL"}
@@ -73,20 +80,12 @@ def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
 
 
 def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
-    from ssilang.kernel.matrices.assembly import imposed_outside
-    from ssilang.kernel.stepping.problem.loading import nodal_terms
-
     contact = problem.contact
     known = [problem.multipliers, *([] if contact is None else [contact.multipliers])]
     for part in () if inputs.load is None else inputs.load.parts:
         count = max(imposed_outside(f, np.concatenate(known)) for f, _ in nodal_terms(part))
         if count:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
-
-
-def conserved(joints: Interface) -> bool:
-    """Whether 'CONSERVATIF' keeps the energy of joints."""
-    return bool((joints.codes == LawCode.SDM).all())
 
 
 def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
@@ -99,8 +98,6 @@ def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
 
 def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
     """Joints whose matrix in RIGI has not the parameters that CARACTERISTIQUES give their law."""
-    from ssilang.kernel.elements.families import stiffness
-
     if inputs.model is None or inputs.characteristics is None:
         return
     for zone in joint_zones(inputs.model):
@@ -118,8 +115,6 @@ def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
 
 
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import masses_alone
-
     nodes = masses_alone(problem)
     if len(nodes):
         told = {"count": len(nodes), "node": problem.numbering.table.told(int(nodes[0]))}
@@ -127,9 +122,6 @@ def _masses_alone(problem: Problem, _: Inputs) -> Told:
 
 
 def _on_supports(problem: Problem, inputs: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.loading import nodal_terms
-    from ssilang.kernel.stepping.problem.plausibility import on_supports
-
     loads, dashpots = on_supports(problem)
     if inputs.load is not None and len(loads):
         names = [part.name for part in inputs.load.parts for _ in nodal_terms(part)]
@@ -140,8 +132,6 @@ def _on_supports(problem: Problem, inputs: Inputs) -> Told:
 
 
 def _loose(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import Bodies, swings
-
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
@@ -161,8 +151,6 @@ def _loose(problem: Problem, _: Inputs) -> Told:
 
 
 def _swings(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import swings
-
     dt, found = float(np.diff(problem.times).max()), swings(problem)
     period = min((s.period for s in found if s.sudden), default=dt)
     ratio = max((s.damping for s in found), default=0.0)
@@ -186,7 +174,6 @@ OF_STIFFNESS = (_masses_alone, _loose, _swings)
 
 def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> None:
     """Warn where the last instant kept has moved by many times the model's size, or far round."""
-    from ssilang.kernel.stepping.problem.plausibility import AXES
 
     numbering = problem.numbering
     along, round_about = (

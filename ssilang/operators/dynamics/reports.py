@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.language.values import LazyTable, promises
 from ssilang.messages.message import sentence
-from ssilang.operators.dynamics.plausibility import conserved
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
+    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
     from ssilang.kernel.stepping.run import History
 
@@ -24,6 +25,11 @@ _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
 LASTING = 8  # steps in a row: what an impact leaves for good
 CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
+
+
+def conserved(joints: Interface) -> bool:
+    """Whether 'CONSERVATIF' keeps the energy of joints."""
+    return bool((joints.codes == LawCode.SDM).all())
 
 
 def _energy(history: History, word: str) -> ListReel:
@@ -208,11 +214,10 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
             warn_repeated(*place, matrix, kind, inputs.stiffness)
     for block in () if inputs.damping is None else inputs.damping.blocks:
         diagonal = np.diagonal(block.values, axis1=1, axis2=2)
-        own = block.kind != "AMORTISSEMENT"  # parts of absorbing layers have their signs
-        if own and diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0):
+        drives = diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0)
+        if drives and block.kind != "AMORTISSEMENT":  # absorbing layers have parts of either sign
             node = block.table.told(int(block.nodes[0, 0]))
-            own = {"kind": block.kind}
-            entries.warn("operators.dynamics.damping-negative", node=node, **own)
+            entries.warn("operators.dynamics.damping-negative", node=node, kind=block.kind)
             break
 
 

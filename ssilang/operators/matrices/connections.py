@@ -8,6 +8,17 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.statics.cells_amiss import bent_layer, hanging_nodes
+from ssilang.kernel.statics.doubled import (
+    beside_joints,
+    bodies_apart,
+    doubled_supports,
+    held_nowhere,
+    holding_nothing,
+    repeated_cells,
+    springs_apart,
+)
+from ssilang.kernel.statics.stability import negative_unknowns
 from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
@@ -71,8 +82,6 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
 def _warn_doubled_supports(
     tell: Tell, matrix: Matrix, model: Model | None, known: set[str], laden: Iterable[IntArray]
 ) -> None:
-    from ssilang.kernel.statics.doubled import doubled_supports, held_nowhere, holding_nothing
-
     if model is None and (names := sorted(held_nowhere(matrix) - known)):
         tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
@@ -90,8 +99,6 @@ def _warn_doubled_supports(
 def _warn_springs_apart(
     tell: Tell, matrix: Matrix, model: Model | None, laden: Iterable[IntArray]
 ) -> None:
-    from ssilang.kernel.statics.doubled import springs_apart
-
     joined = [] if model is None or not model.zones else [model.mesh.node_ids]
     found = springs_apart(matrix, np.concatenate([np.zeros(0, np.int64), *laden, *joined]))
     if len(found):
@@ -100,8 +107,6 @@ def _warn_springs_apart(
 
 
 def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.doubled import beside_joints, bodies_apart
-
     zones = () if model is None else model.zones
     if any(z.formulation == "CONTACT" for z in zones):
         return
@@ -116,8 +121,6 @@ def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:
 
 
 def _warn_negative(tell: Tell, matrix: Matrix) -> None:
-    from ssilang.kernel.statics.stability import negative_unknowns
-
     if found := negative_unknowns(matrix):
         node, name, value = found[0]
         told = {"node": matrix.table.told(node), "name": name, "value": value}
@@ -131,8 +134,6 @@ def warn_repeated(
 
     Layers, which the stiffness `beside` it knows by their constituents, may be of one mass.
     """
-    from ssilang.kernel.statics.doubled import repeated_cells
-
     layered = matrix is not beside and any(b.zone and b.zone.constituent for b in beside.blocks)
     if not layered and len(found := repeated_cells(matrix)):
         told = {"kind": kind, "count": len(found), "node": matrix.table.told(int(found[0]))}
@@ -172,8 +173,6 @@ def _warn_footings(
 
 
 def _warn_cells(tell: Tell, matrix: Matrix) -> None:
-    from ssilang.kernel.statics.cells_amiss import bent_layer, hanging_nodes
-
     if len(nodes := hanging_nodes(matrix)):
         told = {"count": len(nodes), "node": matrix.table.told(int(nodes[0]))}
         tell("operators.matrices.nodes-hang", **told)
