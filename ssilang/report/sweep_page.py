@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 import numpy as np
 
+from ssilang import __version__
 from ssilang.io.atomic import inside
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, Line, charts_html
@@ -35,8 +36,6 @@ def sweep_page(sweep: Sweep, language: str) -> str:
     ----------
     language : 'en' or 'fr'
     """
-    from ssilang import __version__
-
     told = teller(language)
     asked = asked_of(sweep.folder)
     fits = [] if asked is None else fits_of(sweep, asked)

@@ -10,15 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain, combinations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, IntArray
+from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.boundary import sharing
 from ssilang.kernel.mesh.cells import CellType
+from ssilang.kernel.statics.doubled import face_keys
 
 _SAME = 1e-9  # of directions that are one
 _LONG = 2.0  # length over thickness of a cell beyond which a single layer is told
@@ -70,33 +71,25 @@ class Layer:
 
 def bent_layer(matrix: Matrix) -> Layer | None:
     """The most slender of single layers of linear cells, some thicknesses large; None without."""
-    solids = [found for found in _solids(matrix) if found[2] in LOCKING]
-    tied = np.unique(np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)]))
-    whole: dict[int, list[IntArray]] = {}
-    for block, kind, _ in solids:
-        for _, local in kind.faces:
-            whole.setdefault(len(local), []).append(block.nodes[:, list(local)])
-    free = {n: iter(_split(sharing(np.concatenate(t))[0] == 1, t)) for n, t in whole.items()}
+    solids = [(b, kind) for b, kind, element in _solids(matrix) if element in LOCKING]
+    tied = np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)])
+    keys = [[face_keys(b.nodes[:, list(x)]) for _, x in kind.faces] for b, kind in solids]
+    known, times = np.unique(np.concatenate([tied[:0], *chain.from_iterable(keys)]), return_counts=True)
     found = []
-    for block, kind, _ in solids:
-        points = matrix.table.coordinates[block.nodes]
-        border = [next(free[len(local)]) for _, local in kind.faces]
-        middles = [points[:, list(local)].mean(axis=1) for _, local in kind.faces]
-        sides = [{*local} for _, local in kind.faces]
-        across = [(i, j) for i in range(len(sides)) for j in range(i) if not sides[i] & sides[j]]
+    for (block, kind), own in zip(solids, keys, strict=True):
+        points, sides = matrix.table.coordinates[block.nodes], [list(x) for _, x in kind.faces]
+        border = [np.isin(k, known[times == 1]) for k in own]
         loose = ~np.isin(block.nodes, tied).all(axis=1)
-        for i, j in across:
-            thick = np.linalg.norm(middles[i] - middles[j], axis=1)
-            side = points[:, list(kind.faces[i][1])]
-            slender = np.linalg.norm(side - np.roll(side, 1, 1), axis=2).max(axis=1) / thick
+        for i, j in combinations(range(len(sides)), 2):
+            if {*sides[i]} & {*sides[j]}:
+                continue
+            across = points[:, sides[i]].mean(axis=1) - points[:, sides[j]].mean(axis=1)
+            thick = np.linalg.norm(across, axis=1)
+            along = points[:, sides[i]] - np.roll(points[:, sides[i]], 1, axis=1)
+            slender = np.linalg.norm(along, axis=2).max(axis=1) / thick
             alone = border[i] & border[j] & loose & (slender > _LONG)
             size = np.ptp(points[alone].reshape(-1, 3), axis=0).max() if alone.any() else 0.0
             if size > _PLATE * thick[alone].max(initial=0.0):
                 node, mean = int(block.nodes[alone][0, 0]), float(np.median(slender[alone]))
                 found.append(Layer(node, int(alone.sum()), mean))
     return max(found, key=lambda layer: layer.slender, default=None)
-
-
-def _split(values: BoolArray, tables: list[IntArray]) -> list[BoolArray]:
-    """Values of tables set one behind the other, table by table."""
-    return np.split(values, np.cumsum([len(t) for t in tables])[:-1])

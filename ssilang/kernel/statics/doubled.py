@@ -163,7 +163,7 @@ def repeated_blocks(matrix: Matrix) -> list[ElementMatrices]:
 
 
 def _repeated(blocks: list[ElementMatrices]) -> IntArray:
-    keys = np.concatenate([_keys(b.nodes) for b in blocks])
+    keys = np.concatenate([face_keys(b.nodes) for b in blocks])
     order = np.argsort(keys, kind="stable")
     again = order[1:][keys[order][1:] == keys[order][:-1]]
     if not len(again):
@@ -175,8 +175,8 @@ def _repeated(blocks: list[ElementMatrices]) -> IntArray:
     return firsts
 
 
-def _keys(nodes: IntArray) -> IntArray:
-    """A number for each cell, the same for the same nodes in any order."""
+def face_keys(nodes: IntArray) -> IntArray:
+    """A number for each cell or face, the same for the same nodes in any order."""
     odd = np.random.default_rng(0).integers(1, 2**62, nodes.shape[1]) * 2 + 1
     return np.asarray(np.sort(nodes, axis=1) @ odd, dtype=np.int64)
 

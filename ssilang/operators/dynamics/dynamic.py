@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.interface.interface import without_zones
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.stepping.problem.problem import Inputs
 from ssilang.late_imports import lasting
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.checkpoints import (
@@ -242,8 +244,6 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
 
 
 def _inputs(entries: Entries, times: FloatArray) -> Inputs:
-    from ssilang.kernel.stepping.problem.problem import Inputs
-
     if entries.flag("ECON"):
         entries.warn("operators.dynamics.results-stay-in-memory")
     if entries.flag("SAUV"):
@@ -258,8 +258,6 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
 
 def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     """The stiffness without that of plastic bodies: their law replaces it."""
-    from ssilang.kernel.interface.interface import without_zones
-
     zones = plastic_zones(inputs.model)
     if not zones:
         return inputs

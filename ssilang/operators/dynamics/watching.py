@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from ssilang.kernel.interface.interface import is_macro
 from ssilang.kernel.stepping.track import Rows, Track
 from ssilang.language.values import LazyTable, promises
 from ssilang.operators.prelude import *
@@ -98,8 +99,6 @@ class UpliftWatch(Track):
     @classmethod
     def of(cls, problem: Problem) -> UpliftWatch | None:
         """The watch of a problem with joints that can open; None without."""
-        from ssilang.kernel.interface.interface import is_macro
-
         joints, n = problem.interface, len(problem.times)
         if joints is None or any(is_macro(j.zone) for j in joints.joints):
             return None

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.cells_amiss import bent_layer, hanging_nodes
 from ssilang.kernel.statics.doubled import (
     beside_joints,
@@ -146,7 +147,6 @@ def _warn_swapped_joints(
     model: Model | None,
     characteristics: CellField | None,
 ) -> None:
-    from ssilang.kernel.mesh.nodes import told_coordinates
     from ssilang.kernel.statics.swapped_joints import drawn_gaps, swapped_joints
 
     for node, gap in drawn_gaps(model, characteristics):

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.continuation.expansion import FrequencyProblem
+from ssilang.kernel.continuation.harmonics import basis_of
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -16,6 +19,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
+from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names
 from ssilang.operators.prelude import *
@@ -187,10 +191,7 @@ def continue_harmonics(entries: Entries) -> None:
 
 
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
-    from ssilang.kernel.continuation.expansion import FrequencyProblem
-    from ssilang.kernel.continuation.harmonics import basis_of
     from ssilang.kernel.stepping.problem.constraints import constraints_of
-    from ssilang.kernel.stepping.problem.loading import loading_of
 
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w) for w in words)
@@ -267,8 +268,6 @@ def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
 
 def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:
     """What is left of a field of coefficients by the supports, (r,)."""
-    from ssilang.kernel.base.sparse import sp
-
     u = field_to_vector(field, problem.numbering, dual=False)
     T = problem.T
     gram = sp.csr_array(T.T @ T).toarray()

@@ -13,6 +13,7 @@ from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import (
     check_strains,
@@ -375,8 +376,6 @@ def _inputs(
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)
-    from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
-
     finite = finite_zones(entries)
     yielding = tuple(z for z in plastic_zones(model) if z not in finite)
     blocks += [without_stiffness(z) for z in finite]
