@@ -74,7 +74,9 @@ def bent_layer(matrix: Matrix) -> Layer | None:
     solids = [(b, kind) for b, kind, element in _solids(matrix) if element in LOCKING]
     tied = np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)])
     keys = [[face_keys(b.nodes[:, list(x)]) for _, x in kind.faces] for b, kind in solids]
-    known, times = np.unique(np.concatenate([tied[:0], *chain.from_iterable(keys)]), return_counts=True)
+    known, times = np.unique(
+        np.concatenate([tied[:0], *chain.from_iterable(keys)]), return_counts=True
+    )
     found = []
     for (block, kind), own in zip(solids, keys, strict=True):
         points, sides = matrix.table.coordinates[block.nodes], [list(x) for _, x in kind.faces]
