@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.interface.interface import without_zones
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.stepping.keeping import Cut
 from ssilang.kernel.stepping.problem.problem import Inputs
 from ssilang.late_imports import lasting
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
@@ -178,7 +179,6 @@ def _step_again(
 
     `every` is that of a kept calculation, whose steps are cut there (None: it was not kept).
     """
-    from ssilang.kernel.stepping.keeping import Cut
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
     from ssilang.kernel.stepping.run import integrate
 

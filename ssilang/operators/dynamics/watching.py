@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ssilang.kernel.interface.interface import is_macro
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.track import Rows, Track
 from ssilang.language.values import LazyTable, promises
 from ssilang.operators.prelude import *
@@ -59,8 +60,6 @@ def extremes_later(problem: Problem, again: Callable[[Extremes], object]) -> Laz
     found: list[Table] = []
 
     def find(kind: str) -> object:
-        from ssilang.kernel.stepping.extremes import Extremes
-
         if not found:
             extremes = Extremes(problem=problem)
             again(extremes)

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
+from ssilang.kernel.continuation.floquet import exponents, unstable
 from ssilang.kernel.continuation.harmonics import basis_of
 from ssilang.kernel.matrices.assembly import (
     Numbering,
@@ -122,8 +124,6 @@ BEND = np.radians(60.0)
 
 def lengths_of(entries: Entries) -> Lengths:
     """How far steps go: WTABLE . DS DSMIN DSMAX, NB_ITERATION, MAXITERATION, units."""
-    from ssilang.kernel.continuation.arc import Lengths
-
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
     entries.times("TEMPS_CALCULES")  # refuses what does not increase
     work = _work(entries)
@@ -168,8 +168,6 @@ class Begin:
 
 def continue_harmonics(entries: Entries) -> None:
     """Follow the branch and fill the tables."""
-    from ssilang.kernel.continuation.arc import Tracer
-
     names = known_names(entries)
     problem = _problem(entries, names)
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
@@ -384,8 +382,6 @@ def _begin_again(
 def _floquet(
     entries: Entries, problem: FrequencyProblem, points: list[Solution], inner: Table, names: Names
 ) -> None:
-    from ssilang.kernel.continuation.floquet import unstable
-
     of = _exponents(entries, problem)
     found = np.array([of(p) for p in points])
     table = inner.get("FLOQ")
@@ -412,7 +408,6 @@ def _floquet(
 
 def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
     """Floquet exponents of a solution, from the matrices of the motion itself."""
-    from ssilang.kernel.continuation.floquet import exponents
     from ssilang.kernel.stepping.problem.constraints import constraints_of
 
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
