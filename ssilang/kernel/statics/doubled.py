@@ -199,7 +199,8 @@ def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
     if len(np.unique(body[nodes])) < 2:
         return nodes[:0]
-    return _met(matrix.table.coordinates, nodes, body[nodes])
+    found = _met(matrix.table.coordinates, nodes, body[nodes])
+    return found if len(found) > 1 else found[:0]  # that meet in a single node are seldom one
 
 
 def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:

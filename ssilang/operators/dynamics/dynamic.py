@@ -28,12 +28,7 @@ from ssilang.operators.dynamics.motion_files import (
     vtk_observer,
 )
 from ssilang.operators.dynamics.recording import calculation_record, recorded
-from ssilang.operators.dynamics.reports import (
-    report,
-    warn_at_rest,
-    warn_of_connections,
-    warn_resolution,
-)
+from ssilang.operators.dynamics.reports import report
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
 from ssilang.operators.files.outputs import output_path, run_output
@@ -70,13 +65,13 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
-    warn_of_connections(entries, inputs)
-    warn_at_rest(entries, problem)
+    plausibility.warn_of_connections(entries, inputs)
+    plausibility.warn_at_rest(entries, problem)
     plausibility.warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
     plausibility.warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
-    warn_resolution(entries, problem)
+    plausibility.warn_resolution(entries, problem)
     asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeHistories(saved, problem=problem, nodes=asked), whole)

@@ -57,19 +57,30 @@ def warn_connections(
 
     foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
     known = {n for w in foreign for n in w.data["names"]}
-    _warn_doubled_supports(tell, matrix, model, known, laden)
+    doubled = _warn_doubled_supports(tell, matrix, model, known)
     made = _joints_in(matrix)
     if model is None and made:
         model = Model(made)
     _warn_swapped_joints(tell, matrix, model, characteristics)
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
-    _warn_cells(tell, matrix)
+    _warn_layers(tell, matrix)
+    zones = () if model is None else model.zones
+    others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
+    used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
+    found = {"operators.matrices.nodes-hang": hanging_nodes(matrix)}
+    if not doubled:
+        found["operators.matrices.holds-nothing"] = holding_nothing(matrix, used)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
-        _warn_apart(tell, matrix, model)
-        _warn_springs_apart(tell, matrix, model, laden)
+        found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
+        if not any(z.formulation == "CONTACT" for z in zones):
+            found["operators.matrices.beside-joints"] = beside_joints(matrix, joints)
+            found["operators.matrices.bodies-apart"] = bodies_apart(matrix, joints)
+    for code, nodes in found.items():
+        if len(nodes):
+            tell(code, count=len(nodes), node=matrix.table.told(int(nodes[0])))
     warn_repeated(session, span, operator, matrix, "RIGI", matrix)
-    if model is None or not any(is_joint(z) for z in model.zones):
+    if not joints:
         _warn_negative(tell, matrix)
 
 
@@ -81,44 +92,17 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
 
 
 def _warn_doubled_supports(
-    tell: Tell, matrix: Matrix, model: Model | None, known: set[str], laden: Iterable[IntArray]
-) -> None:
+    tell: Tell, matrix: Matrix, model: Model | None, known: set[str]
+) -> bool:
     if model is None and (names := sorted(held_nowhere(matrix) - known)):
         tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
     found = doubled_supports(matrix, used)
     if found is None:
-        joined = [np.zeros(0, np.int64) if used is None else used, *laden]
-        if len(idle := holding_nothing(matrix, np.concatenate(joined))):
-            told = {"count": len(idle), "node": matrix.table.told(int(idle[0]))}
-            tell("operators.matrices.holds-nothing", **told)
-        return
+        return False
     x, y, z = matrix.table.coordinates[found.held[0]]
     tell("operators.matrices.held-nodes-without-stiffness", n_held=len(found.held), x=x, y=y, z=z)
-
-
-def _warn_springs_apart(
-    tell: Tell, matrix: Matrix, model: Model | None, laden: Iterable[IntArray]
-) -> None:
-    joined = [] if model is None or not model.zones else [model.mesh.node_ids]
-    found = springs_apart(matrix, np.concatenate([np.zeros(0, np.int64), *laden, *joined]))
-    if len(found):
-        told = {"count": len(found), "node": matrix.table.told(int(found[0]))}
-        tell("operators.matrices.springs-apart", **told)
-
-
-def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    zones = () if model is None else model.zones
-    if any(z.formulation == "CONTACT" for z in zones):
-        return
-    joints = [z for z in zones if is_joint(z)]
-    found = bodies_apart(matrix, joints)
-    if len(left := beside_joints(matrix, joints)):
-        told = {"count": len(left), "place": matrix.table.told(int(left[0]))}
-        tell("operators.matrices.beside-joints", **told)
-    if len(found) > 1:  # bodies that meet in a single node are seldom one
-        place = matrix.table.told(int(found[0]))
-        tell("operators.matrices.bodies-apart", count=len(found), place=place)
+    return True
 
 
 def _warn_negative(tell: Tell, matrix: Matrix) -> None:
@@ -172,13 +156,10 @@ def _warn_footings(
             tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
 
 
-def _warn_cells(tell: Tell, matrix: Matrix) -> None:
-    if len(nodes := hanging_nodes(matrix)):
-        told = {"count": len(nodes), "node": matrix.table.told(int(nodes[0]))}
-        tell("operators.matrices.nodes-hang", **told)
+def _warn_layers(tell: Tell, matrix: Matrix) -> None:
     if (layer := bent_layer(matrix)) is not None:
-        told = {"count": layer.count, "node": matrix.table.told(layer.node)}
-        tell("operators.matrices.layer-bends", **told, slender=layer.slender, stiffer=layer.stiffer)
+        told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
+        tell("operators.matrices.layer-bends", **told)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

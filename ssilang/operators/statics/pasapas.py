@@ -24,12 +24,7 @@ from ssilang.kernel.statics.thermal_load import (
 )
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.recording import calculation_record, recorded
-from ssilang.operators.dynamics.reports import (
-    report,
-    warn_contrast,
-    warn_of_connections,
-    warn_resolution,
-)
+from ssilang.operators.dynamics.reports import report
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.modal.stepped_links import stepped_links
 from ssilang.operators.prelude import *
@@ -140,7 +135,7 @@ def _stretch(
     from ssilang.kernel.statics.stepping import step_statics
     from ssilang.kernel.stepping.problem.problem import make_problem
     from ssilang.kernel.stepping.run import integrate
-    from ssilang.operators.dynamics.plausibility import warn_of_start
+    from ssilang.operators.dynamics import plausibility
 
     given, dynamic = stage.entries, work.flag("DYNAMIQUE")
     inputs, stresses = _inputs(given, start, times, dynamic)
@@ -155,8 +150,8 @@ def _stretch(
         bodies = loaded_bodies(procedure_law(entries), "loads by a procedure", bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
-        warn_of_connections(work, inputs)
-        warn_of_start(work, problem, inputs, in_statics=not dynamic)
+        plausibility.warn_of_connections(work, inputs)
+        plausibility.warn_of_start(work, problem, inputs, in_statics=not dynamic)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     strained = _strained(given, bool(finite))
@@ -179,7 +174,7 @@ def _stretch(
         observers.append(keeper)
     line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
-        (warn_resolution if dynamic else warn_contrast)(work, problem)
+        (plausibility.warn_resolution if dynamic else plausibility.warn_contrast)(work, problem)
         with recorded(record):
             if path:
                 history = follow(entries, _path_run(problem, inputs, bodies, observers))
