@@ -22,6 +22,7 @@ from ssilang.kernel.statics.thermal_load import (
     split_strains,
     with_pressures,
 )
+from ssilang.operators.dynamics import plausibility
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.recording import calculation_record, recorded
 from ssilang.operators.dynamics.reports import report
@@ -68,12 +69,10 @@ if TYPE_CHECKING:
 @operator("ZPAS", family="statics")
 def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Read the table, step through the times, fill the tables of results."""
-    from ssilang.operators.dynamics.plausibility import warn_of_loads
-
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
-    warn_of_loads(entries, entries.get("CHARGEMENT"), times)
+    plausibility.warn_of_loads(entries, entries.get("CHARGEMENT"), times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     if stepped_links(entries, times, saved):
@@ -135,7 +134,6 @@ def _stretch(
     from ssilang.kernel.statics.stepping import step_statics
     from ssilang.kernel.stepping.problem.problem import make_problem
     from ssilang.kernel.stepping.run import integrate
-    from ssilang.operators.dynamics import plausibility
 
     given, dynamic = stage.entries, work.flag("DYNAMIQUE")
     inputs, stresses = _inputs(given, start, times, dynamic)

@@ -23,6 +23,7 @@ from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translation
 from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
+from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -242,8 +243,6 @@ def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
 
 def against_supports(problem: Problem) -> dict[str, IntArray]:
     """Conditions that the initial displacements ('DEPL') and velocities ('VITE') do not obey."""
-    from ssilang.kernel.stepping.problem.initial import admissible_velocity
-
     rows = problem.constraints.C
     imposed = problem.loading.imposed @ problem.loading.at(problem.times[:1])[0]
     taken = problem.v - admissible_velocity(problem)
