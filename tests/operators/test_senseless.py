@@ -628,7 +628,7 @@ def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
 
 def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Path) -> None:
     script = (
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; B = DROI 1 (0. 0.) (0.3 0.) ; S = TRAN 6 B (0. 6.) ; "
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; B = DROI 1 (0 0) (0.3 0.) ; S = TRAN 6 B (0 6) ; "
         "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE MO 'YOUN' 3.E10 'NU' 0. ; T = COTE 3 S ; "
         "G = (RIGI MO A) ET (BLOQ 'DEPL' (B POIN 1)) ET (BLOQ 'UY' B) ; "
         "U = RESO G ((FORC (0. 1.) (T POIN 1)) ET (FORC (0. -1.) (T POIN 2))) ; "

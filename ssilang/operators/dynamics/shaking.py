@@ -21,11 +21,13 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
+    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
 GRAVITY = 9.81  # m/s2
+GRAVITIES = (GRAVITY, 1e3 * GRAVITY)  # in metres or millimetres
 STRONG = 3.0  # g; more than the ground of any earthquake but one
 WEIGHT = (0.05, 3.0)  # g; what pulls down
 SAME = 1e-6  # of a force, that is rounding
@@ -38,8 +40,8 @@ def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
     """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
     axes = [a for a in AXES if a in problem.numbering.unknowns]
     found = [] if not axes else [*_Entering(problem, inputs, axes).told(entries)]
-    if problem.interface is not None:
-        found += [*_bridged(problem, inputs), *_held_footings(problem)]
+    if (joints := problem.interface) is not None:
+        found += [*_bridged(problem, joints, inputs), *_held_footings(problem, joints)]
     for code, told in found:
         entries.warn(code, **told)
 
@@ -56,10 +58,9 @@ class _Entering:
 
     def __init__(self, problem: Problem, inputs: Inputs, axes: list[str]) -> None:
         self.problem, self.inputs, self.axes = problem, inputs, axes
-        codes, loading, T = problem.numbering.codes, problem.loading, problem.constraints.T
-        self.along = np.column_stack([codes == problem.numbering.code(a) for a in axes]).astype(
-            float
-        )
+        numbering, loading, T = problem.numbering, problem.loading, problem.constraints.T
+        along = [numbering.codes == numbering.code(a) for a in axes]
+        self.along = np.column_stack(along).astype(float)
         self.factors = np.abs(loading.at(problem.times)).max(axis=0)
         self.changing = np.ptp(loading.at(problem.times), axis=0) > 0.0
         self.loads = _shares(T.T @ (problem.M @ self.along), T.T @ loading.forces)
@@ -71,12 +72,10 @@ class _Entering:
         yield from self._strange_loads(workspace(entries.call.session).units)
         if (np.abs(self.base).sum(axis=1) * self.shaken).any():
             yield "operators.dynamics.shaken-twice", {}
-        T = self.problem.constraints.T
-        braked, pulled = (
-            T.T @ (m @ self.along @ self.base) for m in (self.problem.C, self.problem.M)
-        )
+        T, moved = self.problem.constraints.T, self.along @ self.base[:, self.base.any(axis=0)]
+        braked, pulled = T.T @ (self.problem.C @ moved), T.T @ (self.problem.M @ moved)
         if any(
-            _shares(pulled[:, [k]], braked[:, [k]]).any() for k in np.flatnonzero(self.base.any(0))
+            _shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
         yield from self._sides()
@@ -85,33 +84,26 @@ class _Entering:
         loading, load = self.problem.loading, self.inputs.load
         terms = [(p, t) for p in load.parts for t in nodal_terms(p)] if load else []
         sizes = np.linalg.norm(self.loads, axis=0) * self.factors
-        units = [
-            s for s in sizes[~self.changing] for g in (1.0, 1e3) if abs(s / g / GRAVITY - 1) < 0.01
-        ]
+        units = [s for s in sizes[~self.changing] if min(abs(s / g - 1) for g in GRAVITIES) < 0.01]
         g = GRAVITY / system.length if system else units[0] if units else np.inf
-        at_rest = self.problem.contact is None and not (
-            self.problem.u.any() or self.problem.v.any()
-        )
+        begun = self.problem.contact or self.problem.u.any() or self.problem.v.any()
         for k, (part, _) in enumerate(terms):
             curve = part.time.parts[0] if part.time is not None else None
             kind = "" if curve is None else NAMES.get(curve.ordinate_name.strip().upper()[:4], "")
-            shakes, down = (
-                self.changing[k] and sizes[k] > 0.0,
-                abs(self.loads[-1, k]) * self.factors[k],
-            )
+            down = abs(self.loads[-1, k]) * self.factors[k]
+            shakes = self.changing[k] and sizes[k] > 0.0
+            odd = system and not WEIGHT[0] < down / g < WEIGHT[1]
+            imposes = loading.imposed[:, k].any()
             pulls = not self.changing[k] and down > 0.0 and len(self.axes) > 1
             told = {"name": part.name, "value": sizes[k], "times": sizes[k] / g, "wanted": g}
-            told |= {"velocities": kind == "VITE", "most": STRONG, "system": system and system.name}
+            told |= {"velocities": kind == "VITE", "most": STRONG}
             for code, holds in {
                 "operators.dynamics.shaken-strongly": shakes and sizes[k] > STRONG * g,
                 "operators.dynamics.shaken-in-g": shakes and curve and curve.units[1] == "g",
                 "operators.dynamics.shaken-by-others": shakes and kind in ("VITE", "DEPL"),
-                "operators.dynamics.imposed-by-others": kind in ("VITE", "ACCE")
-                and loading.imposed[:, k].any(),
-                "operators.dynamics.weight-dropped": pulls and at_rest and self.shaken.any(),
-                "operators.dynamics.weight-unusual": pulls
-                and system
-                and not WEIGHT[0] < down / g < WEIGHT[1],
+                "operators.dynamics.imposed-by-others": kind in ("VITE", "ACCE") and imposes,
+                "operators.dynamics.weight-dropped": pulls and not begun and self.shaken.any(),
+                "operators.dynamics.weight-unusual": pulls and odd,
             }.items():
                 if holds:
                     yield code, told
@@ -131,11 +123,10 @@ class _Entering:
                 yield "operators.dynamics.sides-held", {"axis": self.axes[axis], **told}
 
 
-def _bridged(problem: Problem, inputs: Inputs) -> Told:
+def _bridged(problem: Problem, joints: Interface, inputs: Inputs) -> Told:
     """Dashpots to the ground, along the normal of joints, on bodies that these alone hold."""
-    joints, blocks = problem.interface, () if inputs.damping is None else inputs.damping.blocks
+    blocks = () if inputs.damping is None else inputs.damping.blocks
     alone = [b for b in blocks if b.nodes.shape[1] == 1 and b.kind != "MASSE"]
-    assert joints is not None
     if not alone or not loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
         return
     for joint in joints.joints:
@@ -147,10 +138,9 @@ def _bridged(problem: Problem, inputs: Inputs) -> Told:
                 return
 
 
-def _held_footings(problem: Problem) -> Told:
+def _held_footings(problem: Problem, joints: Interface) -> Told:
     """Joints that supports keep from opening, sides of joints that they hold like a structure."""
-    joints, rows, numbering = problem.interface, problem.constraints.C, problem.numbering
-    assert joints is not None
+    rows, numbering = problem.constraints.C, problem.numbering
     if problem.loading.imposed.any() or not joints.n_points:
         return
     left = abs(joints.J @ problem.constraints.T).max(axis=1).toarray().reshape(-1, joints.dimension)
