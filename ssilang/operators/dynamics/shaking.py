@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
@@ -145,7 +145,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         return
     left = abs(joints.J @ problem.constraints.T).max(axis=1).toarray().reshape(-1, joints.dimension)
     moving = (left > ROUNDING)[joints.pairs].reshape(joints.n_points, 1, -1)
-    moves = ((np.abs(joints.B) > ROUNDING) & moving).any(axis=2)
+    moves: BoolArray = np.asarray(((np.abs(joints.B) > ROUNDING) & moving).any(axis=2))
     if not moves[:, -1].any():
         closed, held = "operators.dynamics.joints-closed", "operators.dynamics.joints-held"
         yield (closed if moves.any() else held), {}

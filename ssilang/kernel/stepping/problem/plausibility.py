@@ -222,7 +222,7 @@ def swings(problem: Problem) -> list[Swing]:
 
 def _solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
     if K.shape[0] <= DENSE:
-        return np.linalg.solve(K.toarray(), forces)
+        return np.asarray(np.linalg.solve(K.toarray(), forces), float)
     return SuperLUFactor(sp.csr_array(K), positive=False).solve(forces)
 
 
