@@ -398,6 +398,10 @@ MODELS = {
         OSCILLATOR.format("", "T . 'TEMPS_CALCULES' = PROG 0. PAS 0.1 1. ;"),
         "D.load-missed",
     ),
+    "load steps on what is held": (
+        PASAPAS.format("CHAR 'MECA' (FORC (1. 0.) B) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.))"),
+        "D.load-on-supports",
+    ),
     "a pulse between load steps": (
         PASAPAS.format(
             "CHAR 'MECA' (FORC (1. 0.) H) (EVOL 'MANU' (PROG 0. 0.5 1.) (PROG 0. 1. 0.))"

@@ -60,7 +60,7 @@ def warn_of_start(
     entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
 ) -> None:
     """Warn of all that the start of a calculation shows, by the tables below."""
-    guards = (_imposed_elsewhere,) if in_statics else GUARDS
+    guards = (_imposed_elsewhere, _on_supports) if in_statics else GUARDS
     if not in_statics and not plastic_zones(inputs.model):
         guards += OF_STIFFNESS
     for find in guards:
