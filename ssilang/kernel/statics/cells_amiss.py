@@ -14,11 +14,11 @@ from itertools import chain, combinations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.arrays import BoolArray, IntArray
 from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.cells import CellType
 from ssilang.kernel.statics.doubled import face_keys
 
 _SAME = 1e-9  # of directions that are one
@@ -26,26 +26,32 @@ _LONG = 2.0  # length over thickness of a cell beyond which a single layer is to
 _PLATE = 10.0  # thicknesses across which a single layer is a plate
 
 
-def _solids(matrix: Matrix) -> Iterator[tuple[ElementMatrices, CellType, str]]:
-    for block in matrix.blocks:
-        zone = block.zone
-        if zone is not None and not is_joint(zone) and zone.cells.kind.dimension >= 2:
-            yield block, zone.cells.kind, zone.element
+def _solids(matrix: Matrix) -> Iterator[tuple[ElementMatrices, Zone, list[BoolArray]]]:
+    """Blocks of cells of two or three dimensions; by face, which cells have it for themselves."""
+    blocks = {id(b.raw_nodes): b for b in matrix.blocks if b.zone and not is_joint(b.zone)}.values()
+    solids = [(b, b.zone) for b in blocks if b.zone and b.zone.cells.kind.dimension >= 2]
+    keys = [[face_keys(b.nodes[:, list(x)]) for _, x in z.cells.kind.faces] for b, z in solids]
+    every = np.concatenate([np.zeros(0, np.int64), *chain.from_iterable(keys)])
+    known, times = np.unique(every, return_counts=True)
+    for (block, zone), own in zip(solids, keys, strict=True):
+        yield block, zone, [np.isin(k, known[times == 1]) for k in own]
 
 
 def hanging_nodes(matrix: Matrix) -> IntArray:
     """Nodes (n,), in no condition, inside an edge of a cell that shares an end with their own."""
     links = [np.zeros((0, 2), np.int64)]
-    for block, kind, _ in _solids(matrix):
-        for name, local in kind.faces:
+    for block, zone, border in _solids(matrix):
+        kind = zone.cells.kind
+        for (name, local), alone in zip(kind.faces, border, strict=True):
             ring = np.array(local[: len(local) - (name in ("TRI7", "QUA9"))])
             ends = ring if kind.dimension == 3 else ring[:-1]
-            pairs = block.nodes[:, np.stack([ends, np.resize(np.roll(ring, -1), len(ends))], 1)]
-            links += [pairs.reshape(-1, 2), pairs[..., ::-1].reshape(-1, 2)]
-    a, b = np.unique(np.concatenate(links), axis=0).T
+            pairs = np.stack([ends, np.resize(np.roll(ring, -1), len(ends))], axis=1)
+            links.append(block.nodes[alone][:, pairs].reshape(-1, 2))
+    edges = np.concatenate(links)
+    a, b = np.unique(np.concatenate([edges, edges[:, ::-1]]), axis=0).T
     way = matrix.table.coordinates[b] - matrix.table.coordinates[a]
     length = np.linalg.norm(way, axis=1)
-    unit = way / length[:, None]
+    unit = way / np.maximum(length, np.finfo(float).tiny)[:, None]
     order = np.lexsort((unit @ (0.5413, 0.6967, 0.4711), a))
     a, b, unit, length = a[order], b[order], unit[order], length[order]
     alike = np.abs(np.diff(unit, axis=0)).max(axis=1, initial=0.0) < _SAME
@@ -71,19 +77,14 @@ class Layer:
 
 def bent_layer(matrix: Matrix) -> Layer | None:
     """The most slender of single layers of linear cells, some thicknesses large; None without."""
-    solids = [(b, kind) for b, kind, element in _solids(matrix) if element in LOCKING]
     tied = np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)])
-    keys = [[face_keys(b.nodes[:, list(x)]) for _, x in kind.faces] for b, kind in solids]
-    known, times = np.unique(
-        np.concatenate([tied[:0], *chain.from_iterable(keys)]), return_counts=True
-    )
     found = []
-    for (block, kind), own in zip(solids, keys, strict=True):
-        points, sides = matrix.table.coordinates[block.nodes], [list(x) for _, x in kind.faces]
-        border = [np.isin(k, known[times == 1]) for k in own]
+    for block, zone, border in _solids(matrix):
+        points = matrix.table.coordinates[block.nodes]
+        sides = [list(local) for _, local in zone.cells.kind.faces]
         loose = ~np.isin(block.nodes, tied).all(axis=1)
         for i, j in combinations(range(len(sides)), 2):
-            if {*sides[i]} & {*sides[j]}:
+            if {*sides[i]} & {*sides[j]} or zone.element not in LOCKING:
                 continue
             across = points[:, sides[i]].mean(axis=1) - points[:, sides[j]].mean(axis=1)
             thick = np.linalg.norm(across, axis=1)

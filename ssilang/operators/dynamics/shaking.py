@@ -31,6 +31,7 @@ GRAVITIES = (GRAVITY, 1e3 * GRAVITY)  # in metres or millimetres
 STRONG = 3.0  # g; more than the ground of any earthquake but one
 WEIGHT = (0.05, 3.0)  # g; what pulls down
 SAME = 1e-6  # of a force, that is rounding
+LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made for a look
 LEVELS = 3  # heights of a side; a base has one
 NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
 """What a curve is of, by the first letters of the name of its ordinates."""
@@ -63,7 +64,9 @@ class _Entering:
         self.along = np.column_stack(along).astype(float)
         self.factors = np.abs(loading.at(problem.times)).max(axis=0)
         self.changing = np.ptp(loading.at(problem.times), axis=0) > 0.0
-        self.loads = _shares(T.T @ (problem.M @ self.along), T.T @ loading.forces)
+        self.loads = np.zeros((len(axes), loading.forces.shape[1]))
+        if loading.forces.size < LARGE:
+            self.loads = _shares(T.T @ (problem.M @ self.along), T.T @ loading.forces)
         self.base = _shares(problem.constraints.C @ self.along, loading.imposed * self.changing)
         self.shaken = np.abs(self.loads * self.changing).sum(axis=1)
 
