@@ -17,7 +17,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
-from ssilang import private
+from ssilang import __version__, private
 from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.cli.terminal.screen import coloured
@@ -368,7 +368,6 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
 
 def deck_of(source: Source, given: Mapping[str, Any]) -> Deck:
     """What tells a run from others, but for the files that it reads."""
-    from ssilang import __version__
     from ssilang.io.checkpoint import Deck
 
     return Deck(__version__, source.digest, {k: repr(v) for k, v in given.items()})

@@ -15,6 +15,7 @@ import numpy as np
 
 from ssilang.io.atomic import write_text
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, charts_html, charts_of
 from ssilang.report.html import (
@@ -223,8 +224,6 @@ def _unit(results: Results, unit: str) -> str:
 
 def written_unit(units: dict[str, Any] | None, unit: str) -> str:
     """What stands for an SI unit where `summary.json` names the deck's system."""
-    from ssilang.language.vocabulary.unit_systems import SYSTEMS
-
     system = SYSTEMS.get(str((units or {}).get("system", "")))
     return "" if system is None else system.written(unit)
 

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.atomic import inside
+from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 
 FRAMES = 60
@@ -360,7 +361,6 @@ def _of_hdf(path: Path, pyvista: Any) -> _Steps:
 
 
 def _of_list(path: Path, pyvista: Any) -> _Steps:
-    from ssilang.io.errors import InputError, OutputError
     from ssilang.io.vtk.series import read_pvd
 
     try:

@@ -9,6 +9,7 @@ from urllib.parse import quote
 
 import numpy as np
 
+from ssilang import __version__
 from ssilang.io.atomic import inside
 from ssilang.messages.message import Teller, teller
 from ssilang.report.charts import Chart, Line, charts_html
@@ -20,7 +21,7 @@ from ssilang.report.fragilities import (
     fragility_html,
 )
 from ssilang.report.html import asset, json_in_page, number, section, table, text
-from ssilang.report.sweep_table import MOTION, Sweep, link_to, real, short
+from ssilang.report.sweep_table import MOTION, Sweep, edited, link_to, real, short
 
 MOST_RUNS = 5000
 """Rows of the table."""
@@ -35,8 +36,6 @@ def sweep_page(sweep: Sweep, language: str) -> str:
     ----------
     language : 'en' or 'fr'
     """
-    from ssilang import __version__
-
     told = teller(language)
     asked = asked_of(sweep.folder)
     fits = [] if asked is None else fits_of(sweep, asked)
@@ -80,6 +79,8 @@ def _head(sweep: Sweep, told: Teller) -> str:
     failed = sum(row["exit_code"] != "0" for row in sweep.rows)
     state = ("bad", told("report.sweep-failed", count=failed)) if failed else (
         "good", told("report.sweep-ran"))  # fmt: skip
+    if runs := edited(sweep):
+        state = "bad", told("report.sweep-edited", count=len(runs), runs=runs[:MOST_LINES])
     seconds = sum(real(row["seconds"]) or 0.0 for row in sweep.rows)
     cards = [
         (told("report.sweep-runs"), str(len(sweep.rows))),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import math
 from dataclasses import dataclass
 from itertools import takewhile
@@ -14,7 +15,7 @@ from ssilang.io.errors import InputError
 from ssilang.report.html import text
 from ssilang.report.records import MOST_BYTES
 
-TABLE, RUNS = "sweep.csv", "runs"
+TABLE, RUNS, KEPT = "sweep.csv", "runs", "row.json"
 MOTION = "MOTION"
 
 
@@ -62,6 +63,20 @@ def read_sweep(folder: Path) -> Sweep:
     swept = list(takewhile(lambda t: t != "exit_code", titles[1:]))
     own = {"run", "exit_code", "seconds", "error", "folder", *swept}
     return Sweep(folder, rows, swept, [t for t in titles if t not in own])
+
+
+def edited(sweep: Sweep) -> list[str]:
+    """Numbers of the rows whose figures are not those that their runs have kept."""
+    found, own = [], [*sweep.swept, *sweep.figures]
+    for row in sweep.rows:
+        path = inside(sweep.folder / RUNS, f"{row['folder']}/{KEPT}") if row["folder"] else None
+        try:
+            kept = json.loads(path.read_text(encoding="utf-8"))["row"] if path else row
+            same = all(real(row[n]) == real(str(kept.get(n))) for n in own)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            same = False
+        found += [] if same else [row["run"]]
+    return found
 
 
 def link_to(folder: Path, run: str) -> str:

@@ -398,6 +398,10 @@ MODELS = {
         OSCILLATOR.format("", "T . 'TEMPS_CALCULES' = PROG 0. PAS 0.1 1. ;"),
         "D.load-missed",
     ),
+    "load steps on what is held": (
+        PASAPAS.format("CHAR 'MECA' (FORC (1. 0.) B) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.))"),
+        "D.load-on-supports",
+    ),
     "a pulse between load steps": (
         PASAPAS.format(
             "CHAR 'MECA' (FORC (1. 0.) H) (EVOL 'MANU' (PROG 0. 0.5 1.) (PROG 0. 1. 0.))"
@@ -532,6 +536,13 @@ DATA: dict[str, dict[str, object]] = {
 """What is told of some of them, reckoned by hand."""
 
 
+FILES["g for m/s2 in a motion"] = (
+    OSCILLATOR.format(RECORD + "F = CHAR (M * (MANU 'CHPO' P 'UX' -1.)) E ;", ""),
+    {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "G").replace(".01", ".2")},
+    "operators.dynamics.shaken-in-g",
+)
+
+
 def told(script: str, folder: Path, what: str = "") -> list[str]:
     """Codes of the warnings and errors of a script in the plane; their data are looked at."""
     result = run_text(f"OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; {script}", output_directory=folder)
@@ -617,6 +628,20 @@ SENSIBLE_ENDS = {
 @pytest.mark.parametrize("what", SENSIBLE_ENDS)
 def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
     assert told(SENSIBLE_ENDS[what], tmp_path) == []
+
+
+def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Path) -> None:
+    script = (
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; B = DROI 1 (0 0) (0.3 0.) ; S = TRAN 6 B (0 6) ; "
+        "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE MO 'YOUN' 3.E10 'NU' 0. ; T = COTE 3 S ; "
+        "G = (RIGI MO A) ET (BLOQ 'DEPL' (B POIN 1)) ET (BLOQ 'UY' B) ; "
+        "U = RESO G ((FORC (0. 1.) (T POIN 1)) ET (FORC (0. -1.) (T POIN 2))) ; "
+        "X = ABS (EXTR U 'UX' (T POIN 1)) ;"
+    )
+    session = run_text(script, output_directory=tmp_path).session
+    (layer,) = [w for w in session.warnings if w.code == "operators.matrices.layer-bends"]
+    bent = 0.3 * 6.0**2 / (2.0 * 3.0e10 * 0.3**3 / 12.0)  # M l^2 / 2 E I
+    assert bent / session.root.find("X") == pytest.approx(layer.data["stiffer"], rel=1e-3)
 
 
 def test_free_motions_have_no_frequency(tmp_path: Path) -> None:

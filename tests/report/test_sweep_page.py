@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import re
+import shutil
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -15,6 +16,7 @@ from ssilang.cli.main import main
 from ssilang.cli.sweeping import histories
 from ssilang.cli.sweeping.histories import join_histories
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
+from ssilang.report.sweep_table import read_sweep
 
 DECK = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; AG = 1. ; NAME = 'a' ;
@@ -101,6 +103,17 @@ def test_the_page_is_made_again_in_french_and_damage_is_refused(made, tmp_path, 
     (tmp_path / "sweep.csv").write_text("run;AG\n1;2\n")
     assert main(["report", str(tmp_path)]) == 2
     assert "is not the table of a sweep" in capsys.readouterr().err
+
+
+def test_an_edited_table_is_told(made, tmp_path):
+    folder = shutil.copytree(made, tmp_path / "again")
+    table, page = folder / "sweep.csv", folder / "report.html"
+    assert main(["report", str(folder)]) == 0
+    assert "was edited" not in page.read_text("utf-8")
+    was = next(row["top"] for row in read_sweep(folder).rows if row["exit_code"] == "0")
+    table.write_text(table.read_text("utf-8").replace(was, "9876.5", 1), "utf-8")
+    assert main(["report", str(folder)]) == 0
+    assert "1 row of sweep.csv (1) is not what the run reported" in page.read_text("utf-8")
 
 
 def test_a_run_from_python_has_its_page():

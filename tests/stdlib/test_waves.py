@@ -181,6 +181,10 @@ def test_edges_let_the_column_s_motion_in():
     free = histories(result, "W", "ACCE", "P")
     for node in ("Q", "O"):
         assert np.abs(histories(result, "R", "ACCE", node) - free).max() < 1e-9
+    other = "D . 'FRONTIERE' = F ; D . 'AMORTISSEURS' = CA ; CH = @BORDS D ;"
+    told = ran(GROUND + COLUMN.replace("2.E8", "1.2E8") + other).session.warnings
+    assert "operators.dynamics.column-of-others" in {w.code for w in told}
+    assert "operators.dynamics.column-of-others" not in {w.code for w in result.session.warnings}
 
 
 WAVE = (

@@ -40,6 +40,7 @@ from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller
+from ssilang.operators.session.progress import ProgressLine
 from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
 from ssilang.report.sweep_table import read_sweep
 
@@ -253,8 +254,6 @@ def _progress(
     rows: Iterator[dict[str, Any]], total: int, told: Teller, err: TextIO
 ) -> Iterator[dict[str, Any]]:
     """The same rows, with a line of progress at a terminal."""
-    from ssilang.operators.session.progress import ProgressLine
-
     line = ProgressLine(told("cli.runs"), told, err)
     for done, row in enumerate(rows, start=1):
         line(done, total)

@@ -24,6 +24,7 @@ from ssilang.kernel.interface.kinematics import joint_cells
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.law_table import law_of, shown_variables, state_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
+from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.plasticity.layered_points import is_layered
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
@@ -251,8 +252,6 @@ def _joint_probe(
 def _joint(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
 ) -> Answer:
-    from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
-
     law, d = law_of(zone.behaviour), None
     if law.macro and (zone_field(zone, material).at("COHE", "STRESSES", 0.0) > 0.0).any():
         raise MaterialError("kernel.statics.ground-is-not-at-a-point")

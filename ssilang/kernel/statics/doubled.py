@@ -89,6 +89,17 @@ def held_nowhere(matrix: Matrix) -> set[str]:
     return alone - known if matrix.blocks and all(b.zone for b in matrix.blocks) else set()
 
 
+def holding_nothing(matrix: Matrix, used: IntArray) -> IntArray:
+    """A node (n,) of each condition all of whose nodes no cell, other condition nor `used` has."""
+    stiff = np.zeros(len(matrix.table), dtype=bool)
+    stiff[used] = True
+    for block in matrix.blocks:
+        stiff[block.nodes] = True
+    held = _held_alone(matrix)
+    own = [np.unique(r.nodes) for r in matrix.relations if stiff.any() and len(r.nodes)]
+    return np.array([n[0] for n in own if np.isin(n, held).all() and not stiff[n].any()], np.int64)
+
+
 def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
     """The `nodes` at the place of one of `others`, and these (n,), pairwise."""
     if not len(nodes) or not len(others):
@@ -152,7 +163,7 @@ def repeated_blocks(matrix: Matrix) -> list[ElementMatrices]:
 
 
 def _repeated(blocks: list[ElementMatrices]) -> IntArray:
-    keys = np.concatenate([_keys(b.nodes) for b in blocks])
+    keys = np.concatenate([face_keys(b.nodes) for b in blocks])
     order = np.argsort(keys, kind="stable")
     again = order[1:][keys[order][1:] == keys[order][:-1]]
     if not len(again):
@@ -164,8 +175,8 @@ def _repeated(blocks: list[ElementMatrices]) -> IntArray:
     return firsts
 
 
-def _keys(nodes: IntArray) -> IntArray:
-    """A number for each cell, the same for the same nodes in any order."""
+def face_keys(nodes: IntArray) -> IntArray:
+    """A number for each cell or face, the same for the same nodes in any order."""
     odd = np.random.default_rng(0).integers(1, 2**62, nodes.shape[1]) * 2 + 1
     return np.asarray(np.sort(nodes, axis=1) @ odd, dtype=np.int64)
 
@@ -188,7 +199,8 @@ def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
     if len(np.unique(body[nodes])) < 2:
         return nodes[:0]
-    return _met(matrix.table.coordinates, nodes, body[nodes])
+    found = _met(matrix.table.coordinates, nodes, body[nodes])
+    return found if len(found) > 1 else found[:0]  # that meet in a single node are seldom one
 
 
 def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:

@@ -110,8 +110,6 @@ def count_negative(A: sp.csr_array) -> int:
             continue
     if n <= DENSE:
         return _by_eigenvalues(A, size)
-    from ssilang.kernel.base.errors import KernelError
-
     raise KernelError("kernel.solvers.number-negative-eigenvalues-cannot")
 
 

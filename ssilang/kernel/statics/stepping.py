@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -286,16 +287,11 @@ def _ground_gives_way(
     problem: Problem, joints: Interface, motion: Motion, step: int
 ) -> ConvergenceError:
     """No equilibrium over ground that yields: too much weight, or too far out."""
-    at = {"step": step, "time": problem.times[step]}
+    at: dict[str, Any] = {"step": step, "time": problem.times[step]}
     told = problem.numbering.table.told
     for found in overloads(problem, problem.loading.at(problem.times)[step]):
-        return ConvergenceError(
-            "kernel.statics.footing-overloaded",
-            **at,
-            node=told(found.node),
-            pressing=found.pressing,
-            capacity=found.capacity,
-        )
+        at |= vars(found) | {"node": told(found.node)}
+        return ConvergenceError("kernel.statics.footing-overloaded", **at)
     carried = joints.carried(motion.t)
     used = [-carried[bed.owner, -1] / bed.capacity for bed in joints.beds]
     bed = joints.beds[int(np.argmax(used))]
@@ -310,22 +306,12 @@ def _ground_gives_way(
 
 
 def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
-    joints = problem.interface
+    joints, at = problem.interface, dict[str, Any](step=step, time=problem.times[step])
     if joints is not None and joints.beds:
         return _ground_gives_way(problem, joints, motion, step)
     if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
         node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
-        return ConvergenceError(
-            "kernel.statics.no-equilibrium-full-uplift",
-            step=step,
-            time=problem.times[step],
-            n_points=joints.n_points,
-            node=problem.numbering.table.told(node),
-        )
-    return ConvergenceError(
-        "kernel.statics.no-equilibrium-found-residual",
-        step=step,
-        time=problem.times[step],
-        residual=outcome.residual,
-        turns=-outcome.turns,
-    )
+        at |= {"n_points": joints.n_points, "node": problem.numbering.table.told(node)}
+        return ConvergenceError("kernel.statics.no-equilibrium-full-uplift", **at)
+    at |= {"residual": outcome.residual, "turns": -outcome.turns}
+    return ConvergenceError("kernel.statics.no-equilibrium-found-residual", **at)

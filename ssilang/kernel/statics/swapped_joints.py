@@ -29,6 +29,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 
 _SAME_PLACE = 1e-6
+_DRAWN = 1e-3  # of a joint's size: a gap that is more than a way to draw the joint
 AGAINST = -0.1
 """Cosine of the normal with the way from lower to upper body, below which sides are swapped."""
 
@@ -71,6 +72,19 @@ def swapped_joints(
         if len(cosine) and (cosine < AGAINST).all():
             found.append(SwappedJoints(middle, zone.element == "JOI1", _overlap(joints)))
     return tuple(found)
+
+
+def drawn_gaps(
+    model: Model | None, characteristics: CellField | None
+) -> Iterator[tuple[int, float]]:
+    """A node of each zone of surface joints whose sides lie apart, and how far (m)."""
+    for zone in () if model is None else joint_zones(model):
+        if zone.element != "JOI1":
+            joints = joint_cells(zone, zone_field(zone, characteristics))
+            upper = zone.cells.nodes.resolve(joints.upper)
+            size = float(np.ptp(zone.cells.nodes.coordinates[upper].reshape(-1, 3), axis=0).max())
+            if (gap := _overlap(joints)) > _DRAWN * size:
+                yield int(upper.min()), gap
 
 
 def inclinations(

@@ -52,7 +52,7 @@ UNITS: dict[str, Unit] = {
         Unit("rad/s", time=-1),
         Unit("kg", mass=1),
         Unit("kg/m2", mass=1, length=-2),
-        Unit("kg/m3", mass=1, length=-3, usual=(10.0, 2.5e4)),
+        Unit("kg/m3", mass=1, length=-3, usual=(10.0, 1.2e4)),
         Unit("kg m2", mass=1, length=2),
         Unit("N", mass=1, length=1, time=-2),
         Unit("N m", mass=1, length=2, time=-2),

@@ -83,6 +83,10 @@ _FURTHER: dict[str, dict[str, float]] = {
 }  # fmt: skip
 """Units that data sheets use and that belong to none of the systems: how many of the SI one is."""
 
+_WEIGHTS = {"kN/m3": 1e3 / 9.81, "N/m3": 1.0 / 9.81, "N/mm3": 1e9 / 9.81}
+_HEAVY = Range(900.0, 9000.0)
+"""Weights by volume that stand for densities, in kg/m3, and what the usual ones are."""
+
 
 def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> dict[str, float]:
     """Units in which an unusual value would be usual, with what it is in the system's unit.
@@ -99,7 +103,10 @@ def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> d
     known = {s.written(unit): s.factor(unit) for s in SYSTEMS.values()} | _FURTHER.get(unit, {})
     known.pop(system.written(unit))
     here = system.factor(unit)
-    return {name: value * size / here for name, size in known.items() if value * size in usual}
+    found = {name: size for name, size in known.items() if value * size in usual}
+    if unit == "kg/m3":
+        found |= {name: size for name, size in _WEIGHTS.items() if value * size in _HEAVY}
+    return {name: value * size / here for name, size in found.items()}
 
 
 def usual_of(said: Range, index: str, unit: str, system: UnitSystem | None) -> Range:
@@ -125,10 +132,10 @@ def _by_unit(index: str, unit: str, system: UnitSystem | None) -> Range:
 
 
 MATTER: tuple[dict[str, Range], ...] = (
-    {"YOUN": Range(1e6), "RHO": Range(10.0, 25e3)},  # Pa, kg/m3; a body may be very rigid
-    {"YOUN": Range(1e3, 1e9), "RHO": Range(0.01, 25.0)},  # kPa, t/m3
-    {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-5, 0.025)},  # MPa, kt/m3
-    {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-11, 25e-9)},  # MPa, t/mm3
+    {"YOUN": Range(1e6), "RHO": Range(10.0, 12e3)},  # Pa, kg/m3; a body may be very rigid
+    {"YOUN": Range(1e3, 1e9), "RHO": Range(0.01, 12.0)},  # kPa, t/m3
+    {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-5, 0.012)},  # MPa, kt/m3
+    {"YOUN": Range(1.0, 1e6), "RHO": Range(1e-11, 12e-9)},  # MPa, t/mm3
     {"YOUN": Range(high=1e4), "RHO": Range(1e-3, 100.0)},  # numbers without units
 )
 """What a modulus and a density are together, in each of `SYSTEMS`, in turn, and without units:

@@ -15,6 +15,7 @@ from ssilang.language.values import LazyRows, LazyTable
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,
+    RecordedFields,
     RecordedPoints,
     components_in_time,
     refused_place,
@@ -259,6 +260,7 @@ def _only(call: Call, field: NodeField) -> str:
 # ---- in time ------------------------------------------------------------------------------------
 
 MISSING = object()
+_LOST = 5.0  # % of a largest value that may stand between two instants
 _DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
 
 
@@ -292,11 +294,29 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     for name in names:
         for node in nodes:
             values = value_in_time(call, fields, name, node)
+            _tell_peak(call, fields, values, name)
             legend = f"{name} {called[node]}"
             colour = colours[len(parts) % len(colours)]
             made = CurvePart(times, values, "TEMP", name, legend, colour)
             parts.append(made.measured("s", _unit_in_time(results, title, name)))
     return Curve(tuple(parts), workspace(call.session).title)
+
+
+def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str) -> None:
+    """Warn where a largest value may stand between instants that are kept, of more that were not.
+
+    The parabola through it and its neighbours bends by an eighth of the second difference.
+    """
+    if not isinstance(fields, RecordedFields) or len(fields) != len(values):
+        return
+    steps, top = len(fields.track.wanted), int(np.abs(values).argmax())
+    code = "operators.curves.peak-between"
+    if len(values) == steps or not 0 < top < len(values) - 1:
+        return
+    bend = abs(values[top - 1] - 2.0 * values[top] + values[top + 1]) / 8.0
+    told = {"share": 100.0 * bend / (abs(values[top]) or 1.0), "kept": len(values), "steps": steps}
+    if told["share"] > _LOST and not any(w.code == code for w in call.session.warnings):
+        call.warn(code, name=name, **told)
 
 
 def _point_names(call: Call, support: Operand) -> dict[int, str]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.io.plots.palette import NAMES as COLOURS
@@ -38,6 +40,7 @@ def is_colour(word: str) -> bool:
 
 @operator("DEFO", family="drawing", full_name="DEFORME")
 def defo(
+    call: Call,
     colour: str | None = Choice(COLOURS, en="colour"),
     mesh: Mesh = Arg("MAILLAGE", en="mesh"),
     displacement: NodeField = Arg("CHPOINT", en="displacements", unit="m"),
@@ -48,6 +51,9 @@ def defo(
     model: Model | None = Opt("MMODEL", en="its model"),
 ) -> Deformed:
     """Mesh, displacement and what goes with them."""
+    moved = [p.nodes for p in displacement.components.values()]
+    if moved and len(mesh.node_ids) and not np.isin(mesh.node_ids, np.concatenate(moved)).any():
+        call.warn("operators.drawing.moves-nothing", displacement)
     shade = None if colour is None else index_of(colour)
     shown = field if cells is None else cells
     return Deformed((DeformedPart(mesh, displacement, scale, shade, arrows, shown, model),))

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.kernel.interface.interface import without_zones
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.stepping.keeping import Cut
+from ssilang.kernel.stepping.problem.problem import Inputs
 from ssilang.late_imports import lasting
 from ssilang.operators.dynamics.charmeca import AddedByProcedure
 from ssilang.operators.dynamics.checkpoints import (
@@ -24,14 +27,8 @@ from ssilang.operators.dynamics.motion_files import (
     nodes_asked,
     vtk_observer,
 )
-from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_motion, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
-from ssilang.operators.dynamics.reports import (
-    report,
-    warn_at_rest,
-    warn_of_connections,
-    warn_resolution,
-)
+from ssilang.operators.dynamics.reports import report
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
 from ssilang.operators.files.outputs import output_path, run_output
@@ -62,18 +59,19 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         from ssilang.kernel.stepping.extremes import Extremes
         from ssilang.kernel.stepping.node_histories import NodeHistories
         from ssilang.kernel.stepping.problem.problem import make_problem
+        from ssilang.operators.dynamics import plausibility
 
     entries = Entries(call, table, "DYNAMIC")
     times, saved = _times(entries)
     inputs = _with_bodies(entries, _inputs(entries, times))
     problem = make_problem(inputs)
-    warn_of_connections(entries, inputs)
-    warn_at_rest(entries, problem)
-    warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
-    warn_of_start(entries, problem, inputs)
+    plausibility.warn_of_connections(entries, inputs)
+    plausibility.warn_at_rest(entries, problem)
+    plausibility.warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
+    plausibility.warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
-    warn_resolution(entries, problem)
+    plausibility.warn_resolution(entries, problem)
     asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeHistories(saved, problem=problem, nodes=asked), whole)
@@ -109,7 +107,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
         again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
-    warn_of_motion(entries, problem, results.track)
+    plausibility.warn_of_motion(entries, problem, results.track)
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history, added=entries.flag("CHARMECA"))
@@ -176,7 +174,6 @@ def _step_again(
 
     `every` is that of a kept calculation, whose steps are cut there (None: it was not kept).
     """
-    from ssilang.kernel.stepping.keeping import Cut
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
     from ssilang.kernel.stepping.run import integrate
 
@@ -242,8 +239,6 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
 
 
 def _inputs(entries: Entries, times: FloatArray) -> Inputs:
-    from ssilang.kernel.stepping.problem.problem import Inputs
-
     if entries.flag("ECON"):
         entries.warn("operators.dynamics.results-stay-in-memory")
     if entries.flag("SAUV"):
@@ -258,8 +253,6 @@ def _inputs(entries: Entries, times: FloatArray) -> Inputs:
 
 def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     """The stiffness without that of plastic bodies: their law replaces it."""
-    from ssilang.kernel.interface.interface import without_zones
-
     zones = plastic_zones(inputs.model)
     if not zones:
         return inputs

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.io.vtk.labels import Labels
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
@@ -53,7 +54,6 @@ class VtkObserver:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Write one instant."""
-        from ssilang.io.vtk.labels import Labels
         from ssilang.io.vtk.series import Part
 
         u = snapshot.displacement

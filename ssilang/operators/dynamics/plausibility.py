@@ -7,17 +7,36 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import joint_zones
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
+from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.statics.conditioning import joint_conditioning
+from ssilang.kernel.stepping.problem.bodies import loose_bodies
+from ssilang.kernel.stepping.problem.loading import nodal_terms
+from ssilang.kernel.stepping.problem.plausibility import (
+    AXES,
+    STRANGE,
+    Bodies,
+    against_supports,
+    contact_resolution,
+    masses_alone,
+    on_supports,
+    overloads,
+    stiffness_contrast,
+    swings,
+)
+from ssilang.operators.dynamics.reports import conserved
+from ssilang.operators.dynamics.shaking import warn_of_shaking
+from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
@@ -41,17 +60,17 @@ def warn_of_start(
     entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
 ) -> None:
     """Warn of all that the start of a calculation shows, by the tables below."""
-    guards = (_imposed_elsewhere,) if in_statics else GUARDS
+    guards = (_imposed_elsewhere, _on_supports) if in_statics else GUARDS
     if not in_statics and not plastic_zones(inputs.model):
         guards += OF_STIFFNESS
     for find in guards:
         for code, told in find(problem, inputs):
             entries.warn(code, supports=SUPPORTS[entries.procedure], **told)
+    if not in_statics:
+        warn_of_shaking(entries, problem, inputs)
 
 
 def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
-    from ssilang.kernel.matrices.assembly import outside
-
     for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
         lost = [] if field is None else outside(field, problem.numbering, dual=False)
         if lost:
@@ -61,8 +80,6 @@ def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
 
 
 def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import against_supports
-
     for index, rows in against_supports(problem).items():
         if len(rows):
             told = {"index": index, "count": len(rows), "moved": index == "DEPL"}
@@ -70,20 +87,12 @@ def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
 
 
 def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
-    from ssilang.kernel.matrices.assembly import imposed_outside
-    from ssilang.kernel.stepping.problem.loading import nodal_terms
-
     contact = problem.contact
     known = [problem.multipliers, *([] if contact is None else [contact.multipliers])]
     for part in () if inputs.load is None else inputs.load.parts:
         count = max(imposed_outside(f, np.concatenate(known)) for f, _ in nodal_terms(part))
         if count:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
-
-
-def conserved(joints: Interface) -> bool:
-    """Whether 'CONSERVATIF' keeps the energy of joints."""
-    return bool((joints.codes == LawCode.SDM).all())
 
 
 def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
@@ -96,8 +105,6 @@ def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
 
 def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
     """Joints whose matrix in RIGI has not the parameters that CARACTERISTIQUES give their law."""
-    from ssilang.kernel.elements.families import stiffness
-
     if inputs.model is None or inputs.characteristics is None:
         return
     for zone in joint_zones(inputs.model):
@@ -115,8 +122,6 @@ def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
 
 
 def _masses_alone(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import masses_alone
-
     nodes = masses_alone(problem)
     if len(nodes):
         told = {"count": len(nodes), "node": problem.numbering.table.told(int(nodes[0]))}
@@ -124,11 +129,6 @@ def _masses_alone(problem: Problem, _: Inputs) -> Told:
 
 
 def _on_supports(problem: Problem, inputs: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.loading import nodal_terms
-    from ssilang.kernel.stepping.problem.plausibility import held_joints, on_supports
-
-    if held_joints(problem):
-        yield "operators.dynamics.joints-held", {}
     loads, dashpots = on_supports(problem)
     if inputs.load is not None and len(loads):
         names = [part.name for part in inputs.load.parts for _ in nodal_terms(part)]
@@ -139,8 +139,6 @@ def _on_supports(problem: Problem, inputs: Inputs) -> Told:
 
 
 def _loose(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import Bodies, swings
-
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
@@ -160,8 +158,6 @@ def _loose(problem: Problem, _: Inputs) -> Told:
 
 
 def _swings(problem: Problem, _: Inputs) -> Told:
-    from ssilang.kernel.stepping.problem.plausibility import swings
-
     dt, found = float(np.diff(problem.times).max()), swings(problem)
     period = min((s.period for s in found if s.sudden), default=dt)
     ratio = max((s.damping for s in found), default=0.0)
@@ -185,7 +181,6 @@ OF_STIFFNESS = (_masses_alone, _loose, _swings)
 
 def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> None:
     """Warn where the last instant kept has moved by many times the model's size, or far round."""
-    from ssilang.kernel.stepping.problem.plausibility import AXES
 
     numbering = problem.numbering
     along, round_about = (
@@ -249,3 +244,81 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         at = int(off.argmax())
         told |= {"time": float(x[inside][at]), "value": float(y[inside][at])}
         yield "operators.dynamics.load-missed", told | {"seen": float(seen[at])}
+
+
+def warn_resolution(entries: Entries, problem: Problem) -> None:
+    """Warn when the step does not resolve contact, saying the step to use."""
+    warn_contrast(entries, problem)
+    warn_massless(entries, problem)
+    warn_overloaded(entries, problem)
+    found = contact_resolution(problem)
+    if found is None or found.resolved:
+        return
+    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
+    joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
+    keeps = joints is not None and conserved(joints)
+    kept = keeps and problem.scheme.conserving
+    entries.warn(code, **told, kept=kept, conserved=keeps)
+
+
+def warn_overloaded(entries: Entries, problem: Problem) -> None:
+    """Warn of footings that the loads of the start already press into ground that yields."""
+    for found in overloads(problem, problem.loading.at(problem.times[:1])[0]):
+        told = {"node": problem.numbering.table.told(found.node), "pressing": found.pressing}
+        entries.warn("operators.dynamics.footing-overloaded", **told, capacity=found.capacity)
+
+
+def warn_massless(entries: Entries, problem: Problem) -> None:
+    """Warn where a body that only joints hold, or all, has no mass: forgotten, most often."""
+    joints = problem.interface
+    bodies = []
+    if joints is not None:
+        bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
+    massless = [body for body in bodies if body.mass == 0.0]
+    if massless:
+        node = problem.numbering.table.told(massless[0].node)
+        others = len(massless) - 1
+        entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
+    if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
+        entries.warn("operators.dynamics.no-mass")
+
+
+def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
+    """Warn of supports beside the body, joints the wrong way round, beams on single nodes."""
+    place = entries.call.session, entries.place, entries.procedure
+    laden = [] if inputs.mass is None else [b.nodes.ravel() for b in inputs.mass.blocks]
+    warn_connections(*place, inputs.stiffness, inputs.model, inputs.characteristics, laden)
+    for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
+        if matrix is not None:
+            warn_repeated(*place, matrix, kind, inputs.stiffness)
+    for block in () if inputs.damping is None else inputs.damping.blocks:
+        diagonal = np.diagonal(block.values, axis1=1, axis2=2)
+        drives = diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0)
+        if drives and block.kind != "AMORTISSEMENT":  # absorbing layers have parts of either sign
+            node = block.table.told(int(block.nodes[0, 0]))
+            entries.warn("operators.dynamics.damping-negative", node=node, kind=block.kind)
+            break
+
+
+def warn_at_rest(entries: Entries, problem: Problem) -> None:
+    """Warn of a motion that nothing starts: no load, no first displacement or velocity."""
+    loading = problem.loading
+    acting = loading.at(problem.times).any(axis=0)
+    moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
+    given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
+    if not given and problem.contact is None and not entries.flag("CHARMECA"):
+        entries.warn("operators.dynamics.nothing-moves")
+
+
+def warn_contrast(entries: Entries, problem: Problem) -> None:
+    """Warn when joints are out of all proportion to the bodies: units, most often."""
+    found = joint_conditioning(problem)
+    if found is not None and found.joints_are_to_blame:
+        told = {n: getattr(found, n) for n in ("number", "digits", "balanced", "kn", "wanted_kn")}
+        entries.warn("operators.dynamics.badly-conditioned", **told)
+        return
+    ratio = stiffness_contrast(problem)
+    if ratio is None or 1 / STRANGE <= ratio <= STRANGE:
+        return
+    told = {"stiffer": ratio if ratio > 1 else 0.0, "softer": 1 / ratio}
+    entries.warn("operators.dynamics.joints-out-of-proportion", **told)

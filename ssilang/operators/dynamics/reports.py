@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.language.values import LazyTable, promises
 from ssilang.messages.message import sentence
-from ssilang.operators.dynamics.plausibility import conserved
-from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+    from ssilang.kernel.interface.interface import Interface
+    from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.run import History
 
 ENERGY_LIMIT = 0.01
@@ -24,6 +24,11 @@ _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
 LASTING = 8  # steps in a row: what an impact leaves for good
 CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
+
+
+def conserved(joints: Interface) -> bool:
+    """Whether 'CONSERVATIF' keeps the energy of joints."""
+    return bool((joints.codes == LawCode.SDM).all())
 
 
 def _energy(history: History, word: str) -> ListReel:
@@ -153,83 +158,3 @@ def _relative(imbalance: float, largest: float) -> float | None:
 def none_if_nan(value: float) -> float | None:
     """A number for JSON."""
     return None if np.isnan(value) else value
-
-
-def warn_resolution(entries: Entries, problem: Problem) -> None:
-    """Warn when the step does not resolve contact, saying the step to use."""
-    from ssilang.kernel.stepping.problem.plausibility import contact_resolution
-
-    warn_contrast(entries, problem)
-    warn_massless(entries, problem)
-    warn_overloaded(entries, problem)
-    found = contact_resolution(problem)
-    if found is None or found.resolved:
-        return
-    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
-    joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
-    keeps = joints is not None and conserved(joints)
-    kept = keeps and problem.scheme.conserving
-    entries.warn(code, **told, kept=kept, conserved=keeps)
-
-
-def warn_overloaded(entries: Entries, problem: Problem) -> None:
-    """Warn of footings that the loads of the start already press into ground that yields."""
-    from ssilang.kernel.stepping.problem.plausibility import overloads
-
-    for found in overloads(problem, problem.loading.at(problem.times[:1])[0]):
-        told = {"node": problem.numbering.table.told(found.node), "pressing": found.pressing}
-        entries.warn("operators.dynamics.footing-overloaded", **told, capacity=found.capacity)
-
-
-def warn_massless(entries: Entries, problem: Problem) -> None:
-    """Warn where a body that only joints hold, or all, has no mass: forgotten, most often."""
-    from ssilang.kernel.stepping.problem.bodies import loose_bodies
-
-    joints = problem.interface
-    bodies = []
-    if joints is not None:
-        bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
-    massless = [body for body in bodies if body.mass == 0.0]
-    if massless:
-        node = problem.numbering.table.told(massless[0].node)
-        others = len(massless) - 1
-        entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
-    if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
-        entries.warn("operators.dynamics.no-mass")
-
-
-def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
-    """Warn of supports beside the body, joints the wrong way round, beams on single nodes."""
-    place = entries.call.session, entries.place, entries.procedure
-    laden = [] if inputs.mass is None else [b.nodes.ravel() for b in inputs.mass.blocks]
-    warn_connections(*place, inputs.stiffness, inputs.model, inputs.characteristics, laden)
-    for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
-        if matrix is not None:
-            warn_repeated(*place, matrix, kind, inputs.stiffness)
-
-
-def warn_at_rest(entries: Entries, problem: Problem) -> None:
-    """Warn of a motion that nothing starts: no load, no first displacement or velocity."""
-    loading = problem.loading
-    acting = loading.at(problem.times).any(axis=0)
-    moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
-    given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
-    if not given and problem.contact is None and not entries.flag("CHARMECA"):
-        entries.warn("operators.dynamics.nothing-moves")
-
-
-def warn_contrast(entries: Entries, problem: Problem) -> None:
-    """Warn when joints are out of all proportion to the bodies: units, most often."""
-    from ssilang.kernel.statics.conditioning import joint_conditioning
-    from ssilang.kernel.stepping.problem.plausibility import STRANGE, stiffness_contrast
-
-    found = joint_conditioning(problem)
-    if found is not None and found.joints_are_to_blame:
-        told = {n: getattr(found, n) for n in ("number", "digits", "balanced", "kn", "wanted_kn")}
-        entries.warn("operators.dynamics.badly-conditioned", **told)
-        return
-    ratio = stiffness_contrast(problem)
-    if ratio is None or 1 / STRANGE <= ratio <= STRANGE:
-        return
-    told = {"stiffer": ratio if ratio > 1 else 0.0, "softer": 1 / ratio}
-    entries.warn("operators.dynamics.joints-out-of-proportion", **told)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from ssilang.kernel.interface.interface import is_macro
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.track import Rows, Track
 from ssilang.language.values import LazyTable, promises
 from ssilang.operators.prelude import *
@@ -58,8 +60,6 @@ def extremes_later(problem: Problem, again: Callable[[Extremes], object]) -> Laz
     found: list[Table] = []
 
     def find(kind: str) -> object:
-        from ssilang.kernel.stepping.extremes import Extremes
-
         if not found:
             extremes = Extremes(problem=problem)
             again(extremes)
@@ -98,8 +98,6 @@ class UpliftWatch(Track):
     @classmethod
     def of(cls, problem: Problem) -> UpliftWatch | None:
         """The watch of a problem with joints that can open; None without."""
-        from ssilang.kernel.interface.interface import is_macro
-
         joints, n = problem.interface, len(problem.times)
         if joints is None or any(is_macro(j.zone) for j in joints.joints):
             return None

@@ -137,7 +137,8 @@ def _part(call: Call, record: GroundMotion, factor: float | None, in_si: bool) -
     unit = {"ACCE": "m/s2", "VITE": "m/s", "DEPL": "m"}[record.quantity]
     system = workspace(call.session).units
     if not (in_si or (factor is None and record.has_unit and record.in_si == 1.0)):
-        return part
+        in_g = by == 1.0 and record.has_unit and record.unit.strip().lower() == "g"
+        return part.measured("s", "g") if in_g else part
     if system is None or system.factor(unit) == 1.0:
         return part.measured("s", unit)
     call.warn(

@@ -19,6 +19,7 @@ from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
+from ssilang.language.text.parser import parse_statements
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, Script, print_items
@@ -91,8 +92,6 @@ def _parsed(source: Source) -> Script:
 
 
 def _texte(text: str) -> Texte:
-    from ssilang.language.text.parser import parse_statements
-
     # behind a blank: a sign * in the first column would begin a comment
     try:
         statements = parse_statements(Source("saved text", f" {text};")) if text.strip() else []

@@ -8,6 +8,18 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.mesh.nodes import told_coordinates
+from ssilang.kernel.statics.cells_amiss import bent_layer, hanging_nodes
+from ssilang.kernel.statics.doubled import (
+    beside_joints,
+    bodies_apart,
+    doubled_supports,
+    held_nowhere,
+    holding_nothing,
+    repeated_cells,
+    springs_apart,
+)
+from ssilang.kernel.statics.stability import negative_unknowns
 from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
@@ -44,18 +56,31 @@ def warn_connections(
         tell("operators.matrices.mass-for-stiffness")
 
     foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
-    _warn_doubled_supports(tell, matrix, model, {n for w in foreign for n in w.data["names"]})
+    known = {n for w in foreign for n in w.data["names"]}
+    doubled = _warn_doubled_supports(tell, matrix, model, known)
     made = _joints_in(matrix)
     if model is None and made:
         model = Model(made)
     _warn_swapped_joints(tell, matrix, model, characteristics)
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
+    _warn_layers(tell, matrix)
+    zones = () if model is None else model.zones
+    others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
+    used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
+    found = {"operators.matrices.nodes-hang": hanging_nodes(matrix)}
+    if not doubled:
+        found["operators.matrices.holds-nothing"] = holding_nothing(matrix, used)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
-        _warn_apart(tell, matrix, model)
-        _warn_springs_apart(tell, matrix, model, laden)
+        found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
+        if not any(z.formulation == "CONTACT" for z in zones):
+            found["operators.matrices.beside-joints"] = beside_joints(matrix, joints)
+            found["operators.matrices.bodies-apart"] = bodies_apart(matrix, joints)
+    for code, nodes in found.items():
+        if len(nodes):
+            tell(code, count=len(nodes), node=matrix.table.told(int(nodes[0])))
     warn_repeated(session, span, operator, matrix, "RIGI", matrix)
-    if model is None or not any(is_joint(z) for z in model.zones):
+    if not joints:
         _warn_negative(tell, matrix)
 
 
@@ -68,50 +93,19 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
 
 def _warn_doubled_supports(
     tell: Tell, matrix: Matrix, model: Model | None, known: set[str]
-) -> None:
-    from ssilang.kernel.statics.doubled import doubled_supports, held_nowhere
-
+) -> bool:
     if model is None and (names := sorted(held_nowhere(matrix) - known)):
         tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
     found = doubled_supports(matrix, used)
     if found is None:
-        return
+        return False
     x, y, z = matrix.table.coordinates[found.held[0]]
     tell("operators.matrices.held-nodes-without-stiffness", n_held=len(found.held), x=x, y=y, z=z)
-
-
-def _warn_springs_apart(
-    tell: Tell, matrix: Matrix, model: Model | None, laden: Iterable[IntArray]
-) -> None:
-    from ssilang.kernel.statics.doubled import springs_apart
-
-    joined = [] if model is None or not model.zones else [model.mesh.node_ids]
-    found = springs_apart(matrix, np.concatenate([np.zeros(0, np.int64), *laden, *joined]))
-    if len(found):
-        told = {"count": len(found), "node": matrix.table.told(int(found[0]))}
-        tell("operators.matrices.springs-apart", **told)
-
-
-def _warn_apart(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.doubled import beside_joints, bodies_apart
-
-    zones = () if model is None else model.zones
-    if any(z.formulation == "CONTACT" for z in zones):
-        return
-    joints = [z for z in zones if is_joint(z)]
-    found = bodies_apart(matrix, joints)
-    if len(left := beside_joints(matrix, joints)):
-        told = {"count": len(left), "place": matrix.table.told(int(left[0]))}
-        tell("operators.matrices.beside-joints", **told)
-    if len(found) > 1:  # bodies that meet in a single node are seldom one
-        place = matrix.table.told(int(found[0]))
-        tell("operators.matrices.bodies-apart", count=len(found), place=place)
+    return True
 
 
 def _warn_negative(tell: Tell, matrix: Matrix) -> None:
-    from ssilang.kernel.statics.stability import negative_unknowns
-
     if found := negative_unknowns(matrix):
         node, name, value = found[0]
         told = {"node": matrix.table.told(node), "name": name, "value": value}
@@ -125,8 +119,6 @@ def warn_repeated(
 
     Layers, which the stiffness `beside` it knows by their constituents, may be of one mass.
     """
-    from ssilang.kernel.statics.doubled import repeated_cells
-
     layered = matrix is not beside and any(b.zone and b.zone.constituent for b in beside.blocks)
     if not layered and len(found := repeated_cells(matrix)):
         told = {"kind": kind, "count": len(found), "node": matrix.table.told(int(found[0]))}
@@ -139,9 +131,10 @@ def _warn_swapped_joints(
     model: Model | None,
     characteristics: CellField | None,
 ) -> None:
-    from ssilang.kernel.mesh.nodes import told_coordinates
-    from ssilang.kernel.statics.swapped_joints import swapped_joints
+    from ssilang.kernel.statics.swapped_joints import drawn_gaps, swapped_joints
 
+    for node, gap in drawn_gaps(model, characteristics):
+        tell("operators.matrices.gap-drawn", node=matrix.table.told(node), gap=gap)
     for found in swapped_joints(matrix, model, characteristics):
         place = told_coordinates(matrix.table.shown(np.round(found.middle, 9)))
         told = {"points": found.points, "overlap": found.overlap}
@@ -161,6 +154,12 @@ def _warn_footings(
             tell("operators.matrices.footing-turned", node=matrix.table.told(node))
         elif _UPRIGHT < angle < 90.0 - _UPRIGHT:
             tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
+
+
+def _warn_layers(tell: Tell, matrix: Matrix) -> None:
+    if (layer := bent_layer(matrix)) is not None:
+        told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
+        tell("operators.matrices.layer-bends", **told)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
+from ssilang.kernel.elements.beams.rotating import corotational
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
@@ -251,8 +252,6 @@ def turning_damping(
     reference: bool,
 ) -> tuple[Matrix, Matrix]:
     """Damping that turns with beams, and the circulatory stiffness beside it."""
-    from ssilang.kernel.elements.beams.rotating import corotational
-
     shown, material = present(call, model), joined(fields)
     blocks = [families.viscosity(z, material) for z in shown.zones if not is_shape(z)]
     pairs = zip(shown.zones, blocks, strict=True)

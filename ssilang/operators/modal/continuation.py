@@ -8,6 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.continuation.arc import Lengths, Tracer
+from ssilang.kernel.continuation.expansion import FrequencyProblem
+from ssilang.kernel.continuation.floquet import exponents, unstable
+from ssilang.kernel.continuation.harmonics import basis_of
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble,
@@ -16,6 +21,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
+from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names
 from ssilang.operators.prelude import *
@@ -118,8 +124,6 @@ BEND = np.radians(60.0)
 
 def lengths_of(entries: Entries) -> Lengths:
     """How far steps go: WTABLE . DS DSMIN DSMAX, NB_ITERATION, MAXITERATION, units."""
-    from ssilang.kernel.continuation.arc import Lengths
-
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
     entries.times("TEMPS_CALCULES")  # refuses what does not increase
     work = _work(entries)
@@ -164,8 +168,6 @@ class Begin:
 
 def continue_harmonics(entries: Entries) -> None:
     """Follow the branch and fill the tables."""
-    from ssilang.kernel.continuation.arc import Tracer
-
     names = known_names(entries)
     problem = _problem(entries, names)
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
@@ -187,10 +189,7 @@ def continue_harmonics(entries: Entries) -> None:
 
 
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
-    from ssilang.kernel.continuation.expansion import FrequencyProblem
-    from ssilang.kernel.continuation.harmonics import basis_of
     from ssilang.kernel.stepping.problem.constraints import constraints_of
-    from ssilang.kernel.stepping.problem.loading import loading_of
 
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w) for w in words)
@@ -267,8 +266,6 @@ def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
 
 def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:
     """What is left of a field of coefficients by the supports, (r,)."""
-    from ssilang.kernel.base.sparse import sp
-
     u = field_to_vector(field, problem.numbering, dual=False)
     T = problem.T
     gram = sp.csr_array(T.T @ T).toarray()
@@ -385,8 +382,6 @@ def _begin_again(
 def _floquet(
     entries: Entries, problem: FrequencyProblem, points: list[Solution], inner: Table, names: Names
 ) -> None:
-    from ssilang.kernel.continuation.floquet import unstable
-
     of = _exponents(entries, problem)
     found = np.array([of(p) for p in points])
     table = inner.get("FLOQ")
@@ -413,7 +408,6 @@ def _floquet(
 
 def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
     """Floquet exponents of a solution, from the matrices of the motion itself."""
-    from ssilang.kernel.continuation.floquet import exponents
     from ssilang.kernel.stepping.problem.constraints import constraints_of
 
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.operators.modal.dyne import (
     TABLES,
@@ -149,8 +150,6 @@ def _guess(
 
 
 def _lengths(numbers: Numbers) -> Lengths:
-    from ssilang.kernel.continuation.arc import Lengths
-
     start = numbers.real("DS0")
     lengths = Lengths(start, numbers.real("DSMIN", 1e-3 * start), numbers.real("DSMAX", 10 * start))
     if not 0.0 < lengths.least <= lengths.start <= lengths.most:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ElementKind, register_element
+from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
+from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
 from ssilang.kernel.materials.model import Mode
 from ssilang.operators.prelude import *
 
@@ -62,7 +65,6 @@ def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Wo
 def model_relations(model: Model, material: CellField | None) -> list[ContactRelations]:
     """Relations of all pairs of sides of a model, each pair once."""
     from ssilang.kernel.contact.unilateral import contact_relations
-    from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 
     found, seen = [], set()
     for zone in model.zones:
@@ -86,7 +88,6 @@ def model_relations(model: Model, material: CellField | None) -> list[ContactRel
 
 def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
     """Coulomb's friction of a pair of sides, None where they are smooth."""
-    from ssilang.kernel.base.errors import MaterialError
     from ssilang.kernel.contact.unilateral import Rubbing
 
     if zone.behaviour != COULOMB:
@@ -106,9 +107,6 @@ def uniform(zone: Zone, material: CellField | None, name: str, default: float | 
     MaterialError
         If it varies, or is missing without a default.
     """
-    from ssilang.kernel.base.errors import MaterialError
-    from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
-
     given = zone_field(zone, material)
     if name not in given:
         if default is None:

@@ -185,6 +185,9 @@ def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any
         value = values[name][0] if name in values else np.empty(0)
         if value.dtype == float and (value == 0.0).any():
             told.append((name, "operators.models.no-stiffness"))
+    shear = values["KS"][0] if "KS" in values else np.empty(0)
+    if "FROT" in values and shear.dtype == float and (shear == 0.0).any():
+        told.append(("FROT", "operators.models.friction-without-shear"))
     for name, code in told:
         if name in said:
             call.warn(code, said[name], name=name, mode=zone.mode.value)

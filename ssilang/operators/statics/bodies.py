@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.results.frames import FOLLOWING
+from ssilang.kernel.elements.solids.finite_motion import motion_of
+from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.operators.prelude import *
@@ -95,10 +98,6 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
 
 def warn_of_strains(entries: Entries, displacement: NodeField | None) -> None:
     """Tell, once, of solids that strain beyond what their law holds for, by the table below."""
-    from ssilang.kernel.elements.boundary import is_solid
-    from ssilang.kernel.elements.solids.finite_motion import motion_of
-    from ssilang.kernel.elements.solids.kinematics import harmonic
-
     finite = finite_zones(entries)
     zones = [z for z in finite or plastic_zones(entries.get("MODELE")) if is_solid(z)]
     for large, plastic, code, most in _HELD:

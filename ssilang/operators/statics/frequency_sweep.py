@@ -9,9 +9,12 @@ import numpy as np
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.pasapas_contact import joined_matrix
@@ -76,7 +79,6 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
 
 def _inputs(entries: Entries) -> HarmonicInputs:
     from ssilang.kernel.statics.frequency import HarmonicInputs
-    from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
@@ -118,9 +120,6 @@ def _inputs(entries: Entries) -> HarmonicInputs:
 
 
 def _check_linear(entries: Entries, zone: Zone) -> None:
-    from ssilang.kernel.interface.elements import is_joint
-    from ssilang.kernel.interface.laws.law_table import law_of
-
     if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
         raise KernelError(
             "operators.statics.law-has-no-harmonic-response", behaviour=zone.behaviour

@@ -13,6 +13,7 @@ from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.thermal_load import (
     check_strains,
@@ -21,15 +22,10 @@ from ssilang.kernel.statics.thermal_load import (
     split_strains,
     with_pressures,
 )
+from ssilang.operators.dynamics import plausibility
 from ssilang.operators.dynamics.checkpoints import kept_calculation
-from ssilang.operators.dynamics.plausibility import warn_of_loads, warn_of_start
 from ssilang.operators.dynamics.recording import calculation_record, recorded
-from ssilang.operators.dynamics.reports import (
-    report,
-    warn_contrast,
-    warn_of_connections,
-    warn_resolution,
-)
+from ssilang.operators.dynamics.reports import report
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.modal.stepped_links import stepped_links
 from ssilang.operators.prelude import *
@@ -76,7 +72,7 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
-    warn_of_loads(entries, entries.get("CHARGEMENT"), times)
+    plausibility.warn_of_loads(entries, entries.get("CHARGEMENT"), times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     if stepped_links(entries, times, saved):
@@ -152,8 +148,8 @@ def _stretch(
         bodies = loaded_bodies(procedure_law(entries), "loads by a procedure", bodies)
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
-        warn_of_connections(work, inputs)
-        warn_of_start(work, problem, inputs, in_statics=not dynamic)
+        plausibility.warn_of_connections(work, inputs)
+        plausibility.warn_of_start(work, problem, inputs, in_statics=not dynamic)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     strained = _strained(given, bool(finite))
@@ -176,7 +172,7 @@ def _stretch(
         observers.append(keeper)
     line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
-        (warn_resolution if dynamic else warn_contrast)(work, problem)
+        (plausibility.warn_resolution if dynamic else plausibility.warn_contrast)(work, problem)
         with recorded(record):
             if path:
                 history = follow(entries, _path_run(problem, inputs, bodies, observers))
@@ -373,8 +369,6 @@ def _inputs(
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)
-    from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
-
     finite = finite_zones(entries)
     yielding = tuple(z for z in plastic_zones(model) if z not in finite)
     blocks += [without_stiffness(z) for z in finite]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -129,8 +130,6 @@ def _or_warning(
     call: Call, matrix: Matrix, loads: tuple[NodeField, ...], options: SolveOptions
 ) -> tuple[NodeField, ...]:
     """Solutions; loads that drive a free motion give a warning instead of an error."""
-    from dataclasses import replace
-
     try:
         return tuple(solve(matrix, loads, replace(options, project=False)))
     except KernelError as problem:
@@ -158,8 +157,6 @@ def with_motions(
 
     Where the loads drive a free motion, the motion itself is given.
     """
-    from dataclasses import replace
-
     options = _options(call, words)
     motions, pins = free_motion_fields(matrix, options)
     fields = []

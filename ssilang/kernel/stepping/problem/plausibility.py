@@ -20,13 +20,15 @@ from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
+from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translation
 from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
+from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
 MOST_BODIES = 20  # beyond, joints and relations are a material
-MOST_MOTIONS = 400  # free motions up to which a dense solve costs nothing beside the steps
+MOST_MOTIONS, DENSE = 5000, 400  # free motions up to which a solve costs little beside the steps
 SUNK = 0.1  # of a body's size, that its joints give way
 PRESSED = 0.02  # mean force of a weight beside the largest one
 WEAK = 1e-13  # stiffness beside the largest one that holds nothing
@@ -195,19 +197,20 @@ def swings(problem: Problem) -> list[Swing]:
     if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
         return []
     forces = np.column_stack([T.T @ f for f, _ in given])
-    K = closed_stiffness(problem).toarray()
-    if not K.any() or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
+    K = closed_stiffness(problem)
+    largest = float(abs(K).max()) if K.nnz else 0.0
+    if not largest or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return []
-    try:
-        motions = np.linalg.solve(K, forces)
-    except np.linalg.LinAlgError:
-        # held by less than nothing: a load that moves a part of what is free is seen, too
-        motions = np.linalg.solve(K + 0.01 * WEAK * np.abs(K).max() * np.eye(len(K)), forces)
-    free = np.abs(motions).max(axis=0) * np.abs(K).max() * WEAK > np.abs(forces).max(axis=0)
+    # held by next to nothing: a load that moves a part of what is free is seen, too
+    motions = _solved(K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest), forces)
+    free = np.abs(motions).max(axis=0) * largest * WEAK > np.abs(forces).max(axis=0)
+    free |= (motions * (K @ motions)).sum(axis=0) < WEAK * (K.diagonal() @ motions**2)
     found = []
     for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
-            if x @ (problem.C @ x) <= ROUNDING * (x**2 @ abs(problem.C.diagonal())):
+            drag, pull = problem.C @ x, problem.M @ x  # damping by mass holds nothing
+            drag = drag - pull * (x @ drag) / ((x @ pull) or 1.0)
+            if np.abs(x * drag).max() <= LITTLE * (x**2 @ abs(problem.C.diagonal())):
                 found.append(Swing(np.inf, 0.0, sudden))
             continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
@@ -215,6 +218,12 @@ def swings(problem: Problem) -> list[Swing]:
             period, damped = 2.0 * np.pi * np.sqrt(moved / work), float(x @ (problem.C @ x))
             found.append(Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden))
     return found
+
+
+def _solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
+    if K.shape[0] <= DENSE:
+        return np.asarray(np.linalg.solve(K.toarray(), forces), float)
+    return SuperLUFactor(sp.csr_array(K), positive=False).solve(forces)
 
 
 def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
@@ -234,8 +243,6 @@ def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
 
 def against_supports(problem: Problem) -> dict[str, IntArray]:
     """Conditions that the initial displacements ('DEPL') and velocities ('VITE') do not obey."""
-    from ssilang.kernel.stepping.problem.initial import admissible_velocity
-
     rows = problem.constraints.C
     imposed = problem.loading.imposed @ problem.loading.at(problem.times[:1])[0]
     taken = problem.v - admissible_velocity(problem)
@@ -266,14 +273,6 @@ def masses_alone(problem: Problem) -> IntArray:
     dashpots = sp.coo_array(problem.C[rows])
     joined = (dashpots.data != 0.0) & (rows[dashpots.row] != dashpots.col)
     return np.setdiff1d(found, nodes[rows[dashpots.row[joined]]])
-
-
-def held_joints(problem: Problem) -> bool:
-    """Whether supports hold both sides of all joints: none can open or slip."""
-    joints = problem.interface
-    if joints is None or problem.loading.imposed.any() or not joints.n_points:
-        return False
-    return bool(abs(joints.J @ problem.constraints.T).max() <= ROUNDING)
 
 
 def on_supports(problem: Problem) -> tuple[IntArray, bool]:

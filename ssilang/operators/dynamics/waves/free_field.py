@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ssilang.kernel.records.soil_column import SoilColumn, free_field
+from ssilang.kernel.waves.resolution import highest_frequency
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -24,8 +26,6 @@ _LAYERS = ("EPAISSEUR", "MASSE_VOLUMIQUE", "MODULE", "AMORTISSEMENT")
 @operator("ZCOL", family="dynamics")
 def zcol(call: Call, table: Table = Arg("TABLE", en="layers, motion and depths")) -> Table:
     """Read the table, compute, hand back curves."""
-    from ssilang.kernel.records.soil_column import SoilColumn, free_field
-
     entries = Entries(call, table, "ZCOL")
     thickness, density, modulus, damping = (entries.needed(name).values for name in _LAYERS)
     f1, f2, cutoff = (entries.needed(name) for name in ("F1", "F2", "FC"))
@@ -52,8 +52,6 @@ def zcol(call: Call, table: Table = Arg("TABLE", en="layers, motion and depths")
 
 def _tell_coarse(entries: Entries, soil: SoilColumn, signal: CurvePart, cutoff: float) -> None:
     """Warn, once for a script, of the layer whose nodes are farthest apart for its waves."""
-    from ssilang.kernel.waves.resolution import highest_frequency
-
     heights = entries.get("ECARTS")
     frequency = min(cutoff, highest_frequency(signal.abscissas, signal.ordinates))
     if heights is None or frequency <= 0.0:

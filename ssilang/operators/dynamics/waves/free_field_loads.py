@@ -7,20 +7,39 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
+from ssilang.kernel.waves.free_field_forces import (
+    Ground,
+    Motion,
+    along_columns,
+    edge_forces,
+    elements_at,
+    elements_of,
+    layer_forces,
+    load_of,
+    yielded,
+    yielding_at,
+    yielding_outside,
+)
+from ssilang.kernel.waves.resolution import (
+    coarse_elements,
+    highest_frequency,
+    pressure_speed,
+    reflecting_edges,
+)
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.waves.free_field_forces import Ground, Motion, Share
 
+_LOWEST = 3  # heights that the elements of the base may have
+_UNBALANCED = 0.3  # of the forces of inertia: what damping leaves is less
 _MOTION = ("DEPL", "VITE", "ACCE")
 
 
 @operator("ZDRM", family="dynamics")
 def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
     """Forces at the layer."""
-    from ssilang.kernel.waves.free_field_forces import elements_of, layer_forces, load_of
-
     entries = Entries(call, table, "@DRM")
     _outside_is_linear(entries)
     layer = elements_of(_ground(entries), entries.needed("COUCHE"))
@@ -35,8 +54,6 @@ def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
 @operator("ZBOR", family="dynamics")
 def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     """Forces at the edges."""
-    from ssilang.kernel.waves.free_field_forces import edge_forces, elements_at, load_of
-
     entries = Entries(call, table, "@BORDS")
     _edges_are_linear(entries)
     edge = entries.needed("FRONTIERE")
@@ -44,14 +61,33 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     motion = _motion(entries, row.numbering)
     _free_field_is_linear(entries, row)
     _tell_coarse(entries, motion)
+    if entries.get("COLONNE") is not None:
+        _tell_other_ground(entries, row, motion)
     forces = edge_forces(row, edge, entries.needed("AMORTISSEURS"), motion)
     return load_of(row.numbering, motion.times, forces)
 
 
+def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
+    """Warn of a column whose motion is not in balance with the ground's elements, by height.
+
+    What the elements above those of the base exert sums to nought at a height, the motion being
+    the same along it; of damping that the table does not name a part is left.
+    """
+    u, v, a = (np.nan_to_num(of) for of in motion.at(row.touched))
+    numbering, axis = row.numbering, _upward(row.numbering)
+    size = [np.abs(a[numbering.where(n)]).max(initial=0.0) for n in numbering.unknowns]
+    moving = numbering.codes == int(np.argmax(size))
+    heights = numbering.table.coordinates[numbering.nodes, axis].round(6)
+    levels, at = np.unique(heights, return_inverse=True)
+    sums = np.zeros((len(levels), 2, u.shape[1]))
+    np.add.at(sums, at[moving], np.stack([row.force(u, v, a), row.mass @ a], axis=1)[moving])
+    left, whole = np.linalg.norm(sums[_LOWEST:], axis=(0, 2))
+    if left > _UNBALANCED * whole > 0.0:
+        entries.warn("operators.dynamics.column-of-others", share=100.0 * left / whole)
+
+
 def _outside_is_linear(entries: Entries) -> None:
     """Refuse laws in the layer and outside it, where matrices stand for the ground."""
-    from ssilang.kernel.waves.free_field_forces import yielding_outside
-
     found = yielding_outside(entries.needed("MODELE"), entries.needed("INTERIEUR"))
     if found is not None:
         raise entries.error("operators.dynamics.soil-yields-outside", **found.told())
@@ -59,8 +95,6 @@ def _outside_is_linear(entries: Entries) -> None:
 
 def _edges_are_linear(entries: Entries) -> None:
     """Refuse laws in the elements at the edges, whose matrices stand for the ground beyond."""
-    from ssilang.kernel.waves.free_field_forces import yielding_at
-
     found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
     if found is not None:
         raise entries.error("operators.dynamics.soil-yields-at-edges", **found.told())
@@ -68,8 +102,6 @@ def _edges_are_linear(entries: Entries) -> None:
 
 def _free_field_is_linear(entries: Entries, share: Share) -> None:
     """Refuse a free field that has yielded where the ground's matrices take its motion."""
-    from ssilang.kernel.waves.free_field_forces import yielded
-
     table = entries.needed("MOUVEMENT")
     last = max(i for i in table.indices() if isinstance(i, int))
     variables = table.get(last).get("VARIABLES_INTERNES")
@@ -79,12 +111,7 @@ def _free_field_is_linear(entries: Entries, share: Share) -> None:
     axis = None if entries.get("COLONNE") is None else _upward(share.numbering)
     found = yielded(variables, nodes, axis)
     if found is not None:
-        raise entries.error(
-            "operators.dynamics.free-field-yields",
-            strain=found.strain,
-            place=found.place,
-            count=found.count,
-        )
+        raise entries.error("operators.dynamics.free-field-yields", **vars(found))
 
 
 def _upward(numbering: Numbering) -> int:
@@ -93,15 +120,11 @@ def _upward(numbering: Numbering) -> int:
 
 
 def _ground(entries: Entries) -> Ground:
-    from ssilang.kernel.waves.free_field_forces import Ground
-
     return Ground(entries.needed("RIGI"), entries.needed("MASS"), entries.get("AMOR"))
 
 
 def _motion(entries: Entries, numbering: Numbering) -> Motion:
     """Histories of the free field on the ground's unknowns, from instants 1, 2 ..."""
-    from ssilang.kernel.waves.free_field_forces import Motion
-
     table = entries.needed("MOUVEMENT")
     count = sum(isinstance(i, int) for i in table.indices())
     instants = [table.get(i + 1) for i in range(count)]
@@ -144,8 +167,6 @@ def _spread(entries: Entries, numbering: Numbering) -> Any:
 
 def _column(numbering: Numbering, nodes: IntArray) -> tuple[IntArray, dict[str, Any]]:
     """One node a height of the column, and the weights of each unknown's nodes in them."""
-    from ssilang.kernel.waves.free_field_forces import along_columns
-
     axis = _upward(numbering)
     heights = numbering.table.coordinates[:, axis]
     span = float(np.ptp(heights[nodes])) or 1.0
@@ -160,8 +181,6 @@ def _column(numbering: Numbering, nodes: IntArray) -> tuple[IntArray, dict[str, 
 
 def _tell_coarse(entries: Entries, motion: Motion) -> None:
     """Warn of elements too long for the highest frequency, that of the motion if none is given."""
-    from ssilang.kernel.waves.resolution import coarse_elements, highest_frequency
-
     frequency = entries.get("FREQUENCE")
     if frequency is None:
         frequency = highest_frequency(motion.times, np.nan_to_num(motion.acceleration))
@@ -171,22 +190,12 @@ def _tell_coarse(entries: Entries, motion: Motion) -> None:
     coarse = coarse_elements(model, material, frequency)
     if coarse is not None:
         table = model.zones[0].cells.nodes
-        entries.warn(
-            "operators.dynamics.element-too-long",
-            place=table.shown(coarse.place),
-            length=coarse.length,
-            frequency=frequency,
-            speed=coarse.shear,
-            wanted=coarse.wanted,
-            elements=coarse.elements,
-            count=coarse.count,
-        )
+        told = vars(coarse) | {"place": table.shown(coarse.place), "frequency": frequency}
+        entries.warn("operators.dynamics.element-too-long", **told)
 
 
 def _tell_reflecting(entries: Entries, motion: Motion) -> None:
     """Warn where what leaves the layer comes back from an edge before the motion ends."""
-    from ssilang.kernel.waves.resolution import pressure_speed, reflecting_edges
-
     model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
     found = reflecting_edges(model, entries.needed("COUCHE"), entries.get("AMORTISSEURS"))
     if found is None:
@@ -195,10 +204,5 @@ def _tell_reflecting(entries: Entries, motion: Motion) -> None:
     back = 2 * found.distance / fastest
     if back < motion.times[-1] - motion.times[0]:
         table = model.zones[0].cells.nodes
-        entries.warn(
-            "operators.dynamics.edges-reflect",
-            place=table.shown(found.place),
-            distance=found.distance,
-            back=back,
-            count=found.count,
-        )
+        told = vars(found) | {"place": table.shown(found.place), "back": back}
+        entries.warn("operators.dynamics.edges-reflect", **told)

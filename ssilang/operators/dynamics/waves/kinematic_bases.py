@@ -6,6 +6,15 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from ssilang.kernel.waves.incoherence import (
+    Ground,
+    RigidBase,
+    averaged,
+    factors,
+    frequencies_of,
+    signs,
+    steps_before,
+)
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -30,8 +39,6 @@ _IMPOSSIBLE = 0.1
 @operator("ZBAS", family="dynamics")
 def zbas(call: Call, table: Table = Arg("TABLE", en="table of @PASSAGE")) -> Table:
     """Read the table, compute, hand back curves over the frequency and the base's record."""
-    from ssilang.kernel.waves.incoherence import factors
-
     entries = Entries(call, table, "@PASSAGE")
     base, ground = _base(entries), _ground(entries)
     frequencies, record = entries.get("FREQUENCES"), entries.get("ACCELERATION")
@@ -52,8 +59,6 @@ def zbas(call: Call, table: Table = Arg("TABLE", en="table of @PASSAGE")) -> Tab
 
 
 def _base(entries: Entries) -> RigidBase:
-    from ssilang.kernel.waves.incoherence import RigidBase
-
     shape = entries.needed("FORME")
     sizes = []
     for name in _SIZES[shape]:
@@ -65,8 +70,6 @@ def _base(entries: Entries) -> RigidBase:
 
 
 def _ground(entries: Entries) -> Ground:
-    from ssilang.kernel.waves.incoherence import Ground
-
     young, poisson, density = (
         float(entries.needed(n)) for n in ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
     )
@@ -87,14 +90,6 @@ def _filter(
     entries: Entries, base: RigidBase, ground: Ground, record: CurvePart, result: Table
 ) -> None:
     """The record of the base, and of its turning: rocking, or torsion of motion across the way."""
-    from ssilang.kernel.waves.incoherence import (
-        averaged,
-        factors,
-        frequencies_of,
-        signs,
-        steps_before,
-    )
-
     steps = np.diff(record.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.error("operators.dynamics.equal-steps-wanted")

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
+from ssilang.kernel.waves.layered_half_space import HalfSpace, PlaneWave, plane_motion
+from ssilang.kernel.waves.matched_layer import matched_layer
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -26,8 +28,6 @@ DRIFT = 0.02
 @operator("ZOPL", family="dynamics")
 def zopl(call: Call, table: Table = Arg("TABLE", en="table of @ONDE")) -> Table:
     """Read the table, compute, hand back instants."""
-    from ssilang.kernel.waves.layered_half_space import plane_motion
-
     entries = Entries(call, table, "@ONDE")
     dimension = workspace(call.session).dimension
     points, wave = entries.needed("POINTS"), cast("Kind", entries.needed("ONDE"))
@@ -50,8 +50,6 @@ def zopl(call: Call, table: Table = Arg("TABLE", en="table of @ONDE")) -> Table:
 
 
 def _wave(entries: Entries, kind: Kind, depth: float) -> PlaneWave:
-    from ssilang.kernel.waves.layered_half_space import PlaneWave
-
     curve = cast("Curve", entries.needed("ACCELERATION")).parts[0]
     steps = np.diff(curve.abscissas)
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
@@ -69,8 +67,6 @@ def _wave(entries: Entries, kind: Kind, depth: float) -> PlaneWave:
 
 
 def _ground(entries: Entries) -> HalfSpace:
-    from ssilang.kernel.waves.layered_half_space import HalfSpace
-
     entries.needed("COUCHES")
     layers = entries.inside("COUCHES")
     assert layers is not None
@@ -129,8 +125,6 @@ FEWEST = 4
 @operator("ZPML", family="dynamics")
 def zpml(call: Call, table: Table = Arg("TABLE", en="table of @PML")) -> Table:
     """Read the table, hand back three matrices."""
-    from ssilang.kernel.waves.matched_layer import matched_layer
-
     entries = Entries(call, table, "@PML")
     made = matched_layer(
         entries.needed("MODELE"), entries.needed("CARACTERISTIQUES"),

@@ -1,0 +1,98 @@
+"""Cells that do not fit: nodes that hang in the edge of another cell, single layers that bend.
+
+A node in the middle of an edge that does not know it moves by itself: the two sides part or
+overlap there. A cell with linear sides cannot bend: where one layer of them is all that there is
+across a plate, shear takes what bending should (R. D. Cook, Concepts and Applications of Finite
+Element Analysis, the four-node element in pure bending).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain, combinations
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, IntArray
+from ssilang.kernel.elements.catalog import LOCKING
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.statics.doubled import face_keys
+
+_SAME = 1e-9  # of directions that are one
+_LONG = 2.0  # length over thickness of a cell beyond which a single layer is told
+_PLATE = 10.0  # thicknesses across which a single layer is a plate
+
+
+def _solids(matrix: Matrix) -> Iterator[tuple[ElementMatrices, Zone, list[BoolArray]]]:
+    """Blocks of cells of two or three dimensions; by face, which cells have it for themselves."""
+    blocks = {id(b.raw_nodes): b for b in matrix.blocks if b.zone and not is_joint(b.zone)}.values()
+    solids = [(b, b.zone) for b in blocks if b.zone and b.zone.cells.kind.dimension >= 2]
+    keys = [[face_keys(b.nodes[:, list(x)]) for _, x in z.cells.kind.faces] for b, z in solids]
+    every = np.concatenate([np.zeros(0, np.int64), *chain.from_iterable(keys)])
+    known, times = np.unique(every, return_counts=True)
+    for (block, zone), own in zip(solids, keys, strict=True):
+        yield block, zone, [np.isin(k, known[times == 1]) for k in own]
+
+
+def hanging_nodes(matrix: Matrix) -> IntArray:
+    """Nodes (n,), in no condition, inside an edge of a cell that shares an end with their own."""
+    links = [np.zeros((0, 2), np.int64)]
+    for block, zone, border in _solids(matrix):
+        kind = zone.cells.kind
+        for (name, local), alone in zip(kind.faces, border, strict=True):
+            ring = np.array(local[: len(local) - (name in ("TRI7", "QUA9"))])
+            ends = ring if kind.dimension == 3 else ring[:-1]
+            pairs = np.stack([ends, np.resize(np.roll(ring, -1), len(ends))], axis=1)
+            links.append(block.nodes[alone][:, pairs].reshape(-1, 2))
+    edges = np.concatenate(links)
+    a, b = np.unique(np.concatenate([edges, edges[:, ::-1]]), axis=0).T
+    way = matrix.table.coordinates[b] - matrix.table.coordinates[a]
+    length = np.linalg.norm(way, axis=1)
+    unit = way / np.maximum(length, np.finfo(float).tiny)[:, None]
+    order = np.lexsort((unit @ (0.5413, 0.6967, 0.4711), a))
+    a, b, unit, length = a[order], b[order], unit[order], length[order]
+    alike = np.abs(np.diff(unit, axis=0)).max(axis=1, initial=0.0) < _SAME
+    together = np.flatnonzero((np.diff(a) == 0) & alike)
+    inner = b[together + (length[together] > length[together + 1])]
+    tied = [r.nodes for r in matrix.relations]
+    return np.setdiff1d(inner, np.concatenate([inner[:0], *tied]))
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A single layer of linear cells: a node, their number, their length over their thickness."""
+
+    node: int
+    count: int
+    slender: float
+
+    @property
+    def stiffer(self) -> float:
+        """How many times too stiff it bends, for Poisson's ratio 0: `1 + (l / t)^2 / 2`."""
+        return 1.0 + 0.5 * self.slender**2
+
+
+def bent_layer(matrix: Matrix) -> Layer | None:
+    """The most slender of single layers of linear cells, some thicknesses large; None without."""
+    tied = np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)])
+    found = []
+    for block, zone, border in _solids(matrix):
+        points = matrix.table.coordinates[block.nodes]
+        sides = [list(local) for _, local in zone.cells.kind.faces]
+        loose = ~np.isin(block.nodes, tied).all(axis=1)
+        for i, j in combinations(range(len(sides)), 2):
+            if {*sides[i]} & {*sides[j]} or zone.element not in LOCKING:
+                continue
+            across = points[:, sides[i]].mean(axis=1) - points[:, sides[j]].mean(axis=1)
+            thick = np.linalg.norm(across, axis=1)
+            along = points[:, sides[i]] - np.roll(points[:, sides[i]], 1, axis=1)
+            slender = np.linalg.norm(along, axis=2).max(axis=1) / thick
+            alone = border[i] & border[j] & loose & (slender > _LONG)
+            size = np.ptp(points[alone].reshape(-1, 3), axis=0).max() if alone.any() else 0.0
+            if size > _PLATE * thick[alone].max(initial=0.0):
+                node, mean = int(block.nodes[alone][0, 0]), float(np.median(slender[alone]))
+                found.append(Layer(node, int(alone.sum()), mean))
+    return max(found, key=lambda layer: layer.slender, default=None)

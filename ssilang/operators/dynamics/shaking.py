@@ -1,0 +1,173 @@
+"""What DYNAMIC warns of where a motion enters: how strong it is, in which frame, what it meets.
+
+A load shakes where it is the mass times an acceleration of the whole; supports move as one where
+their imposed values are those of a translation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
+from ssilang.kernel.stepping.problem.loading import nodal_terms
+from ssilang.kernel.stepping.problem.plausibility import AXES
+from ssilang.operators.prelude import *
+from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.interface.interface import Interface
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+
+Told = Iterator[tuple[str, dict[str, Any]]]
+
+GRAVITY = 9.81  # m/s2
+GRAVITIES = (GRAVITY, 1e3 * GRAVITY)  # in metres or millimetres
+STRONG = 3.0  # g; more than the ground of any earthquake but one
+WEIGHT = (0.05, 3.0)  # g; what pulls down
+SAME = 1e-6  # of a force, that is rounding
+LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made for a look
+LEVELS = 3  # heights of a side; a base has one
+NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
+"""What a curve is of, by the first letters of the name of its ordinates."""
+
+
+def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
+    """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
+    axes = [a for a in AXES if a in problem.numbering.unknowns]
+    found = [] if not axes else [*_Entering(problem, inputs, axes).told(entries)]
+    if (joints := problem.interface) is not None:
+        found += [*_bridged(problem, joints, inputs), *_held_footings(problem, joints)]
+    for code, told in found:
+        entries.warn(code, **told)
+
+
+def _shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:
+    """What makes each of `wholes` (n, k) of `parts` (n, d): (d, k), nought where nothing does."""
+    shares = np.linalg.lstsq(parts, wholes, rcond=None)[0]
+    off = np.abs(parts @ shares - wholes).max(axis=0, initial=0.0)
+    return np.where(off > SAME * np.abs(wholes).max(axis=0, initial=0.0), 0.0, shares)
+
+
+class _Entering:
+    """Motions that enter: accelerations (d, k) of the loads and of the base, nought for others."""
+
+    def __init__(self, problem: Problem, inputs: Inputs, axes: list[str]) -> None:
+        self.problem, self.inputs, self.axes = problem, inputs, axes
+        numbering, loading, T = problem.numbering, problem.loading, problem.constraints.T
+        along = [numbering.codes == numbering.code(a) for a in axes]
+        self.along = np.column_stack(along).astype(float)
+        self.factors = np.abs(loading.at(problem.times)).max(axis=0)
+        self.changing = np.ptp(loading.at(problem.times), axis=0) > 0.0
+        self.loads = np.zeros((len(axes), loading.forces.shape[1]))
+        if loading.forces.size < LARGE:
+            self.loads = _shares(T.T @ (problem.M @ self.along), T.T @ loading.forces)
+        self.base = _shares(problem.constraints.C @ self.along, loading.imposed * self.changing)
+        self.shaken = np.abs(self.loads * self.changing).sum(axis=1)
+
+    def told(self, entries: Entries) -> Told:
+        """Codes of warnings with their data."""
+        yield from self._strange_loads(workspace(entries.call.session).units)
+        if (np.abs(self.base).sum(axis=1) * self.shaken).any():
+            yield "operators.dynamics.shaken-twice", {}
+        T, moved = self.problem.constraints.T, self.along @ self.base[:, self.base.any(axis=0)]
+        braked, pulled = T.T @ (self.problem.C @ moved), T.T @ (self.problem.M @ moved)
+        if any(
+            _shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
+        ):
+            yield "operators.dynamics.damped-against-ground", {}
+        yield from self._sides()
+
+    def _strange_loads(self, system: Any) -> Told:
+        loading, load = self.problem.loading, self.inputs.load
+        terms = [(p, t) for p in load.parts for t in nodal_terms(p)] if load else []
+        sizes = np.linalg.norm(self.loads, axis=0) * self.factors
+        units = [s for s in sizes[~self.changing] if min(abs(s / g - 1) for g in GRAVITIES) < 0.01]
+        g = GRAVITY / system.length if system else units[0] if units else np.inf
+        begun = self.problem.contact or self.problem.u.any() or self.problem.v.any()
+        for k, (part, _) in enumerate(terms):
+            curve = part.time.parts[0] if part.time is not None else None
+            kind = "" if curve is None else NAMES.get(curve.ordinate_name.strip().upper()[:4], "")
+            down = abs(self.loads[-1, k]) * self.factors[k]
+            shakes = self.changing[k] and sizes[k] > 0.0
+            odd = system and not WEIGHT[0] < down / g < WEIGHT[1]
+            imposes = loading.imposed[:, k].any()
+            pulls = not self.changing[k] and down > 0.0 and len(self.axes) > 1
+            told = {"name": part.name, "value": sizes[k], "times": sizes[k] / g, "wanted": g}
+            told |= {"velocities": kind == "VITE", "most": STRONG}
+            for code, holds in {
+                "operators.dynamics.shaken-strongly": shakes and sizes[k] > STRONG * g,
+                "operators.dynamics.shaken-in-g": shakes and curve and curve.units[1] == "g",
+                "operators.dynamics.shaken-by-others": shakes and kind in ("VITE", "DEPL"),
+                "operators.dynamics.imposed-by-others": kind in ("VITE", "ACCE") and imposes,
+                "operators.dynamics.weight-dropped": pulls and not begun and self.shaken.any(),
+                "operators.dynamics.weight-unusual": pulls and odd,
+            }.items():
+                if holds:
+                    yield code, told
+
+    def _sides(self) -> Told:
+        """Rollers along the shaking: held that way and free to move up, at several heights."""
+        numbering, T = self.problem.numbering, self.problem.constraints.T
+        free = abs(T).sum(axis=1) > ROUNDING
+        rising = numbering.nodes[(self.along[:, -1] > 0.0) & free]
+        moved = self.shaken + np.abs(self.base).sum(axis=1)
+        for axis in np.flatnonzero(moved[:-1] > SAME * moved.max()):
+            held = numbering.nodes[(self.along[:, axis] > 0.0) & ~free]
+            held = held[np.isin(held, rising)]
+            heights = numbering.table.coordinates[held, len(self.axes) - 1]
+            if len(np.unique(heights.round(9))) >= LEVELS:
+                told = {"count": len(held), "node": numbering.table.told(int(held[0]))}
+                yield "operators.dynamics.sides-held", {"axis": self.axes[axis], **told}
+
+
+def _bridged(problem: Problem, joints: Interface, inputs: Inputs) -> Told:
+    """Dashpots to the ground, along the normal of joints, on bodies that these alone hold."""
+    blocks = () if inputs.damping is None else inputs.damping.blocks
+    alone = [b for b in blocks if b.nodes.shape[1] == 1 and b.kind != "MASSE"]
+    if not alone or not loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
+        return
+    for joint in joints.joints:
+        upper, axis = joint.zone.cells.nodes.resolve(joint.upper).ravel(), _normal(joint)
+        for nodes in (b.nodes[:, 0] for b in alone if axis in b.unknowns and b.values.any()):
+            if (there := np.intersect1d(nodes, upper)).size:
+                told = {"axis": axis, "node": problem.numbering.table.told(int(there[0]))}
+                yield "operators.dynamics.joints-bridged", told
+                return
+
+
+def _held_footings(problem: Problem, joints: Interface) -> Told:
+    """Joints that supports keep from opening, sides of joints that they hold like a structure."""
+    rows, numbering = problem.constraints.C, problem.numbering
+    if problem.loading.imposed.any() or not joints.n_points:
+        return
+    left = abs(joints.J @ problem.constraints.T).max(axis=1).toarray().reshape(-1, joints.dimension)
+    moving = (left > ROUNDING)[joints.pairs].reshape(joints.n_points, 1, -1)
+    moves: BoolArray = np.asarray(((np.abs(joints.B) > ROUNDING) & moving).any(axis=2))
+    if not moves[:, -1].any():
+        closed, held = "operators.dynamics.joints-closed", "operators.dynamics.joints-held"
+        yield (closed if moves.any() else held), {}
+        return
+    alone = np.diff(rows.indptr) == 1
+    held, ties = rows[alone].indices, abs(rows[~alone])
+    for joint in joints.joints:
+        upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
+        tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
+        along = _normal(joint)
+        names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}
+        codes = [numbering.code(n) for n in names & {*numbering.unknowns}]
+        kept = held[np.isin(numbering.nodes[held], tied) & np.isin(numbering.codes[held], codes)]
+        if len(kept):
+            yield "operators.dynamics.footing-held", {"unknown": numbering.label(int(kept[0]))}
+            return
+
+
+def _normal(joint: JointCells) -> str:
+    """The displacement along which a joint opens, most."""
+    normal = np.abs(joint.frames[..., -1, :]).reshape(-1, joint.frames.shape[-1]).mean(axis=0)
+    return displacement_names(joint.zone)[int(normal.argmax())]
