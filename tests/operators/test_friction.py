@@ -208,7 +208,8 @@ def test_tensions_of_a_prestressed_cable(found, sizes):
         "M = MODE L MECANIQUE ELASTIQUE ARMATURE BARR ; "
         f"A = MATE M YOUN 1.9E11 SECT 1.E-3 FF {f} PHIF {phi} RMU0 1. GANC {slip} ; "
         f"T = TABLE ; T . 'FF' = {f} ; T . 'PHIF' = {phi} ; T . 'RMU0' = 1. ; "
-        "P1 = PREC M A 1.E6 P ; P2 = PREC M A T 1.E6 P ; R = INTG M (P2 - P1) EFFX ; X = MINI P2 ; ",
+        "P1 = PREC M A 1.E6 P ; P2 = PREC M A T 1.E6 P ; "
+        "R = INTG M (P2 - P1) EFFX ; X = MINI P2 ; ",
         "R",
         "X",
         "X",
