@@ -205,11 +205,11 @@ def test_tensions_of_a_prestressed_cable(found, sizes):
     pulled, held_back, far = found(
         "OPTI DIME 2 ELEM SEG2 ; O = 0. 0. ; P = 50. 0. ; Q = 0. 50. ; L1 = CERC 200 P O Q ; "
         "L2 = DROI 100 Q (-30. 50.) ; L = L1 ET L2 ; "
-        "M = MODE L MECANIQUE ELASTIQUE BARR ; A = MATE M YOUN 1.9E11 NU .3 SECT 1.E-3 ; "
+        "M = MODE L MECANIQUE ELASTIQUE ARMATURE BARR ; "
+        f"A = MATE M YOUN 1.9E11 SECT 1.E-3 FF {f} PHIF {phi} RMU0 1. GANC {slip} ; "
         f"T = TABLE ; T . 'FF' = {f} ; T . 'PHIF' = {phi} ; T . 'RMU0' = 1. ; "
-        f"T . 'GANC' = {slip} ; "
-        "P1 = PREC M A T 1.E6 P ; T . 'GANC' = 0. ; "
-        "P2 = PREC M A T 1.E6 P ; R = INTG M (P2 - P1) EFFX ; X = MINI P2 ; ",
+        "P1 = PREC M A 1.E6 P ; P2 = PREC M A T 1.E6 P ; "
+        "R = INTG M (P2 - P1) EFFX ; X = MINI P2 ; ",
         "R",
         "X",
         "X",

@@ -60,7 +60,7 @@ def assigned_names(nodes: Iterable[tree.Node]) -> set[str]:
         elif isinstance(node, tree.If):
             found |= assigned_names(node.then) | assigned_names(node.otherwise)
         elif isinstance(node, tree.Loop):
-            found |= {("&" + node.name)[:24], *assigned_names(node.body)}
+            found |= {("&" + node.name)[:n] for n in (8, 24)} | assigned_names(node.body)
         else:
             found |= {node.name, *(p.name for p in node.parameters)}
             found |= assigned_names(node.body)

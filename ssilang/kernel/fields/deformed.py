@@ -187,11 +187,11 @@ def principal_strokes(
     """
     names = chosen or _PRINCIPAL
     shade = dict(zip(names, (*colours, *_USUAL[len(colours) :]), strict=False))
+    tensors = [(b, t) for b in field.blocks if (t := _tensor(b)) is not None]
+    if not tensors:
+        raise FieldError("kernel.fields.field-holds-no-principal")
     parts = []
-    for block in field.blocks:
-        tensor = _tensor(block)
-        if tensor is None:
-            continue
+    for block, tensor in tensors:
         values, directions = np.linalg.eigh(tensor)
         for rank in range(3):
             name = _PRINCIPAL[rank]
@@ -203,8 +203,6 @@ def principal_strokes(
                 parts.append(
                     ArrowPart(_centres(block), vectors, None, scale, shade[name], name, False)
                 )
-    if not parts:
-        raise FieldError("kernel.fields.field-holds-no-principal")
     return Arrows(tuple(parts))
 
 

@@ -30,6 +30,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
     "ANISOTROPE": (*SOLID_FAMILIES, "joint"),  # of joints, those of two points
     "UNIDIRECTIONNEL": SOLID_FAMILIES,
+    "ARMATURE": ("bar",),
     "MODAL": ("shape",),
     "STATIQUE": ("shape",),
 }  # fmt: skip
@@ -66,7 +67,7 @@ SECTION_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of sections as a whole, and of points across the thickness of shells."""
 
 OTHER_BEHAVIOURS = (
-    "NON_LINEAIRE", "HOMOGENEISE", "ARMATURE", "CAOUTCHOUC",
+    "NON_LINEAIRE", "HOMOGENEISE", "CAOUTCHOUC",
     # plasticity: of metals, concrete, pipes and global sections, of rock joints, of soils
     "CHABOCHE1", "CHABOCHE2", "GAUVAIN", "GURSON", "STEINBERG", "ZERILLI", "PRESTON", "HINTE",
     "BETON", "OTTOSEN", "OTTOVARI", "BETOCYCL", "DRUCKER_PRAGER_2", "ENDOMMAGEABLE", "GLOBAL",

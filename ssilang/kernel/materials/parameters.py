@@ -15,6 +15,7 @@ ORTHOTROPIC = ("YG1", "YG2", "NU12", "G12", "YG3", "NU23", "NU13", "G23", "G13")
 ORTHOTROPIC_THERMAL = ("ALP1", "ALP2", "ALP3", "TREF", "TALP")
 ANISOTROPIC = tuple(f"D{i}{j}" for i in range(1, 7) for j in range(1, i + 1))
 ANISOTROPIC_THERMAL = (*ORTHOTROPIC_THERMAL, "AL12", "AL13", "AL23")
+CABLE_LOSSES = ("FF", "PHIF", "GANC", "RMU0", "FPRG", "RH10")
 AXES = ("V1X", "V1Y", "V1Z", "V2X", "V2Y", "V2Z")
 JOINT_POINT = ("KS1", "KS2", "QS", "QN", "QS1", "QS2", "MASS", "JX", "JY", "JZ")
 JOINT_THERMAL = (
@@ -39,6 +40,7 @@ _ELASTIC: dict[str, Names] = {
     "ISOTROPE": Names(("YOUN", "NU"), ("RHO", *THERMAL, "VISQ")),
     "ANISOTROPE": Names(ANISOTROPIC[:7], ("RHO", *ANISOTROPIC[7:], *ANISOTROPIC_THERMAL, *AXES)),
     "UNIDIRECTIONNEL": Names(("YOUN",), ("RHO", *THERMAL, *AXES)),
+    "ARMATURE": Names(("YOUN",), ("NU", "RHO", *THERMAL, "VISQ", *CABLE_LOSSES)),
     "SECTION": Names(("MODS", "MATS"), ("RHO",)),
     "MODAL": Names(("FREQ", "MASS", "DEFO"), ("AMOR", "CGRA", "MADE")),
     "STATIQUE": Names(("DEFO", "RIDE", "MADE"), ("AMOR",)),

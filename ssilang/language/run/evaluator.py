@@ -116,11 +116,11 @@ class Evaluator(PhraseRunner):
             observer.leave()
 
     def _turns(self, node: tree.Loop, limit: int | None, observer: LoopObserver | None) -> None:
-        counter = ("&" + node.name)[:24]
-        frame = self.session.frame
+        counters = {("&" + node.name)[:n] for n in (8, 24)}  # seven letters do
+        variables = self.session.frame.variables
         turn = 1
         while limit is None or turn <= limit:
-            frame.variables[counter] = turn
+            variables.update(dict.fromkeys(counters, turn))
             if observer is not None:
                 observer.turn(turn)
             self._begin(node.span)
@@ -134,7 +134,7 @@ class Evaluator(PhraseRunner):
                     raise
                 return
             turn += 1
-        frame.variables[counter] = turn
+        variables.update(dict.fromkeys(counters, turn))
 
     def _count(self, node: tree.Loop) -> int | None:
         if not node.count:

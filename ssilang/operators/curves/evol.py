@@ -261,12 +261,11 @@ def _only(call: Call, field: NodeField) -> str:
 
 MISSING = object()
 _LOST = 5.0  # % of a largest value that may stand between two instants
-_DEFAULT_INDEX = {"DYNAMIC": "DEPL", "PASAPAS": "DEPLACEMENTS"}
 
 
 def _unit_in_time(results: Table | None, index: str, name: str) -> str:
     """SI unit of a component of what a calculation has left, '' where that is not certain."""
-    if isinstance(results, LazyRows) or (results and results.subtype in _DEFAULT_INDEX):
+    if isinstance(results, LazyRows) or (results and results.subtype in ("DYNAMIC", "PASAPAS")):
         return result_unit(name, index)
     return ""
 
@@ -397,7 +396,7 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
             )
         return fields, times, ""
     table: Table = operand.value
-    index = _DEFAULT_INDEX.get(table.subtype, "DEPL")
+    index = "DEPLACEMENTS" if _holds(table, "DEPLACEMENTS") else "DEPL"
     said = call.peek_word()
     if said is not None and _holds(table, said.rstrip()):
         index = str(call.word()).rstrip()

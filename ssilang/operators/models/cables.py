@@ -40,7 +40,7 @@ def prec(
     """Tensions of all cables of a model."""
     if before is not None:
         raise call.error("operators.models.tensions-before-not-built")
-    losses = NO_LOSSES if table is None else _losses(call, table)
+    losses = None if table is None else _losses(call, table)
     chosen = _nodes(ends)
     return CellField(
         tuple(_zone(call, z, material, force, losses, chosen) for z in model.zones), "CONTRAINTES"
@@ -64,7 +64,7 @@ def _zone(
     zone: Zone,
     material: CellField,
     force: float,
-    losses: Losses,
+    losses: Losses | None,
     ends: IntArray | None,
 ) -> CellFieldBlock:
     if ELEMENTS[zone.element].family != "bar" or zone.cells.cell_type != "SEG2":
@@ -72,6 +72,11 @@ def _zone(
     cells = zone.cells.connectivity
     x = zone.cells.nodes.coordinates[:, : zone.mode.dimension]
     seen = zone_field(zone, material)
+    if losses is None:  # those of an ARMATURE
+        own = {
+            n: float(seen.at(w, "GRAVITE").flat[0]) for w, n in _ENTRIES.items() if w in seen.names
+        }
+        losses = Losses(**own) if own else NO_LOSSES
     section = np.broadcast_to(seen.at("SECT", "GRAVITE")[:, 0], len(cells))
     stiffness = section * seen.at("YOUN", "GRAVITE")[:, 0]
     share = force / float(section.min()) / losses.strength

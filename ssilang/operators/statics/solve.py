@@ -180,7 +180,9 @@ def solved_list(call: Call, matrix: Matrix, loads: ListChpo, **words: Any) -> Li
 def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Table:
     """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
     ws, options = workspace(call.session), _options(call, words)
-    for entry, _, _ in static_links(table):
+    if not (links := static_links(table)):
+        raise call.error("operators.statics.no-numbered-entry", table)
+    for entry, _, _ in links:
         force, block = entry.get("FORCE"), entry.get("BLOCAGE")
         if not isinstance(force, NodeField):
             raise call.error("operators.statics.entry-has-no-force", table)

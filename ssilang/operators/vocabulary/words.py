@@ -107,7 +107,9 @@ _CONTACT = {
     "COULOMB": ("FROTTANT", "COULOMB"),
     "FROCABLE": ("FROTTANT", "FROCABLE"),
 }
-_ELASTIC_SAMPLES = {"SECTION": "TIMO", "MODAL": "MODAL", "STATIQUE": "STATIQUE"}
+_ELASTIC_SAMPLES = {
+    "ARMATURE": "BARR", "SECTION": "TIMO", "MODAL": "MODAL", "STATIQUE": "STATIQUE",
+}  # fmt: skip
 
 
 # ---- parameters -----------------------------------------------------------------------------

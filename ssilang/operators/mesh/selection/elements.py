@@ -223,16 +223,6 @@ def _values(block: CellFieldBlock, named: Named, absolute: bool) -> FloatArray:
     return np.abs(table) if absolute else table
 
 
-def _extreme_cell(field: CellField, values: Sequence[FloatArray], word: str) -> Mesh:
-    sense = 1.0 if word == "MAXI" else -1.0
-    best = [float((sense * t).max(initial=-np.inf)) for t in values]
-    where = int(np.argmax(best))
-    cells, table = field.blocks[where].cells, values[where]
-    row = int((sense * table).max(axis=1).argmax())
-    picked_row: NDArray[np.int64] = np.array([row])
-    return take(Mesh(cells.nodes, (cells,)), lambda _: picked_row)
-
-
 @elem.form(
     EXTREMES,
     main("field", "MCHAML", en="field in cells"),
@@ -241,7 +231,7 @@ def _extreme_cell(field: CellField, values: Sequence[FloatArray], word: str) -> 
         "how",
         ("LARG", "STRI"),
         default="LARG",
-        en="one value of the cell fits, the default, or all do",
+        en="one value of the cell fits, the default, or all do; a single cell where extreme",
     ),
     NAMED,
     of=("MCHAML",),
@@ -249,12 +239,14 @@ def _extreme_cell(field: CellField, values: Sequence[FloatArray], word: str) -> 
 def by_values(what: Chosen, field: CellField, absolute: bool, how: str, named: Named) -> Mesh:
     """Pick cells whose values are extreme or compare."""
     values = [_values(b, named, absolute) for b in field.blocks]
-    if what.word in ("MAXI", "MINI"):
-        return _extreme_cell(field, values, what.word)
+    good = picked(np.hstack([t.ravel() for t in values]), what.word, list(what.values.values()))
+    every = how == "STRI"
+    if every and what.word in ("MAXI", "MINI"):
+        good, every = np.arange(len(good)) == good.argmax(), False
     blocks: list[CellBlock] = []
     for block, table in zip(field.blocks, values, strict=True):
-        good = picked(table, what.word, list(what.values.values()))
-        keep = np.asarray((np.all if how == "STRI" else np.any)(good, axis=1))
+        fits, good = good[: table.size].reshape(table.shape), good[table.size :]
+        keep = np.asarray((np.all if every else np.any)(fits, axis=1))
         blocks += _rows(block.cells, keep).blocks
     parts = [Mesh(b.nodes, (b,)) for b in blocks]
     return union(*parts, as_given=True) if parts else Mesh(field.blocks[0].cells.nodes, ())
