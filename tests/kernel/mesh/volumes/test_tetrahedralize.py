@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
+from ssilang.kernel.mesh.volumes.tetrahedralize import _inner_points
 from ssilang.kernel.mesh.volumes.volume import fill_volume
 
 
@@ -38,16 +39,30 @@ def test_tetrahedra_fill_a_box_and_keep_its_triangles(cuts: tuple[int, int, int]
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(skin.single_block()).tolist())
 
 
-def test_long_triangles_on_a_sheared_box_are_kept() -> None:
-    skin = box_skin((5, 3, 2))
+def sheared_skin(cuts: tuple[int, int, int]) -> Mesh:
+    """Triangles of the box, each layer pushed away: most of the box round it is outside."""
+    skin = box_skin(cuts)
     xyz = skin.nodes.coordinates
     xyz[:, 0] += 0.7 * xyz[:, 2]
     xyz[:, 1] += 0.4 * xyz[:, 2]
-    skin = split_quadrangles(skin)
+    return split_quadrangles(skin)
+
+
+def test_long_triangles_on_a_sheared_box_are_kept() -> None:
+    skin = sheared_skin((5, 3, 2))
     volume = fill_volume(skin)
     assert total_measure(volume) == pytest.approx(3.0, rel=1e-12)
     found = envelope(volume).single_block()
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(skin.single_block()).tolist())
+
+
+def test_points_are_added_inside_alone() -> None:
+    skin = sheared_skin((5, 10, 8))
+    used, triangles = np.unique(skin.single_block().connectivity, return_inverse=True)
+    added = _inner_points(skin.nodes.coordinates[used], triangles.reshape(-1, 3))
+    back = added - np.outer(added[:, 2], [0.7, 0.4, 0.0])
+    assert len(added) > 50
+    assert ((back > 0.0) & (back < [1.0, 2.0, 1.5])).all()
 
 
 def test_quadrangles_carry_pyramids() -> None:
