@@ -266,6 +266,27 @@ def test_no_first_solution_is_said():
         Tracer(Never(), Lengths(0.1, 0.01, 1.0)).first(np.array([0.3]), 0.0)
 
 
+@pytest.mark.parametrize(("most", "ended"), [(200, "no solution"), (3, "steps")])
+def test_a_branch_ends_where_its_equation_does(most, ended):
+    class Line:
+        def at(self, u, t):
+            return np.array([u[0] - 2.0 * t + 0.0 * np.sqrt(0.5 - t)]), np.eye(1), np.array([-2.0])
+
+        def force(self, t):
+            return 1.0
+
+    tracer = Tracer(Line(), Lengths(0.1, 1e-3, 0.1))
+    with np.errstate(invalid="ignore"):
+        found = tracer.follow(tracer.first(np.array([0.0]), 0.0), most, lambda t: True)
+        asked = tracer.follow(found.points[0], 200, lambda t: True, lambda a, b, ds: b.t < 0.2)
+    assert found.ended == ended
+    if ended == "steps":
+        assert len(found.points) == most + 1
+    else:
+        assert 0.5 - 2e-3 < found.points[-1].t <= 0.5
+    assert (asked.ended, asked.points[-2].t < 0.2 <= asked.points[-1].t) == ("asked", True)
+
+
 def test_a_step_around_a_limit_point_ends_just_beyond_it():
     class Circle:
         def at(self, u, t):

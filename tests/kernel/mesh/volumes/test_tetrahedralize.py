@@ -65,6 +65,17 @@ def test_points_are_added_inside_alone() -> None:
     assert ((back > 0.0) & (back < [1.0, 2.0, 1.5])).all()
 
 
+def test_points_added_beside_small_triangles_keep_their_distance() -> None:
+    skin = split_quadrangles(box_skin((4, 8, 6)))
+    block = split_quadrangles(box_skin((4, 4, 4))).single_block()
+    hole = block.coordinates.reshape(-1, 3) * 0.3 + [0.35, 0.7, 0.5]  # its sides are 0.075 at least
+    points = np.vstack([skin.single_block().coordinates.reshape(-1, 3), hole])
+    used, triangles = np.unique(points.round(9), axis=0, return_inverse=True)
+    added = _inner_points(used, triangles.reshape(-1, 3))
+    apart = np.linalg.norm(added[:, None] - added, axis=-1)[np.triu_indices(len(added), 1)]
+    assert apart.min() > 0.75 * 0.075
+
+
 def test_quadrangles_carry_pyramids() -> None:
     skin = box_skin((3, 4, 5))
     volume = fill_volume(skin)
