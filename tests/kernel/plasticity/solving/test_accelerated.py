@@ -98,7 +98,14 @@ def test_a_base_that_moves_leads_there_too_with_any_factor(solver, monkeypatch) 
         accelerated, "effective_of",
         lambda problem, *more: make(replace(problem, solver=Solver(solver)), *more),
     )  # fmt: skip
+    iterate, led = accelerated.AcceleratedSolver._accelerated, []
+    monkeypatch.setattr(
+        accelerated.AcceleratedSolver, "_accelerated",
+        lambda *of: led.append((found := iterate(*of)).turns > 0) or found,
+    )  # fmt: skip
     history, u, strain, _ = stepped(steps=16, moved=0.02)
+    assert all(led)  # else Newton's method would have gone on
+    assert len(led) >= 16
     assert history.loop.startswith("kept factor")
     assert full[0].loop.startswith("full Newton")
     assert np.mean(strain > 0) > 0.1
