@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
-from ssilang.kernel.continuation.floquet import monodromy
+from ssilang.kernel.continuation.floquet import ONE, monodromy, unstable
 from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
 from ssilang.kernel.modal import links as law
@@ -124,6 +124,9 @@ def test_exponents_are_those_that_perturbations_of_the_motion_show():
     multipliers = np.linalg.eigvals(end.reshape(2, 2).T)
     expected = np.sort_complex(np.log(multipliers.astype(complex)) / period)
     np.testing.assert_allclose(np.sort_complex(system.exponents(Q, w)), expected, atol=1e-8)
+    for scale in (0.01, 100.0):  # in any unit of time
+        assert not unstable(np.array([-1.0, 0.5j + 0.6 * ONE]) * scale, scale)
+        assert unstable(np.array([-1.0, 0.5j + 1.6 * ONE]) * scale, scale)
 
 
 def test_monodromy_is_what_a_period_makes_of_each_perturbation():

@@ -75,9 +75,7 @@ def test_stress_of_an_elbow_is_that_of_its_ring_times_the_intensity_factor(momen
     ratio = H * bend / mean**2 if bend else np.inf
     factor = max(1.0, 8 / 9 * ratio ** (-2 / 3))
     hoop = 0.7 * 2e6 * mean / H if pressed else 0.0
-    np.testing.assert_allclose(
-        values, np.hypot(3e4 * mean / INERTIA * np.pi / 4 * factor, hoop)
-    )
+    np.testing.assert_allclose(values, np.hypot(3e4 * mean / INERTIA * np.pi / 4 * factor, hoop))
 
 
 def _quadrangle():
