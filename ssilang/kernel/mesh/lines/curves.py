@@ -289,13 +289,9 @@ def fillet(
     sizes = float(nodes.density[one[-1]]), float(nodes.density[two[0]])
     parts = subdivide(arc.length, *sizes, count)
     middle = mesh_curve(nodes, arc, int(ids[0]), int(ids[1]), parts, quadratic, colour)
-    before, after = (
-        _ended(nodes, kept, at, degree) for kept, at in zip((head, tail), ids, strict=True)
-    )
-    return (
-        chain_mesh(nodes, before, quadratic, colour), middle,
-        chain_mesh(nodes, after[::-1], quadratic, colour),
-    )  # fmt: skip
+    chains = _ended(nodes, head, ids[0], degree), _ended(nodes, tail, ids[1], degree)[::-1]
+    before, after = (chain_mesh(nodes, chain, quadratic, colour) for chain in chains)
+    return before, middle, after
 
 
 def _ended(nodes: NodeTable, chain: IntArray, end: int, degree: int) -> IntArray:
