@@ -292,6 +292,7 @@ REFUSED = {
     },
     "mesh": {
         "cells-type-no-quadratic": [lambda: quadratic(FIVE)],
+        "mesh-sizes-ask-elements": [lambda: subdivide(1.1, 1e-7, 1e-7)],
         "line-seg2-seg3-needed": [cut(QUADS)],
         "line-branches-node": [cut(STAR)],
         "line-not-separate-cells": [cut(LINE)],

@@ -31,12 +31,13 @@ def test_elastic_section_is_the_plain_beam_of_its_rectangle(found):
         "B = BLOQ (POIN 1 L) 'DEPL' 'ROTA' ; F = (FORC (1. 2. 3.) (POIN 9 L)) ET "
         "(MOME (5. 6. 7.) (POIN 9 L)) ; U{0} = RESO ((RIGI M A) ET B) F ; "
         "S{0} = SIGM M A U{0} ; V{0} = MASS M A ; W{0} = V{0} * U1 ; "
+        "K{0} = KSIG M S{0} A ; G{0} = K{0} * U1 ; "
     )
-    u1, u2, s1, s2, w1, w2 = found(
+    u1, u2, s1, s2, w1, w2, g1, g2 = found(
         section() + FIBRES + solve.format(1) + BEAM.format("", plain) + solve.format(2),
-        "U1", "U2", "S1", "S2", "W1", "W2",
+        "U1", "U2", "S1", "S2", "W1", "W2", "G1", "G2",
     )  # fmt: skip
-    for first, second in ((u1, u2), (w1, w2)):
+    for first, second in ((u1, u2), (w1, w2), (g1, g2)):
         for name in (n for n in second.components if n[0] in "URFM" and n[:2] != "FL"):
             ids = first.components[name].nodes
             scale = np.abs(second.values_at(name, ids)).max()

@@ -6,6 +6,7 @@ from references.recorder import Recorder
 from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
@@ -44,8 +45,11 @@ def zone(table, ids, law: tuple[str, ...], data: dict[str, float]) -> tuple[Zone
     ), field
 
 
-def tower_on_clay(law: str = "J2", steps: int = 56, wide: int = 4):
-    """Problem, plastic bodies: a tower of `wide` x 10 on a box of eight times its width."""
+def tower_on_clay(law: str = "J2", steps: int = 56, wide: int = 4, moved: float = 0.0):
+    """Problem, plastic bodies: a tower of `wide` x 10 on a box of eight times its width.
+
+    `moved`: the base goes that far to and fro, too.
+    """
     table, across, first = NodeTable(), 8 * wide, 7 * wide // 2
     soil = grid(table, 0, -across // 2, across, across // 2)
     tower = grid(table, first, 0, wide, 10)
@@ -74,11 +78,14 @@ def tower_on_clay(law: str = "J2", steps: int = 56, wide: int = 4):
     weight[heavy] = -9.81 * mass[heavy]
     shake[along_x[np.isin(numbering.nodes[along_x], tower)]] *= 3.0  # it is pushed over, too
     times = DT * np.arange(steps + 1)
+    ties = np.sort(held[0].multipliers)
+    motion = NodeField.of(table, ties, {"FLX": np.full(len(ties), moved / 6.0)})
     sine = Curve((CurvePart(times, 6.0 * np.sin(2 * np.pi * 2.5 * times)),))
     load = Load(
         (
             LoadPart("MECA", vector_to_field(weight, numbering, dual=True)),
             LoadPart("MECA", vector_to_field(shake, numbering, dual=True), sine),
+            *([LoadPart("DIMP", motion, sine)] if moved else ()),
         )
     )
     field = CellField((CellFieldBlock(block, names, "STRESSES", "JOI1"),))
@@ -87,9 +94,11 @@ def tower_on_clay(law: str = "J2", steps: int = 56, wide: int = 4):
     return problem, bulk_of((clay,), clay_field, numbering)
 
 
-def stepped_tower(law: str = "J2", steps: int = 56, wide: int = 4, keeper=None, full=False):
+def stepped_tower(
+    law: str = "J2", steps: int = 56, wide: int = 4, keeper=None, full=False, moved=0.0
+):
     """History of its run, what an observer has seen, plastic strains (m,) at the end."""
-    problem, bulk = tower_on_clay(law, steps, wide)
+    problem, bulk = tower_on_clay(law, steps, wide, moved)
     seen = Recorder(steps + 1)
     history = run_bulk(problem, bulk, bulk.unloaded(), [seen], None, True, keeper, full)
     return history, seen, seen.snapshots[-1].bulk_state[0].variables[:, 0]

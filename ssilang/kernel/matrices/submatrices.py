@@ -68,11 +68,6 @@ def _cells_of(block: ElementMatrices) -> CellBlock | None:
     return CellBlock.make(block.table, "SEG2", block.nodes)
 
 
-def all_nodes(matrix: Matrix) -> IntArray:
-    """Nodes of all unknowns, without multipliers, increasing."""
-    return np.unique(numbering_of(matrix).nodes)
-
-
 def diagonal(matrix: Matrix) -> NodeField:
     """Diagonal terms by unknown; zero at multipliers."""
     numbering = numbering_of(matrix)

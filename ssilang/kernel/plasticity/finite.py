@@ -326,11 +326,6 @@ class FiniteBulk(Bulk):
     finite: tuple[FiniteZone, ...] = ()
 
     @property
-    def symmetric(self) -> bool:
-        """Tangents are."""
-        return True
-
-    @property
     def words(self) -> str:
         """What is said of them."""
         return "finite displacements"

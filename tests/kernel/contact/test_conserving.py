@@ -12,6 +12,7 @@ from references.recorder import Recorder
 
 from ssilang.kernel.contact.conserving import ConservingContact, mean_penalty
 from ssilang.kernel.contact.unilateral import ContactOptions
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
@@ -129,8 +130,6 @@ def test_a_stop_that_moves_does_work():
     bench.mass(3.0, ball)
     bench.fix(ball, "UY")
     row = bench.relate([(1.0, "UX", ball)], sense=1)
-    from ssilang.kernel.fields.node_field import NodeField
-
     stop = bench.load(
         NodeField.of(bench.table, np.array([row]), {"FLX": np.ones(1)}), [0, 1], [-0.1, 1.9]
     )
@@ -139,6 +138,29 @@ def test_a_stop_that_moves_does_work():
     assert recorder.of("v")[-1, 0] == pytest.approx(4.0, rel=1e-12)
     assert history.energies[-1, 5] == pytest.approx(0.5 * 3.0 * 16.0, rel=1e-12)
     assert np.abs(history.imbalance).max() <= 1e-11 * history.energies[-1, 0]
+
+
+@pytest.mark.parametrize("options", METHODS, ids=lambda o: o.method)
+def test_a_support_that_moves_away_pulls_a_mass_off_the_stop_that_it_touches(options):
+    """From the first step on it moves as if there were no stop."""
+    found = []
+    for stop in (False, True):
+        bench = Bench()
+        top, base = bench.node(0.0, 0.0), bench.node(1.0, 0.0)
+        bench.mass(3.0, top)
+        bench.spring(STRUCTURE_STIFFNESS, top, base, unknown="UX")
+        bench.fix(top, "UY")
+        bench.fix(base, "UY")
+        held = bench.relate([(1.0, "UX", base)])
+        if stop:
+            bench.relate([(1.0, "UX", top)], sense=1)
+        pull = NodeField.of(bench.table, np.array([held]), {"FLX": np.ones(1)})
+        load = bench.load(pull, [0.0, 1.0], [0.0, 1.0])
+        start = bench.field((top, "UX", 0.0), (base, "UX", 0.0))
+        _, recorder, _ = run(bench, np.linspace(0.0, 0.02, 41), options, start, load)
+        found.append(recorder.of("u"))
+    assert found[0].max() > 0.01
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-9)
 
 
 def test_mean_penalty_is_the_secant_of_the_energy_with_its_own_slope():

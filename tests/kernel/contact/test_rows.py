@@ -7,6 +7,8 @@ import pytest
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import ContactRows
+from ssilang.kernel.contact.solver import ContactForces
+from ssilang.kernel.contact.unilateral import ContactOptions
 
 
 def test_work_energies_and_multipliers_of_two_rows_that_push_elsewhere_and_rub():
@@ -31,3 +33,23 @@ def test_work_energies_and_multipliers_of_two_rows_that_push_elsewhere_and_rub()
     np.testing.assert_allclose(step, np.concatenate(wanted))
     assert rows.penalty_energy(np.array([-0.2, 0.3]), 5.0) == pytest.approx(0.1)
     assert rows.penalty_energy(np.array([-0.2, 0.3]), None) == 0.0
+
+
+@pytest.mark.parametrize(("slip", "rubbed"), [(1e-4, -0.4), (9e-4, -0.3 * 5.0)])
+def test_a_penalty_stands_in_series_with_the_flexibility_below_a_place_that_rubs(slip, rubbed):
+    """A gap that closes by 3e-3 on 1e-4 + 1 / 2 000; a slip that is held, and one that is not."""
+    friction = SimpleNamespace(
+        width=1, normal=np.zeros(1, int), coefficient=np.array([0.3]), constant=np.zeros(1)
+    )
+
+    class Place:
+        def __len__(self):
+            return 1
+
+    place = Place()
+    place.friction = friction
+    forces = ContactForces(place, ContactOptions("PENALITE", 2e3))
+    W = np.array([[1e-4, 0.0], [0.0, 2.5e-4], [0.0, 0.0]])  # the last: nothing is watched
+    found = forces.held(W, np.array([-3e-3, slip, 0.0]))
+    np.testing.assert_allclose(found, [5.0, rubbed], rtol=1e-9)
+    assert W[0, 0] == 1e-4

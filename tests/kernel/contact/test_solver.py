@@ -35,7 +35,7 @@ def test_a_body_comes_to_rest_on_its_stops(method):
         )
     )
     recorder = Recorder(3)
-    step_statics(problem, [recorder])
+    history = step_statics(problem, [recorder])
     u, pushed = recorder.of("u"), recorder.of("contact")
     shares = np.array([2e3, 1e3])  # on the left and on the right foot
     at = [problem.numbering.index_of(n, "UY") for n in (*feet, *tops, middle)]
@@ -44,3 +44,6 @@ def test_a_body_comes_to_rest_on_its_stops(method):
         down = -k * shares / 2e5
         wanted = [0.0, 0.0, *down, down.mean()]
         np.testing.assert_allclose(u[k][at], wanted, rtol=1e-6, atol=1e-12)
+        kept = 0.5 * k * shares @ -down  # in the springs
+        assert history.energies[k, 1] == pytest.approx(kept, rel=1e-6)
+        assert history.imbalance[k] == pytest.approx(0.0, abs=1e-6 * kept)

@@ -10,7 +10,7 @@ from scipy.sparse import csr_array
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
-from ssilang.kernel.continuation.floquet import monodromy
+from ssilang.kernel.continuation.floquet import ONE, monodromy, unstable
 from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
 from ssilang.kernel.modal import links as law
@@ -124,6 +124,9 @@ def test_exponents_are_those_that_perturbations_of_the_motion_show():
     multipliers = np.linalg.eigvals(end.reshape(2, 2).T)
     expected = np.sort_complex(np.log(multipliers.astype(complex)) / period)
     np.testing.assert_allclose(np.sort_complex(system.exponents(Q, w)), expected, atol=1e-8)
+    for scale in (0.01, 100.0):  # in any unit of time
+        assert not unstable(np.array([-1.0, 0.5j + 0.6 * ONE]) * scale, scale)
+        assert unstable(np.array([-1.0, 0.5j + 1.6 * ONE]) * scale, scale)
 
 
 def test_monodromy_is_what_a_period_makes_of_each_perturbation():
@@ -264,6 +267,27 @@ def test_no_first_solution_is_said():
 
     with pytest.raises(ConvergenceError, match="no first solution"):
         Tracer(Never(), Lengths(0.1, 0.01, 1.0)).first(np.array([0.3]), 0.0)
+
+
+@pytest.mark.parametrize(("most", "ended"), [(200, "no solution"), (3, "steps")])
+def test_a_branch_ends_where_its_equation_does(most, ended):
+    class Line:
+        def at(self, u, t):
+            return np.array([u[0] - 2.0 * t + 0.0 * np.sqrt(0.5 - t)]), np.eye(1), np.array([-2.0])
+
+        def force(self, t):
+            return 1.0
+
+    tracer = Tracer(Line(), Lengths(0.1, 1e-3, 0.1))
+    with np.errstate(invalid="ignore"):
+        found = tracer.follow(tracer.first(np.array([0.0]), 0.0), most, lambda t: True)
+        asked = tracer.follow(found.points[0], 200, lambda t: True, lambda a, b, ds: b.t < 0.2)
+    assert found.ended == ended
+    if ended == "steps":
+        assert len(found.points) == most + 1
+    else:
+        assert 0.5 - 2e-3 < found.points[-1].t <= 0.5
+    assert (asked.ended, asked.points[-2].t < 0.2 <= asked.points[-1].t) == ("asked", True)
 
 
 def test_a_step_around_a_limit_point_ends_just_beyond_it():

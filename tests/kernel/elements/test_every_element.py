@@ -5,7 +5,7 @@ import pytest
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.family import Layout, StrainOperator, contract
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -280,3 +280,16 @@ def test_cells_one_by_one_give_what_all_at_once_do(element, mode, monkeypatch):
         np.testing.assert_allclose(
             of(two.zone, two.material).values, wanted, atol=1e-12 * np.abs(wanted).max()
         )
+
+
+@pytest.mark.parametrize("points", [1, 2, 4])
+@pytest.mark.parametrize("varying", [False, True])
+@pytest.mark.parametrize("cells", [1, 3])
+def test_products_sum_over_points_whose_moduli_may_differ(points, varying, cells):
+    rng = np.random.default_rng(5)
+    B, w = rng.standard_normal((3, 4, points, 5)), rng.uniform(1.0, 2.0, (3, points))
+    D = rng.standard_normal((cells, points if varying else 1, 4, 4))
+    D[..., 1, 2] = 0.0  # a term that is nowhere
+    wide = np.broadcast_to(D, (3, points, 4, 4))
+    found = contract(StrainOperator(B, w), D)
+    np.testing.assert_allclose(found, np.einsum("cp,cspm,cpst,ctpn->cmn", w, B, wide, B))

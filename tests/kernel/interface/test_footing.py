@@ -4,12 +4,14 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 from references.assembled import Bench
+from references.recorder import Recorder
 
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.run import integrate
 
 K = 2e7
 WIDTH, LENGTH = 4.0, 6.0
@@ -258,3 +260,35 @@ def test_a_track_goes_on_from_what_it_held() -> None:
     again.restore(empty.content())
     assert len(again.times) == 0
     assert again.kept == [[], []]
+
+
+@pytest.mark.parametrize("wanted", [[0, 1, 2, 3, 4], [1, 3]])
+def test_loads_in_time_are_those_of_the_motion_that_is_seen(wanted: list[int]) -> None:
+    """Of two footings that move unlike each other, the larger first."""
+    bench = strip(8)
+    strip(4, 10.0, bench, 2.0)
+    number = len(bench.table.coordinates)
+    forces = [(node, "FY", -1e3 * (1 + node % 7)) for node in range(number)]
+    for node in range(number):
+        bench.mass(1.0 + node % 3, node)
+        bench.spring(1e5, node)
+        bench.spring(1e5, node, unknown="UX")
+    times = 1e-3 * np.arange(5)
+    problem = make_problem(
+        Inputs(
+            bench.stiffness, times, bench.mass_matrix,
+            load=bench.load(bench.field(*forces), times, np.sin(2e3 * times)),
+            model=bench.model, characteristics=bench.characteristics,
+        )
+    )  # fmt: skip
+    seen, at = Recorder(5), np.isin(np.arange(5), wanted)
+    followed = footing_histories(problem, at)
+    assert followed is not None
+    integrate(problem, [seen, followed])
+    np.testing.assert_allclose(followed.times, times[wanted])
+    u, w, t = (seen.of(name)[wanted] for name in ("u", "w", "t"))
+    for k, footing in enumerate(footings_of(problem.interface, problem.numbering)):
+        expected = footing.loads(w, t, u[:, footing.unknowns])
+        for mine, other in zip(followed.found(k), expected, strict=True):
+            np.testing.assert_allclose(mine, other, rtol=1e-9, atol=1e-9 * np.abs(other).max())
+    assert np.abs(followed.found(1).force).max() > 1.0

@@ -56,6 +56,24 @@ def one_joint(element: str, rule: str = "GAUSS", reverse: bool = False, gap: flo
 CASES = [(e, "GAUSS") for e in FACES] + [(e, "LOBATTO") for e in NODAL]
 
 
+@pytest.mark.parametrize("element", FACES)
+@pytest.mark.parametrize("support", ["NOEUD", "GRAVITE"])
+def test_jumps_at_nodes_and_in_the_middle_are_those_of_the_sides_there(element, support):
+    """Of a jump that is linear along the face, which a middle weighs by its area."""
+    zone, material, x, R = one_joint(element)
+    d = x.shape[1]
+    slope = np.random.default_rng(7).standard_normal((d, d))
+    u = np.concatenate([0.3 + x @ slope, np.zeros_like(x)]).ravel()
+    made = JointFamily().strain_operator(zone, zone_field(zone, material), support, slice(None))
+    found = (made.matrix[0] @ u).T  # of points: (n, d), the normal last
+    face = FACES[element][1]
+    at = x if support == "NOEUD" else x.mean(axis=0)[None]
+    jump = 0.3 + at @ slope
+    np.testing.assert_allclose(found[:, -1], jump @ R[:, -1], atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), np.linalg.norm(jump, axis=1))
+    assert made.weights.sum() == pytest.approx(AREA[face] * 3.0 ** (d - 1))
+
+
 @pytest.mark.parametrize(("element", "rule"), CASES)
 def test_uniform_jump_gives_uniform_traction_and_its_resultant(element, rule):
     zone, material, x, R = one_joint(element, rule)

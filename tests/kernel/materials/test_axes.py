@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.materials.axes import Directions, axis_parameters
+from ssilang.kernel.materials.axes import Directions, axis_parameters, integration_points
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import geometric_names, known_names, material_names
 from tests.kernel.elements.samples import cell_zone, line_zone
@@ -19,6 +19,15 @@ def test_direction_is_normalised_and_turned():
         got = [values[n][0, 0] for n in ("V1X", "V1Y")]
         np.testing.assert_allclose(got, expected, atol=1e-15)
         assert support == "GRAVITE"
+
+
+def test_axes_point_to_a_centre_in_the_plane_and_are_turned():
+    zone, centre = cell_zone("QUA8", Mode.PLANE_STRAIN), np.array([1.0, -2.0, 0.0])
+    values, support = axis_parameters(zone, Directions(centre, None, radial=True, angle=30.0))
+    assert support == "RIGIDITE"
+    way = (centre - integration_points(zone, support)) @ [1.0, 1j, 0.0] * np.exp(1j * np.pi / 6)
+    way /= np.abs(way)
+    np.testing.assert_allclose(values["V1X"] + 1j * values["V1Y"], way)
 
 
 def test_space_needs_two_vectors_that_are_not_parallel():

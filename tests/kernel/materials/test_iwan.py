@@ -65,6 +65,15 @@ def test_first_loading_goes_through_the_points_of_the_curve_and_straight_between
     assert point.stress[0] == pytest.approx([0, 0, 0, first(1.0), 0, 0], abs=1e-16)
 
 
+@pytest.mark.parametrize("beyond", [-0.5, 0.0, 2.0])
+def test_the_last_part_slips_by_what_goes_beyond_the_curve(beyond: float) -> None:
+    point, gamma = Point(curve()), STRAINS[-1] * (1.0 + beyond)
+    plastic = np.array([[0, 0, 0, gamma - point.shear(gamma) / G, 0, 0]])
+    assert point.law.slid is not None
+    found = point.law.slid(point.parameters, point.stress, plastic, point.variables)
+    assert found[0] == pytest.approx([0, 0, max(beyond, 0.0), 0, 0], abs=1e-12)
+
+
 def test_one_step_goes_where_many_go() -> None:
     whole, parts = Point(curve()), Point(curve())
     for gamma in np.linspace(0.0, 3e-3, 50):

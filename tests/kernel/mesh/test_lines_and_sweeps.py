@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from references.straight_line import straight_line
 
+from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
     rotation,
     sweep_line,
@@ -69,12 +70,18 @@ def test_turned_line_sweeps_a_ring() -> None:
     assert np.linalg.norm(nodes.coordinates[right.node_ids], axis=1) == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize("surface", ["QUA4", "TRI3", "QUA8", "TRI6"])
-def test_swept_volume_is_exact_and_well_turned(surface: str) -> None:
-    nodes = NodeTable()
-    line = line_between(nodes, [0, 0, 0], [1, 0, 0], 2, surface in ("QUA8", "TRI6"))
+@pytest.mark.parametrize("surfaces", ["QUA4", "TRI3", "QUA8", "TRI6", "TRI3 QUA8"])
+def test_swept_volume_is_exact_and_well_turned(surfaces: str) -> None:
+    nodes, floors = NodeTable(), []
     y, z = np.array([0.0, 2.0, 0]), np.array([0.3, 0, 1.5])
-    floor = sweep_line(line, translation(y), subdivide(2.0, count=3), surface)
-    made = sweep_surface(floor, translation(z), subdivide(1.5, count=2))
-    assert total_measure(made) == pytest.approx(3.0, rel=1e-12)
-    assert (signed_volumes(made.single_block()) > 0).all()
+    for x, surface in enumerate(surfaces.split()):  # two of them stand apart
+        quadratic = surface in ("QUA8", "TRI6")
+        line = line_between(nodes, [3.0 * x, 0, 0], [3.0 * x + 1, 0, 0], 2, quadratic)
+        floors.append(sweep_line(line, translation(y), subdivide(2.0, count=3), surface))
+    made = sweep_surface(union(*floors), translation(z), subdivide(1.5, count=2))
+    assert total_measure(made) == pytest.approx(3.0 * len(floors), rel=1e-12)
+    assert all((signed_volumes(block) > 0).all() for block in made.blocks)
+    around = made.sides[2]
+    sides = 2 * 1.5 + 2 * 2.0 * math.hypot(0.3, 1.5)  # two of the four lean
+    assert total_measure(around) == pytest.approx(sides * len(floors))
+    assert around.n_cells == 2 * (2 + 3 + 2 + 3) * len(floors)

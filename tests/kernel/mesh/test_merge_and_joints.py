@@ -198,3 +198,11 @@ def test_the_length_or_area_that_is_not_joined_is_told(cells, apart, counts, hei
     assert data["apart"] == pytest.approx(apart * height)
     assert data["joined"] == pytest.approx((1.0 - apart) * height)
     assert (data["n_first"], data["n_second"]) == counts
+
+
+def test_nodes_that_are_merged_with_merged_ones_are_one():
+    nodes = NodeTable()
+    nodes.add(np.zeros((6, 2)))
+    nodes.merge(np.array([5]), np.array([2]))
+    nodes.merge(np.array([1, 2, 4]), np.array([0, 1, 3]))  # a chain at once, on to an alias
+    assert nodes.resolve(np.arange(6)).tolist() == [5, 5, 5, 4, 4, 5]

@@ -65,21 +65,29 @@ def test_block_of_six_faces_is_filled_with_bricks(quadratic: bool, name: str) ->
 
 
 @pytest.mark.parametrize("quadratic", [False, True])
-def test_rounded_corner_is_tangent_to_both_lines(quadratic: bool) -> None:
+@pytest.mark.parametrize("radius", [0.5, 0.97])  # nearer to the next node, and farther
+def test_rounded_corner_is_tangent_to_both_lines(radius: float, quadratic: bool) -> None:
     nodes = NodeTable()
     corner = int(nodes.add(np.array([[2.0, 0, 0]]))[0])
     start, end = nodes.add(np.array([[0.0, 0], [3.0, 1.0]])).tolist()
     first = straight_line(nodes, start, corner, 8, quadratic=quadratic)
     second = straight_line(nodes, corner, end, 8, quadratic=quadratic)
-    one, arc, two = fillet(first, second, 0.5, 6)
-    reach = 0.5 * math.tan(math.pi / 8)
+    one, arc, two = fillet(first, second, radius, 6)
+    reach = radius * math.tan(math.pi / 8)
     assert total_measure(one) == pytest.approx(2 - reach)
     assert total_measure(two) == pytest.approx(math.sqrt(2) - reach)
     at = nodes.coordinates[line_chain(arc)]
-    centre = np.array([2 - reach, 0.5, 0])
-    assert np.linalg.norm(at - centre, axis=1) == pytest.approx(0.5)
+    centre = np.array([2 - reach, radius, 0])
+    assert np.linalg.norm(at - centre, axis=1) == pytest.approx(radius)
     assert line_chain(one)[-1] == line_chain(arc)[0]
     assert line_chain(arc)[-1] == line_chain(two)[0]
+    for cut, whole, step, k in ((one, first, 0.25, -1), (two, second, 0.25 / math.sqrt(2), 0)):
+        x = cut.single_block().coordinates
+        sizes = np.linalg.norm(x[:, -1] - x[:, 0], axis=1) / step
+        assert 0.3 < sizes[k] < 1.3  # where it is cut
+        assert np.delete(sizes, k) == pytest.approx(1.0)
+        assert x.mean(axis=1) == pytest.approx(x[:, [0, -1]].mean(axis=1))  # middles, too
+        assert np.isin(cut.node_ids, whole.node_ids).sum() == cut.node_ids.size - 1 - quadratic
 
 
 def test_too_large_a_radius_is_refused() -> None:

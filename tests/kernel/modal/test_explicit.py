@@ -158,7 +158,8 @@ def test_run_goes_on_where_it_stopped():
     part = run(ONE, 0.1 * ONE, ONE, 0.0, 1.0, 0.01, 120, [wall])
     arrays = link_arrays([wall], 1)
     still = ModalProblem(ONE, 0.1 * ONE, ONE, np.zeros((0, 1)), np.zeros((0, 161)), arrays)
-    rest = integrate_modes(still, part.last, ModalSteps(0.01, 80))
+    for _ in range(2):  # what it goes on from stays as it is
+        rest = integrate_modes(still, part.last, ModalSteps(0.01, 80))
     np.testing.assert_allclose(rest.values[:, :2], whole.values[120:, :2], atol=1e-12)
     assert rest.times[0] == pytest.approx(1.2)
 

@@ -22,7 +22,7 @@ from ssilang.kernel.modal.modes import (
     modes_between,
     modes_near,
 )
-from ssilang.kernel.statics.stability import negative_eigenvalues
+from ssilang.kernel.statics.stability import count_negative, negative_eigenvalues
 
 
 def chain(n, k=1.0, m=1.0):
@@ -157,6 +157,16 @@ def test_unstable_system_has_a_negative_frequency():
     mode = modes_near(matrix, M, [(0.0, 1)])[0]
     assert mode.frequency == pytest.approx(-np.sqrt(2.0) / (2.0 * np.pi))
     assert eigenvalue(mode.frequency) == pytest.approx(-2.0)
+
+
+@pytest.mark.parametrize("n", [40, 80])
+@pytest.mark.parametrize("shift", [0.5, 2.0])
+def test_negative_eigenvalues_of_a_chain_are_counted(n, shift):
+    """They are 2 - 2 cos(k pi / (n + 1)) - shift; with a shift of 2 the first pivot is zero."""
+    beside = -np.ones(n - 1)
+    A = sp.diags_array([beside, np.full(n, 2.0 - shift), beside], offsets=(-1, 0, 1))
+    exact = 2.0 - 2.0 * np.cos(np.arange(1, n + 1) * np.pi / (n + 1)) - shift
+    assert count_negative(sp.csr_array(A)) == np.count_nonzero(exact < 0.0)
 
 
 def test_nothing_to_vibrate_is_said():

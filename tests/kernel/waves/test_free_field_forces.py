@@ -6,12 +6,14 @@ from references.assembled import Bench
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.waves.free_field_forces import (
+    PLASTIC,
     Ground,
     Motion,
     _rows,
@@ -21,6 +23,7 @@ from ssilang.kernel.waves.free_field_forces import (
     elements_of,
     layer_forces,
     load_of,
+    yielded,
     yielding_at,
     yielding_outside,
 )
@@ -153,7 +156,7 @@ def test_heights_beyond_a_column_are_refused():
 def test_the_highest_frequency_is_that_of_the_velocity_that_counts():
     t = 0.01 * np.arange(400)
     slow, fast = (np.sin(2 * np.pi * f * t) * 2 * np.pi * f for f in (2.5, 12.5))
-    both = np.stack([slow, slow + 0.1 * fast])
+    both = 1e-5 * np.stack([slow, slow + 0.1 * fast])
     assert highest_frequency(t, both) == pytest.approx(12.5, rel=2e-2)
     assert highest_frequency(t, both, 0.2) == pytest.approx(2.5, rel=2e-2)
     assert highest_frequency(t, 0 * both) == 0.0
@@ -194,3 +197,22 @@ def test_cells_that_are_kept_keep_their_own_matrices():
     kept = _rows(block, np.array([False, True, True]))
     np.testing.assert_array_equal(kept.raw_nodes, nodes[1:])
     np.testing.assert_array_equal(kept.values, values[1:])
+
+
+@pytest.mark.parametrize(("axis", "wanted"), [(None, (0.2, 1.5, 2)), (0, (0.3, 2.5, 2))])
+def test_cells_that_have_yielded_count_where_the_nodes_take_their_motion(axis, wanted):
+    """Those of these nodes alone, or those at their heights, whatever nodes they have."""
+    b = Bench()
+    n = [b.node(float(i), 0.0) for i in range(5)]
+    cells = CellBlock.make(b.table, "SEG2", np.array([n[:2], n[1:3], n[2:4], n[3:]]))
+    strain = np.array([[0.1, 0.0], [0.0, 0.2], [0.3, 0.0], [0.9, 0.9]])
+    others = CellBlock.make(b.table, "SEG2", np.array([n[:2]]))
+    blocks = (
+        CellFieldBlock(others, {"VAIR": np.ones((1, 2))}, "STRESSES", "BARR"),
+        CellFieldBlock(cells, {PLASTIC: strain}, "STRESSES", "BARR"),
+    )
+    nodes = np.array(n[:3]) if axis is None else np.array([n[1], n[3]])
+    found = yielded(CellField(blocks), nodes, axis)
+    assert (found.strain, found.place[0], found.count) == pytest.approx(wanted)
+    nothing = CellField((CellFieldBlock(cells, {PLASTIC: 0.0 * strain}, "STRESSES", "BARR"),))
+    assert yielded(nothing, nodes, axis) is None

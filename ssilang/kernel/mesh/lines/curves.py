@@ -15,6 +15,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.lines.lines import chain_mesh, line_chain, mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
 
 _IN_LINE = "kernel.mesh.three-points-plane-line"
 _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
@@ -273,33 +274,35 @@ def fillet(
     """
     nodes = first.nodes
     quadratic = first.single_block().cell_type == "SEG3"
+    degree = 1 + quadratic
     one, two = line_chain(first), line_chain(second)
     x, y = nodes.coordinates[one].copy(), nodes.coordinates[two].copy()
     u, v = _unit(x[-1] - x[-2]), _unit(y[1] - y[0])
     corner, angle = _corner(x[-1], u, y[0], v)
     reach = radius * math.tan(angle / 2)
     start, end = corner - reach * u, corner + reach * v
-    head = _trimmed(nodes.density, x, one, start, u)
-    tail = _trimmed(nodes.density, y[::-1], two[::-1], end, -v)
+    head = _trimmed(x, one, start, u, degree)
+    tail = _trimmed(y[::-1], two[::-1], end, -v, degree)
     ids = nodes.add(np.array([start, end]), nodes.density[[one[-1], two[0]]])
     inwards = _unit(v - (v @ u) * u)
     arc = Arc(start + radius * inwards, -radius * inwards, radius * u, angle)
     sizes = float(nodes.density[one[-1]]), float(nodes.density[two[0]])
     parts = subdivide(arc.length, *sizes, count)
     middle = mesh_curve(nodes, arc, int(ids[0]), int(ids[1]), parts, quadratic, colour)
-    before = _line(first, np.append(head, ids[0]), quadratic, colour)
-    after = _line(first, np.append(tail, ids[1])[::-1], quadratic, colour)
+    chains = _ended(nodes, head, ids[0], degree), _ended(nodes, tail, ids[1], degree)[::-1]
+    before, after = (chain_mesh(nodes, chain, quadratic, colour) for chain in chains)
     return before, middle, after
 
 
-def _line(like: Mesh, corners: IntArray, quadratic: bool, colour: int) -> Mesh:
-    """A line through corner nodes; middles are new when quadratic."""
-    if not quadratic:
-        return chain_mesh(like.nodes, corners, False, colour)
-    xyz, size = like.nodes.coordinates, like.nodes.density
-    pairs = np.column_stack([corners[:-1], corners[1:]])
-    made = like.nodes.add(xyz[pairs].mean(axis=1), size[pairs].mean(axis=1))
-    return Mesh.of(like.nodes, "SEG3", np.column_stack([pairs[:, 0], made, pairs[:, 1]]), colour)
+def _ended(nodes: NodeTable, chain: IntArray, end: int, degree: int) -> IntArray:
+    """A chain that goes on straight to a node; the middle of its last element is new."""
+    pair = np.array([chain[-1], end])
+    made = pair[:0]
+    if degree == 2:
+        made = nodes.add(
+            nodes.coordinates[pair].mean(axis=0)[None], nodes.density[pair].mean(keepdims=True)
+        )
+    return np.concatenate([chain, made, pair[1:]])
 
 
 def _unit(vector: FloatArray) -> FloatArray:
@@ -322,13 +325,12 @@ def _corner(a: FloatArray, u: FloatArray, b: FloatArray, v: FloatArray) -> tuple
 
 
 def _trimmed(
-    density: FloatArray, x: FloatArray, chain: IntArray, end: FloatArray, way: FloatArray
+    x: FloatArray, chain: IntArray, end: FloatArray, way: FloatArray, degree: int
 ) -> IntArray:
-    """Nodes of a chain that stand before `end` along the way, the last one not too near."""
-    left = (end - x) @ way
-    step = float(np.linalg.norm(x[-1] - x[-2]))
+    """Nodes of a chain up to the last corner before `end` along the way that is not too near."""
+    left = ((end - x) @ way)[::degree]
+    step = float(np.linalg.norm(x[-1] - x[-1 - degree]))
     if left[0] <= 0.0:
         raise MeshError("kernel.mesh.radius-too-large-lines")
-    keep = left > 0.3 * step
-    keep[0] = True
-    return chain[keep]
+    last = int(np.flatnonzero(left > 0.3 * step).max(initial=0))
+    return chain[: degree * last + 1]

@@ -44,11 +44,6 @@ class YieldingSolid:
     solid: FiniteSolid
     points: PlasticPoints
 
-    @property
-    def symmetric(self) -> bool:
-        """Whether its tangents are."""
-        return self.points.law.symmetric
-
     def respond(
         self, before: FloatArray, u: FloatArray, last: PointState, time: float
     ) -> tuple[PointState, FiniteSolid]:
@@ -107,11 +102,6 @@ class YieldingBulk(FiniteBulk):
 
     yielding: tuple[YieldingSolid, ...] = ()
     at: tuple[NDArray[np.int32], ...] = ()
-
-    @property
-    def symmetric(self) -> bool:
-        """Whether all tangents are."""
-        return all(z.symmetric for z in self.yielding)
 
     @property
     def searched(self) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
@@ -35,12 +37,16 @@ def joint_forces(problem: Problem, t: FloatArray) -> FloatArray:
 
 def closed_stiffness(problem: Problem) -> sp.csr_array:
     """The stiffness (n_y, n_y) with closed joints on the motions that the supports leave."""
-    T, joints = problem.constraints.T, problem.interface
-    K = sp.csr_array(T.T @ problem.K @ T)
+    T = problem.constraints.T
+    return sp.csr_array(T.T @ closed_forces(problem, T))
+
+
+def closed_forces(problem: Problem, motions: Any) -> Any:
+    """What stiffness and closed joints hold motions (n, ...) with, sparse as they are."""
+    forces, joints = problem.K @ motions, problem.interface
     if joints is None:
-        return K
-    J, R = sp.csr_array(joints.J @ T), sp.csr_array(joints.closed_stiffness())
-    return sp.csr_array(K + J.T @ R @ J)
+        return forces
+    return forces + joints.J.T @ (sp.csr_array(joints.closed_stiffness()) @ (joints.J @ motions))
 
 
 # Supports that do not move take no part in loops on coordinates; their reactions follow.

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -22,7 +21,7 @@ from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translation
-from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
+from ssilang.kernel.stepping.problem.equilibrium import closed_forces, closed_stiffness
 from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.problem import Problem
 
@@ -140,14 +139,11 @@ class Bodies:
         if all(ways):
             return "held"
         if any(ways):
-            shaken = self.factors.any() and (problem.loading.forces.any() or self._moving)
+            load = problem.loading
+            shaken = self.factors.any() and (load.forces.any() or load.imposed.any())
             weight = excited and abs(float(pushed.mean())) > PRESSED * largest
             return "pressed" if shaken and not weight else "stands"
         return "slides" if excited and not closed else ""
-
-    @cached_property
-    def _moving(self) -> bool:
-        return bool(self.problem.loading.imposed.any())
 
     def _holds(self, motion: FloatArray) -> bool:
         """Whether stiffness, dashpots or supports act against a motion."""
@@ -237,7 +233,7 @@ def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
         found.append((loading.forces[:, k], sudden))
         if loading.imposed[:, k].any():
             moved = problem.constraints.particular(loading.imposed[:, k])
-            found.append((problem.M @ moved, sudden))
+            found.append((closed_forces(problem, moved), sudden))
     return [(f, sudden) for f, sudden in (*found, (problem.M @ problem.v, True)) if f.any()]
 
 

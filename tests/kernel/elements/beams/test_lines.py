@@ -7,7 +7,7 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.fibre_section import FibreSection, fibre_places
 from ssilang.kernel.elements.loads.loads import line_load
-from ssilang.kernel.elements.results.integrals import green_strain
+from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
@@ -183,11 +183,15 @@ def test_euler_buckling_load_from_the_geometric_stiffness():
     assert factors == pytest.approx(np.pi**2 * E * IZ / (4 * L**2), rel=1e-4)
 
 
-def test_second_order_strain_of_a_turned_bar_vanishes():
+@pytest.mark.parametrize("stretch", [1.0, 1.3])
+def test_second_order_strain_of_a_turned_bar_is_that_of_its_stretch(stretch):
     zone = line_zone("BARR", [(0, 0), (1, 2)], Mode.PLANE_STRESS)
-    c, s = np.cos(0.7) - 1, np.sin(0.7)
+    c, s = stretch * np.cos(0.7) - 1, stretch * np.sin(0.7)
     u = field(zone, UX=lambda x: c * x[:, 0] - s * x[:, 1], UY=lambda x: s * x[:, 0] + c * x[:, 1])
-    assert np.abs(green_strain(zone, u).components["EPSS"]).max() < 1e-14
+    exact = 0.5 * (stretch**2 - 1)
+    np.testing.assert_allclose(green_strain(zone, u).components["EPSS"], exact, atol=1e-14)
+    pulled = green_stress(zone, material(zone, YOUN=E, NU=NU, SECT=A), u).components["EFFX"]
+    np.testing.assert_allclose(pulled, E * A * exact, atol=1e-14 * E * A)
 
 
 def test_a_beam_without_its_inertia_is_refused():

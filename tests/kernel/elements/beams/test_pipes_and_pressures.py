@@ -62,15 +62,20 @@ def test_closed_ends_pull_on_a_pipe_under_pressure():
 
 @pytest.mark.parametrize("bend", [0.0, 0.25, 30.0])
 @pytest.mark.parametrize("moment", ["MOMY", "MOMZ"])
-def test_stress_of_an_elbow_is_that_of_its_ring_times_the_intensity_factor(moment, bend):
-    """M r / I with the ring's inertia, by pi / 4 and 0.89 lambda^(-2/3) where that is above 1."""
-    zone, mat = _pipe(**({"RACO": bend} if bend else {}))
+@pytest.mark.parametrize("pressed", [{}, {"PRES": 2e6, "CFPR": 0.7}])
+def test_stress_of_an_elbow_is_that_of_its_ring_times_the_intensity_factor(moment, bend, pressed):
+    """M r / I with the ring's inertia, by pi / 4 and 0.89 lambda^(-2/3) where that is above 1.
+
+    The square of CFPR times the hoop stress of a pressure is added to its square.
+    """
+    zone, mat = _pipe(**({"RACO": bend} if bend else {}), **pressed)
     block = CellFieldBlock(zone.cells, {moment: np.full((1, 1), 3e4)}, "GRAVITE", zone.element)
     values, _ = section_equivalent(zone, CellField((block,)), mat)
     mean = RE - H / 2
     ratio = H * bend / mean**2 if bend else np.inf
     factor = max(1.0, 8 / 9 * ratio ** (-2 / 3))
-    np.testing.assert_allclose(values, 3e4 * mean / INERTIA * np.pi / 4 * factor)
+    hoop = 0.7 * 2e6 * mean / H if pressed else 0.0
+    np.testing.assert_allclose(values, np.hypot(3e4 * mean / INERTIA * np.pi / 4 * factor, hoop))
 
 
 def _quadrangle():

@@ -85,7 +85,8 @@ def test_absorbing_boundary_has_the_impedance_of_the_medium():
     E, nu, rho = 1e8, 0.3, 1800.0
     nodes = zone.cells.connectivity[0]
     side = Mesh.of(zone.cells.nodes, "SEG3", nodes[None, :3])
-    C = absorbing_boundary(Model((zone,)), side, material(zone, YOUN=E, NU=nu, RHO=rho))
+    beside = cell_zone("TRI3", Mode.PLANE_STRAIN)  # a body without sides there, nor parameters
+    C = absorbing_boundary(Model((beside, zone)), side, material(zone, YOUN=E, NU=nu, RHO=rho))
     (block,) = C.blocks
     ends = zone.cells.coordinates[0, [0, 2], :2]
     t = ends[1] - ends[0]

@@ -46,11 +46,14 @@ def test_plate_warmer_on_its_upper_skin_grows_and_bends(found, element: str) -> 
 
 def test_mean_of_a_parabola_across_holds_the_plate(found) -> None:
     """Simpson's rule is exact: N = E h a (TINF + 4 T + TSUP) / 6 / (1 - nu)."""
-    n, m = found(
+    n, m, still = found(
         plate("DKT", "'TINF' 0. 'T' 30. 'TSUP' 12.")
-        + "N = MAXI (EXCO 'N22' S) ; M1 = MAXI (EXCO 'M11' S) ;",
-        "N", "M1",
+        + "N = MAXI (EXCO 'N22' S) ; M1 = MAXI (EXCO 'M11' S) ; "
+        f"A = MATE M 'YOUN' 1.E9 'NU' 0.3 'EPAI' {THICKNESS} ; "  # that nothing says to grow
+        "Z = MAXI (THET M A (MANU 'CHPO' Q 'T' 30.)) 'ABS' ;",
+        "N", "M1", "Z",
     )  # fmt: skip
+    assert still == 0.0
     assert n == pytest.approx(1e9 * THICKNESS * ALPHA * (4 * 30.0 + 12.0) / 6 / 0.7)
     assert m == pytest.approx(1e9 * THICKNESS**3 / 12 * ALPHA * 12.0 / THICKNESS / 0.7)
 

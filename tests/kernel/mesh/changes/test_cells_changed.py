@@ -13,6 +13,7 @@ from ssilang.kernel.mesh.changes.transform import (
     affine_through,
     affinity,
     mirror_plane,
+    straighten_middles,
     turn,
 )
 from ssilang.kernel.mesh.combine import cell_keys, difference, intersection, union
@@ -38,6 +39,21 @@ def box(surface: str = "QUA4") -> Mesh:
     y, z = np.array([0.0, 2, 0]), np.array([0.0, 0, 3])
     floor = sweep_line(base, translation(y), subdivide(2.0, count=3), surface)
     return sweep_surface(floor, translation(z), subdivide(3.0, count=2))
+
+
+def test_middles_go_along_their_edges_to_where_both_ends_are_as_far() -> None:
+    mesh = quadratic(box())
+    mesh = union(mesh, line(mesh.nodes, [9, 0, 0], [9, 1, 0], 1))  # one without middles
+    (bent,) = (b for b in edges(mesh).blocks if b.cell_type == "SEG3")
+    x = mesh.nodes.coordinates
+    middles = bent.connectivity[:, 1]
+    x[middles] += np.random.default_rng(4).uniform(-0.1, 0.1, (len(middles), 3))
+    ends, before = bent.coordinates[:, [0, 2]].copy(), bent.coordinates[:, 1].copy()
+    straighten_middles(mesh)
+    a, m, b = np.moveaxis(bent.coordinates, 1, 0)
+    np.testing.assert_array_equal(np.stack([a, b], axis=1), ends)
+    np.testing.assert_allclose(np.linalg.norm(m - a, axis=1), np.linalg.norm(m - b, axis=1))
+    np.testing.assert_allclose(np.cross(m - before, b - a), 0.0, atol=1e-15)
 
 
 @pytest.mark.parametrize("name", sorted(QUADRATIC.values()))

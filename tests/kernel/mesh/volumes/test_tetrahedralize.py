@@ -14,6 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
+from ssilang.kernel.mesh.volumes.tetrahedralize import _inner_points
 from ssilang.kernel.mesh.volumes.volume import fill_volume
 
 
@@ -38,16 +39,41 @@ def test_tetrahedra_fill_a_box_and_keep_its_triangles(cuts: tuple[int, int, int]
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(skin.single_block()).tolist())
 
 
-def test_long_triangles_on_a_sheared_box_are_kept() -> None:
-    skin = box_skin((5, 3, 2))
+def sheared_skin(cuts: tuple[int, int, int]) -> Mesh:
+    """Triangles of the box, each layer pushed away: most of the box round it is outside."""
+    skin = box_skin(cuts)
     xyz = skin.nodes.coordinates
     xyz[:, 0] += 0.7 * xyz[:, 2]
     xyz[:, 1] += 0.4 * xyz[:, 2]
-    skin = split_quadrangles(skin)
+    return split_quadrangles(skin)
+
+
+def test_long_triangles_on_a_sheared_box_are_kept() -> None:
+    skin = sheared_skin((5, 3, 2))
     volume = fill_volume(skin)
     assert total_measure(volume) == pytest.approx(3.0, rel=1e-12)
     found = envelope(volume).single_block()
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(skin.single_block()).tolist())
+
+
+def test_points_are_added_inside_alone() -> None:
+    skin = sheared_skin((5, 10, 8))
+    used, triangles = np.unique(skin.single_block().connectivity, return_inverse=True)
+    added = _inner_points(skin.nodes.coordinates[used], triangles.reshape(-1, 3))
+    back = added - np.outer(added[:, 2], [0.7, 0.4, 0.0])
+    assert len(added) > 50
+    assert ((back > 0.0) & (back < [1.0, 2.0, 1.5])).all()
+
+
+def test_points_added_beside_small_triangles_keep_their_distance() -> None:
+    skin = split_quadrangles(box_skin((4, 8, 6)))
+    block = split_quadrangles(box_skin((4, 4, 4))).single_block()
+    hole = block.coordinates.reshape(-1, 3) * 0.3 + [0.35, 0.7, 0.5]  # its sides are 0.075 at least
+    points = np.vstack([skin.single_block().coordinates.reshape(-1, 3), hole])
+    used, triangles = np.unique(points.round(9), axis=0, return_inverse=True)
+    added = _inner_points(used, triangles.reshape(-1, 3))
+    apart = np.linalg.norm(added[:, None] - added, axis=-1)[np.triu_indices(len(added), 1)]
+    assert apart.min() > 0.75 * 0.075
 
 
 def test_quadrangles_carry_pyramids() -> None:

@@ -22,9 +22,11 @@ from ssilang.kernel.stepping.problem.problem import Problem
 STEPS = 56
 
 
-def stepped(law: str = "J2", keeper=None, steps: int = STEPS, full: bool = False):
+def stepped(
+    law: str = "J2", keeper=None, steps: int = STEPS, full: bool = False, moved: float = 0.0
+):
     """History, and displacements and last plastic strains, of a run."""
-    history, seen, strain = stepped_tower(law, steps, keeper=keeper, full=full)
+    history, seen, strain = stepped_tower(law, steps, keeper=keeper, full=full, moved=moved)
     return history, seen.of("u"), strain, seen.of("w")[..., -1]
 
 
@@ -85,6 +87,31 @@ def test_renewed_factors_lead_there_too(newton, monkeypatch: pytest.MonkeyPatch)
     assert len(made) > 3
     assert history.loop.startswith("kept factor")
     assert np.abs(u - newton[1][:21]).max() <= 1e-8 * np.abs(newton[1]).max()
+
+
+@pytest.mark.parametrize("solver", [DISSECTION, "SuperLU"])
+def test_a_base_that_moves_leads_there_too_with_any_factor(solver, monkeypatch) -> None:
+    full = stepped(steps=16, full=True, moved=0.02)
+    make = accelerated.effective_of
+    monkeypatch.setattr(accelerated, "is_accelerated", lambda *of: True)
+    monkeypatch.setattr(
+        accelerated, "effective_of",
+        lambda problem, *more: make(replace(problem, solver=Solver(solver)), *more),
+    )  # fmt: skip
+    iterate, led = accelerated.AcceleratedSolver._accelerated, []
+    monkeypatch.setattr(
+        accelerated.AcceleratedSolver, "_accelerated",
+        lambda *of: led.append((found := iterate(*of)).turns > 0) or found,
+    )  # fmt: skip
+    history, u, strain, _ = stepped(steps=16, moved=0.02)
+    assert all(led)  # else Newton's method would have gone on
+    assert len(led) >= 16
+    assert history.loop.startswith("kept factor")
+    assert full[0].loop.startswith("full Newton")
+    assert np.mean(strain > 0) > 0.1
+    assert np.abs(u - full[1]).max() <= 1e-8 * np.abs(full[1]).max()
+    still = stepped(steps=16, full=True)[1]
+    assert np.abs(u - still).max() > 0.1 * np.abs(still).max()
 
 
 def test_newtons_method_goes_on_where_the_iteration_leads_nowhere(

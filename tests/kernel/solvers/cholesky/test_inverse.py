@@ -6,7 +6,7 @@ import scipy.sparse as sp
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.solvers.cholesky import inverse
-from ssilang.kernel.solvers.cholesky.inverse import invert
+from ssilang.kernel.solvers.cholesky.inverse import free_motions, invert
 from ssilang.kernel.solvers.factor import Ordering
 
 
@@ -36,6 +36,18 @@ def test_unknowns_that_meet_nothing_are_free_beside_the_other_free_motions():
     np.testing.assert_allclose(np.diff(x[used]), -1.5, rtol=1e-12)  # 3 over 2, each spring
     b[idle[0]] = 1.0
     assert np.abs(found.work(b)).max() > 0.1
+
+
+@pytest.mark.parametrize("count", [1, 11])
+def test_free_motions_without_symmetry(count):
+    """More than are looked for at first, too."""
+    rng, n = np.random.default_rng(6), 40
+    free = np.linalg.qr(rng.standard_normal((n, count)))[0]
+    A = (np.eye(n) + 0.05 * rng.standard_normal((n, n))) @ (np.eye(n) - free @ free.T)
+    found = free_motions(sp.csr_array(A), False)
+    assert found.shape == (n, count)
+    np.testing.assert_allclose(found.T @ found, np.eye(count), atol=1e-12)
+    np.testing.assert_allclose(found @ (found.T @ free), free, atol=1e-9)
 
 
 def test_a_matrix_of_zeros_has_as_many_free_motions_as_unknowns():

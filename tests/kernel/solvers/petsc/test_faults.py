@@ -11,6 +11,7 @@ import threading
 import time
 from contextlib import suppress
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import petsc_there
@@ -19,7 +20,7 @@ from petsc_there import COMMAND, environment, lacking, ranks
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.solvers.petsc import client
+from ssilang.kernel.solvers.petsc import client, server
 from ssilang.kernel.solvers.petsc.client import PetscServer
 from ssilang.kernel.solvers.petsc.server import send
 
@@ -202,6 +203,22 @@ def test_memory_that_is_not_there_is_not_taken(monkeypatch):
     monkeypatch.setattr(client, "fits", lambda size: False)
     with pytest.raises(MemoryError):
         client._memory(1 << 16)
+
+
+def test_ranks_share_the_memory_of_their_machine():
+    told = [("one", 6e9, 1e9), ("other", 4.5e9, 2e9), ("one", 5e9, 4e9)]
+    comm = SimpleNamespace(
+        gather=lambda mine, root: told, allgather=lambda mine: [row[:2] for row in told]
+    )
+    factors = server.Factors(None, SimpleNamespace(comm=comm), "one")
+    assert factors.hosts() == {
+        "hosts": {"one": {"ranks": 2, "free": 5e9, "most": 5e9},
+                  "other": {"ranks": 1, "free": 4.5e9, "most": 2e9}},
+        "factors": 0,
+    }  # fmt: skip
+    assert factors.room() == pytest.approx(server.SHARE * 2.5e9)
+    told.clear()  # as other ranks are told
+    assert factors.hosts()["hosts"] == {}
 
 
 # --- the real server

@@ -5,6 +5,7 @@ import pytest
 from references.assembled import Bench
 
 from ssilang.kernel.curves.curve import Load
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.problem.plausibility import (
     Bodies,
     against_supports,
@@ -115,6 +116,16 @@ def test_periods_are_rayleighs_of_the_static_shape():
         moved, work = x @ M @ x, x @ f
         assert s.period == pytest.approx(2 * np.pi * np.sqrt(moved / work))
         assert s.damping == pytest.approx(60.0 * x[1] ** 2 / (2 * np.sqrt(work * moved)))
+    b = Bench()  # a support that moves pulls by what stands on it, whatever its own mass
+    n = [b.node(float(i), 0.0) for i in range(3)]
+    for i, (m, k) in enumerate(((2.0, 3e4), (5.0, 8e4))):
+        b.mass(m, n[i + 1], ("UY",))
+        b.spring(k, n[i], n[i + 1])
+    base = b.relate([(1.0, "UY", n[0])])
+    pull = NodeField.of(b.table, np.array([base]), {"FLX": np.array([0.4])})
+    shaken = Inputs(b.stiffness, T, b.mass_matrix, load=b.load(pull, T, SINE))
+    (carried,) = swings(make_problem(shaken))
+    assert carried.period == pytest.approx(2 * np.pi * np.sqrt(7.0 / 3e4))  # both go along with it
     for second in (1.0, 0.0, -0.3):
         (loose,) = swings(masses((1.0, second, SINE), free=True))
         assert loose.period == np.inf
