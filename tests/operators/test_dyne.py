@@ -403,7 +403,7 @@ def test_a_circle_that_turns_touches_a_fixed_circle(tmp_path):
     [("POINT_CERCLE", 1), ("POINT_CERCLE_FROTTEMENT", -1), ("POINT_CERCLE_MOBILE", 1)],
 )
 def test_a_point_in_or_about_a_circle_is_pushed_along_its_radius(kind, side, tmp_path):
-    """The circle's centre is at (0.02, 0.01) from the point; one that moves does so half as fast."""
+    """The centre is at (0.02, 0.01) from the point; one that moves does so half as fast."""
     root = run(
         MASS
         + f"""
@@ -412,7 +412,8 @@ def test_a_point_in_or_about_a_circle_is_pushed_along_its_radius(kind, side, tmp
         TM . 1 . 'DEFORMEE_MODALE' = (TM . 1 . 'DEFORMEE_MODALE') ET (MANU 'CHPO' Q 1 'UX' 0.5) ;
         L1 . 'CONTACT_INTERIEUR' = {"VRAI" if side > 0 else "FAUX"} ; L1 . 'RAIDEUR' = 700. ;
         OPTI DIME 3 ; L1 . 'NORMALE' = 0. 0. 3. ; L1 . 'EXCENTRATION' = 0.02 0.01 5. ; OPTI DIME 2 ;
-        TS . 'LIAISON_B' . L1 = VRAI ; TI . 'VITESSE' = MANU 'CHPO' (PX ET PY) 1 'ALFA' (PROG 0.8 0.3) ;
+        TS . 'LIAISON_B' . L1 = VRAI ;
+        TI . 'VITESSE' = MANU 'CHPO' (PX ET PY) 1 'ALFA' (PROG 0.8 0.3) ;
         R = DYNE 'DE_VOGELAERE' TB TI TL TS 200 1.E-3 ; F = R . L1 ; D = R . 150 . 'DEPLACEMENT' ;
         UX = EXTR D PX 'ALFA' ; UY = EXTR D PY 'ALFA' ;
         """,
@@ -479,13 +480,22 @@ def test_models_of_a_table_pasapas_are_the_tables_of_the_other_form(tmp_path):
         G = T . 'LIAISONS' . L . 'FORCE_DE_CHOC_NORMALE' ; X = T . 'TEMPS' . 500 ;
         H = MAXI ((T . 'REPRISE_DYNE' . 'VITESSE') - (R . 'REPRISE' . 'VITESSE')) 'ABS' ;
         E = MAXI ((T . 'DEPLACEMENTS' . 400) - D) 'ABS' ;
+        C = CHAR (MANU 'CHPO' PX 1 'FALF' 3.) (EVOL 'MANU' (PROG 0. 1.) (PROG 1. 0.5)) ;
+        TC = TABL 'CHARGEMENT' ; TC . 'BASE_A' = C ; TI = TABL 'INITIAL' ;
+        TI . 'REPRISE' = R . 'REPRISE' ; R = DYNE 'DE_VOGELAERE' TB TI TL TC 600 1.E-4 3 ;
+        T . 'INIT_DYNE' = T . 'REPRISE_DYNE' ; T . 'CHARGEMENT' = C ; T . 'NOMBRE_PAS' = 600 ;
+        T . 'SORTIE' = TABL ; T . 'SORTIE' . 'VARIABLE' = TABL ;
+        T . 'SORTIE' . 'VARIABLE' . 'VITESSE' = FAUX ; DYNE 'DE_VOGELAERE' T ;
+        W = MAXI ((T . 'DEPLACEMENTS' . 200) - (R . 201 . 'DEPLACEMENT')) 'ABS' ;
+        N = DIME (T . 'VITESSES') ; Y = T . 'TEMPS' . 200 ;
         """,
         tmp_path,
     )
     assert root.find("X") == pytest.approx(0.15)
     assert root.find("F").values.min() < -100.0
     np.testing.assert_allclose(root.find("G").values, root.find("F").values)
-    assert max(root.find("E"), root.find("H")) < 1e-12
+    assert max(root.find("E"), root.find("H"), root.find("W")) < 1e-12
+    assert (root.find("N"), root.find("Y")) == (0, pytest.approx(0.21))
 
 
 def test_pasapas_steps_models_of_links(tmp_path):
