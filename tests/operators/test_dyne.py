@@ -398,44 +398,6 @@ def test_a_circle_that_turns_touches_a_fixed_circle(tmp_path):
     np.testing.assert_allclose(get["VX_POINT_CONTACT"][slides], vx[slides], atol=3e-2)
 
 
-@pytest.mark.parametrize(
-    ("kind", "side"),
-    [("POINT_CERCLE", 1), ("POINT_CERCLE_FROTTEMENT", -1), ("POINT_CERCLE_MOBILE", 1)],
-)
-def test_a_point_in_or_about_a_circle_is_pushed_along_its_radius(kind, side, tmp_path):
-    """The centre is at (0.02, 0.01) from the point; one that moves does so half as fast."""
-    root = run(
-        MASS
-        + f"""
-        L1 . 'TYPE_LIAISON' = MOT '{kind}' ; L1 . 'SUPPORT' = P ; L1 . 'POINT' = P ;
-        Q = P PLUS (0.02 0.01) ; L1 . 'CERCLE' = Q ; L1 . 'RAYON' = {0.03 if side > 0 else 0.015} ;
-        TM . 1 . 'DEFORMEE_MODALE' = (TM . 1 . 'DEFORMEE_MODALE') ET (MANU 'CHPO' Q 1 'UX' 0.5) ;
-        L1 . 'CONTACT_INTERIEUR' = {"VRAI" if side > 0 else "FAUX"} ; L1 . 'RAIDEUR' = 700. ;
-        OPTI DIME 3 ; L1 . 'NORMALE' = 0. 0. 3. ; L1 . 'EXCENTRATION' = 0.02 0.01 5. ; OPTI DIME 2 ;
-        TS . 'LIAISON_B' . L1 = VRAI ;
-        TI . 'VITESSE' = MANU 'CHPO' (PX ET PY) 1 'ALFA' (PROG 0.8 0.3) ;
-        R = DYNE 'DE_VOGELAERE' TB TI TL TS 200 1.E-3 ; F = R . L1 ; D = R . 150 . 'DEPLACEMENT' ;
-        UX = EXTR D PX 'ALFA' ; UY = EXTR D PY 'ALFA' ;
-        """,
-        tmp_path,
-    )
-    rubs, link = kind != "POINT_CERCLE", root.find("F")
-    away = np.array([link.get("UX").values - 0.02, link.get("UY").values - 0.01])
-    assert link.get("UX").values[149] == pytest.approx(
-        root.find("UX") * (0.5 if kind.endswith("MOBILE") else 1.0)
-    )
-    assert link.get("UY").values[149] == pytest.approx(root.find("UY"))
-    radius = np.linalg.norm(away, axis=0)
-    push = 700.0 * np.maximum(radius - 0.03 if side > 0 else 0.015 - radius, 0.0)
-    force = link.get("FORCE_DE_CHOC_NORMALE" if rubs else "FORCE_DE_CHOC").values
-    np.testing.assert_allclose(force, -push, atol=1e-9)
-    assert 0.0 < np.count_nonzero(push > 1.0) < 200
-    if rubs:
-        most = 0.2 * push
-        assert (link.get("FORCE_DE_CHOC_TANGENTIELLE").values <= most * (1 + 1e-9)).all()
-        assert link.get("FORCE_DE_CHOC_TANGENTIELLE").values.max() > 0.9 * most.max()
-
-
 def test_a_polynomial_is_a_product_of_powers(tmp_path):
     root = run(
         MASS

@@ -75,8 +75,9 @@ def test_restrained_expansion_presses(tmp_path):
 def test_a_warm_body_goes_on_from_the_stresses_of_its_time(tmp_path):
     """Pulled and heated: in one run, and from fields that another run has left at t = 0.5."""
     warm = "T . 'CHARGEMENT' = (CHAR 'MECA' F EV) ET (CHAR 'T' (MANU 'CHPO' S 1 'T' 10.) EV) ; "
-    again = """PASAPAS T ; T2 = TABL ; MOTS1 = MOTS 'MODELE' 'CARACTERISTIQUES' 'BLOCAGES_MECANIQUES'
-    'CHARGEMENT' ; REPE B 4 ; M = EXTR MOTS1 &B ; T2 . M = T . M ; FIN B ;
+    again = """PASAPAS T ; T2 = TABL ; REPE B 4 ;
+    M = EXTR (MOTS 'MODELE' 'CARACTERISTIQUES' 'BLOCAGES_MECANIQUES' 'CHARGEMENT') &B ;
+    T2 . M = T . M ; FIN B ;
     T2 . 'TEMPS_CALCULES' = PROG 0.75 1. ; T2 . 'TEMPS' = TABL ; T2 . 'TEMPS' . 0 = 0.5 ;
     REPE B 2 ; M = EXTR (MOTS 'DEPLACEMENTS' 'CONTRAINTES') &B ; T2 . M = TABL ;
     T2 . M . 0 = T . M . 2 ; FIN B ; PASAPAS T2 ; """
