@@ -21,6 +21,11 @@ further form of an operator is found by the operator's word. Where nothing is ne
 room are taken; a mutant that no test tried is told as NONE and not counted. Faults of the language
 server get a process of their own, since its tests speak to a server that imports the copy.
 
+`--ran DATA` asks the suite itself. DATA is what coverage kept of a run of it, with a context a test
+(`pytest --cov --cov-context=test`): of tests, those that ran the lines are tried, the nearest
+first, and a line that none ran is a survivor. Compiled functions are not seen that way, nor what
+only an import runs: these stay with the nearest.
+
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
 one command of tests for all: neither draws by lines nor asks the room's tests first.
@@ -133,8 +138,9 @@ class Fault:
         return "\n".join([f"{self.path}:{self.line} {self.kind}", *diff])
 
 
-Asked = tuple[Fault | None, list[str], frozenset[str]]
-"""A fault not yet in the text, files of tests, words whose cases of a test go first."""
+Asked = tuple[Fault | None, list[str], frozenset[str], frozenset[str]]
+"""A fault not yet in the text, files of tests, words whose cases of a test go first, tests that ran
+its lines (empty: those of all files)."""
 
 
 def expressions(node: ast.AST, twins: Twins) -> Iterator[tuple[str, ast.AST]]:
@@ -424,13 +430,38 @@ def living() -> list[FunctionType]:
     return [f for f in gc.get_objects() if isinstance(f, FunctionType)]
 
 
-def in_turn(items: list[pytest.Item], files: list[str], words: frozenset[str]) -> list[pytest.Item]:
+class Ran:
+    """Which tests ran a line, from the data of a run with a context a test."""
+
+    def __init__(self, path: Path) -> None:
+        from coverage import CoverageData
+
+        self.data = CoverageData(str(path))
+        self.data.read()
+        trees = {path.rpartition("/ssilang/")[0] for path in self.data.measured_files()}
+        self.tree = min(trees, key=len)  # copies that tests made lie deeper
+
+    def tests(self, fault: Fault) -> frozenset[str] | None:
+        """Tests that ran lines of a fault; None: they are none of a test's."""
+        if compiled(fault):
+            return None
+        last = fault.line + fault.old.count("\n")
+        by_line = self.data.contexts_by_lineno(f"{self.tree}/{fault.path}")
+        found = [c for line, some in by_line.items() if fault.line <= line <= last for c in some]
+        named = [re.sub(r"\|\w+$", "", c[c.index("tests/") :]) for c in found if "tests/" in c]
+        ran = frozenset(named)
+        return None if found and not ran else ran
+
+
+def in_turn(
+    items: list[pytest.Item], files: list[str], words: frozenset[str], ran: frozenset[str]
+) -> list[pytest.Item]:
     """Tests of files, the nearest first; more cases of one test come behind other files' tests."""
     rank, cases = {file.split("::")[0]: i for i, file in enumerate(files)}, Counter[str]()
     order: list[tuple[bool, int, int, pytest.Item]] = []
     for item in items:
         file, test = item.nodeid.split("::")[0], item.nodeid.split("[")[0]
-        if file in rank:
+        if file in rank and (not ran or item.nodeid in ran):
             own = words & set(re.findall(r"[a-z]+", item.nodeid.partition("[")[2].lower()))
             place = rank[file] + (0 if own else CASE * cases[test])
             order.append((bool(item.get_closest_marker("long")), place, rank[file], item))
@@ -463,8 +494,8 @@ class _Judge:
         functions = living()
         gc.freeze()
         items = {item.nodeid: item for item in session.items}
-        for fault, files, words in self.asked:
-            near = in_turn(session.items, files, words)
+        for fault, files, words, ran in self.asked:
+            near = in_turn(session.items, files, words, ran)
             said = self.split_off(near, fault, functions)
             test = re.match(r"\w+ (tests/.*) \(", said)
             if fault and test and test[1] in items and test[1] not in self.good:
@@ -525,7 +556,7 @@ def verdicts(copy_of: Path, asked: list[Asked], seconds: float) -> Iterator[str]
         sys.path.insert(0, str(copy_of))
         judge = _Judge(asked, seconds, writes)
         options = ["-n", "0", "-q", "-p", "no:cacheprovider", "--hypothesis-seed=1"]
-        files = sorted({file for _, files, _ in asked for file in files})
+        files = sorted({file for _, files, *_ in asked for file in files})
         try:
             pytest.main([*options, *files], [judge])
         except BaseException as problem:
@@ -578,7 +609,7 @@ def warm_up(kept: Path) -> None:
 
 
 def try_all(
-    asked: list[Fault], seconds: float, folder: Path, kept: Path, once: bool
+    asked: list[Fault], seconds: float, folder: Path, kept: Path, once: bool, data: Ran | None
 ) -> Counter[str]:
     """Judge faults one after the other, telling each; how many ended how."""
     copy_of = project(folder)
@@ -601,28 +632,36 @@ def try_all(
     cold: list[Asked] = []
     for fault in asked:
         tests = near(fault, texts, callers)
+        ran = data.tests(fault) if data else None
+        own = {test.split("::")[0] for test in ran or ()} & set(files)
+        if own:
+            tests = [*(f for f in tests if f in own), *sorted(own - set(tests))]
         reason = same.get((fault.path, fault.old.strip(), fault.new.strip()))
         if reason or not fault.source() or not tests:
             tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else NONE)
+        elif ran is not None and not own:
+            tell(fault, "passed: no test runs it")
         else:
             words = frozenset(re.findall("[a-z]+", fault.path[len("ssilang/") : -len(".py")]))
             words |= {name.lower() for name in callers.names(fault) if name.isupper()}
             apart = compiled(fault) or fault.path.startswith(SERVED)
-            (cold if apart else warm).append((fault, tests, words))
-    for (fault, tests, words), said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
+            (cold if apart else warm).append((fault, tests, words, ran or frozenset()))
+    for (fault, tests, words, ran), said in zip(
+        warm, verdicts(copy_of, warm, seconds), strict=True
+    ):
         if (once and said != NOT_SO) or WORDS.get(said.split()[0]) == "noticed":
             tell(fault, said)
         else:
-            cold.append((fault, tests, words))
-    for fault, tests, words in cold:
+            cold.append((fault, tests, words, ran))
+    for fault, tests, words, ran in cold:
         limit = COMPILES * seconds if compiled(fault) else seconds
         target = copy_of / fault.path
         was = target.read_bytes()
         target.write_text(fault.source() or "", encoding="utf-8")
-        (said,) = verdicts(copy_of, [(None, tests, words)], limit)
+        (said,) = verdicts(copy_of, [(None, tests, words, ran)], limit)
         target.write_bytes(was)
         if test := re.match(r"\w+ (tests/.*) \(", said):
-            (alone,) = verdicts(copy_of, [(None, [test[1]], words)], limit)
+            (alone,) = verdicts(copy_of, [(None, [test[1]], words, frozenset())], limit)
             said = said if alone.startswith("passed") else f"passes not without it: {alone}"
         tell(fault, said)
         for made in set(kept.glob("ssilang/compiled/*")):
@@ -640,6 +679,7 @@ def main() -> None:
     parser.add_argument("--under", nargs="+", default=["ssilang"], help="folders to draw from")
     parser.add_argument("--once", action="store_true", help="survivors get no process of their own")
     parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
+    parser.add_argument("--ran", type=Path, metavar="DATA", help="coverage's, a context a test")
     parser.add_argument("--list", action="store_true", help="print the faults and try none")
     asked = parser.parse_args()
     if asked.again:
@@ -656,7 +696,8 @@ def main() -> None:
     for library in LIBRARIES:
         import_module(library)
     with tempfile.TemporaryDirectory() as folder:
-        count = try_all(chosen, asked.seconds, Path(folder), kept, asked.once)
+        data = Ran(asked.ran) if asked.ran else None
+        count = try_all(chosen, asked.seconds, Path(folder), kept, asked.once, data)
     ended = ", ".join(f"{n} {word}" for word, n in sorted(count.items()))
     noticed = count["assertion"] + count["crash"] + count["time"]
     tried = noticed + count["SURVIVED"]
