@@ -103,7 +103,9 @@ def test_nothing_stays_on_the_disk_but_what_a_folder_was_asked_for(tmp_path, mon
     r = ssilang.run(deck)
     (picture,) = r.figures
     held = picture.path
-    assert picture._repr_png_()[:4] == b"\x89PNG"
+    assert picture._repr_png_()[:4] == picture.save("copy.png").read_bytes()[:4] == b"\x89PNG"
+    (tmp_path / "copy.png").unlink()
+    assert picture._repr_svg_() is None
     assert list(tmp_path.iterdir()) == []
     del r, picture
     assert not held.parent.exists()
@@ -119,6 +121,7 @@ def test_nothing_stays_on_the_disk_but_what_a_folder_was_asked_for(tmp_path, mon
 def test_checks_warnings_and_time(swing):
     assert swing.checks["peak"].value == pytest.approx(0.2)
     assert [c.ok for c in swing.checks] == [True, False]
+    assert len(swing.checks) == repr(swing.checks).count("Check(") == 2
     assert swing.checks.frame().loc[1, "expected"] == 1.0
     with pytest.raises(KeyError, match="did you mean peak"):
         swing.checks["pek"]

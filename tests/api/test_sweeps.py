@@ -62,6 +62,20 @@ def test_what_cannot_be_swept_is_refused_before_anything_runs(tmp_path, given, s
         ssilang.sweep(tmp_path / "case.ssi", **given)
 
 
+def test_a_folder_that_is_asked_for_has_the_table_and_the_report(tmp_path):
+    (tmp_path / "case.ssi").write_text(DECK)
+    (tmp_path / "motions").mkdir()
+    (tmp_path / "motions/m.csv").write_text("1.5\n0.5\n")
+    given = {"out": tmp_path / "out", "report": True, "records": tmp_path / "motions"}
+    made = ssilang.sweep(tmp_path / "case.ssi", N=[3, 2], AG=0.5, jobs=1, **given)
+    assert made["square"].tolist() == [0.75, 0.5]
+    for folder in made["folder"]:
+        assert (tmp_path / "out/runs" / folder / "row.json").is_file()
+    head = (tmp_path / "out/sweep.csv").read_text().splitlines()[0].split(";")
+    assert {*made.columns} <= {*head}
+    assert (tmp_path / "out/report.html").is_file()
+
+
 def test_a_text_is_no_file_to_sweep():
     with pytest.raises(ssilang.Error, match="a sweep runs a file"):
         ssilang.sweep("X = 1 ;", X=[1, 2])

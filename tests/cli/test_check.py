@@ -82,6 +82,7 @@ def errors(source: Source) -> list[str]:
         ("FLUX 1 ;", "unknown-operator"),
         ("L = MOTS 'UX' ; M = EXTR L 1 ; X = M EGA 'UX' ; MESS X ;", "unread-operator"),
         ("L = MOTS 'UX' ; X = EXTR L 1 EGA 'UX' ; MESS X ;", "unread-operator"),
+        ("SI FOO ; FINSI ;", "unknown-operator"),
     ],
 )
 def test_finds(text, code):
@@ -142,6 +143,8 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "M = MOT 'PROG' ; X = M 1. 2. ; MESS X ;",
         "OPTI DIME 2 ; P = 1. 2. ; Q = P PLUS (1. 0.) ; MESS (COOR 1 Q) ;",
         "T = TABL ; T . 1 = MOT 'X' ; Y = T . 1 3 ; MESS Y ;",
+        "T = TEXT '1 +' ; X = (T 3) ; MESS X ;",
+        "T = TABL ; T . 1 = TEXT '1 +' ; X = (T . 1 3) ; MESS X ;",
         "X Y = MAXI (EVOL 'MANU' (PROG 1. 2.) (PROG 1. 2.)) ; MESS X Y ;",
         "DEBP P A/ENTIER ; B = 0 ; SI (EXIS A) ; B = A + 1 ; FINSI ; FINP B ; X = P ; MESS X ;",
         "DEBP P ; ARGU A*ENTIER ; FINP A ; X = P 3 ; MESS X ;",
@@ -256,6 +259,8 @@ def test_entries_that_the_procedure_does_not_have_are_shown_where_they_are_writt
          "entry-value-near", "T1 . 'FORME'"),
         ("T1 . 'DEMI_LONGEUR' = 3. ; T3 = COPI T1 ; LIST (@PASSAGE T3) ;", "entry-unknown",
          "T1 . 'DEMI_LONGEUR'"),
+        ("T1 . 'GRANDS_DEPLACEMENTS' = 'VRAI' ; PASAPAS T1 ;", "word-of-truth",
+         "T1 . 'GRANDS_DEPLACEMENTS'"),
     ],
 )  # fmt: skip
 def test_values_that_a_procedure_refuses_are_shown_where_they_are_given(script, code, place):

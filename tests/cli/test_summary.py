@@ -15,6 +15,7 @@ import pytest
 
 from ssilang.cli.run import RunOptions, run_file, run_source
 from ssilang.cli.summary import plain
+from ssilang.io.run_output import RunOutput
 from ssilang.language.text.source import Source
 from ssilang.operators.dynamics.reports import ENERGY_LIMIT
 
@@ -82,6 +83,16 @@ def test_an_output_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> Non
     result = run_file(tmp_path / "deck.ssi", options)
     assert result.exit_code == 1
     assert "cannot be written" in result.message
+
+
+def test_a_run_with_a_summary_holds_its_folder_before_it_writes(tmp_path: Path) -> None:
+    other, out = RunOutput(tmp_path, tmp_path), io.StringIO()
+    other.hold()
+    options = RunOptions(output_directory=tmp_path, summary=True)
+    result = run_source(Source("deck", "MESS 'runs' ;"), options, out, io.StringIO())
+    other.release()
+    assert [e.code for e in result.errors] == ["io.folder-in-use"]
+    assert (out.getvalue(), list(tmp_path.iterdir())) == ("", [])
 
 
 def test_the_command_writes_below_results(tmp_path: Path) -> None:

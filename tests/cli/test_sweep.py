@@ -18,13 +18,7 @@ from hypothesis import strategies as st
 
 import ssilang
 from ssilang.cli.run import run_text
-from ssilang.cli.sweeping.given import (
-    GivenError,
-    cases_of,
-    folder_names,
-    parse_setting,
-    parse_values,
-)
+from ssilang.cli.sweeping.given import parse_values
 from ssilang.cli.sweeping.pool import run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.cli.sweeping.trunk import run_grown
@@ -61,40 +55,13 @@ def test_a_range_of_integers_has_both_ends(first, step, count):
     assert parse_values(f"{first}:{last}:{step}") == list(range(first, last + 1, step))
 
 
-def test_a_range_of_reals_has_both_ends_without_drift():
-    assert parse_values("0.1:1.0:0.1") == [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]
-
-
-def test_values_have_the_types_of_the_language():
-    assert parse_setting("a=1,2.5,1.D-3,VRAI,mot") == ("A", [1, 2.5, 1e-3, True, "mot"])
-
-
-@pytest.mark.parametrize(
-    ("texts", "code"),
-    [("AG =3 AG= 1X=2", "not-name-value-ag"), ("A=1:0:1 A=0:1:0", "range-no-values-first"),
-     ("A=0:1:0.3", "range-misses-end"), ("A=1,,2 A=1, A=::", "value-empty"),
-     ("A=0.5,0.50 A=x,y,x", "value-twice"), ("A=1E400", "value-too-large")],
-)  # fmt: skip
-def test_what_cannot_be_read_is_refused(texts, code):
-    for text in texts.split():
-        with pytest.raises(GivenError, check=lambda e: e.code == f"cli.{code}"):
-            cases_of([text], None)
-
-
-def test_all_combinations_come_in_order():
-    cases = cases_of(["A=1,2", "B=x,y"], None)
-    assert [tuple(c.values.values()) for c in cases] == [
-        (1, "x"), (1, "y"), (2, "x"), (2, "y"),
-    ]  # fmt: skip
-
-
 def test_a_sweep_makes_one_table_and_reports_failures(deck, tmp_path):
     out = tmp_path / "out"
     options = SweepOptions(deck, ["AG=0.5,0.9", "N=1,2"], out=out, jobs=2)
     code, said, wrong = run(options)
     assert code == 1
     assert "4 runs, 2 failed" in said
-    assert wrong.count("too strong") == 2
+    assert sum("too strong" in line for line in wrong.splitlines()) == 2
     rows = pq.read_table(out / "sweep.parquet").to_pylist()
     assert [(r["AG"], r["N"], r["exit_code"]) for r in rows] == [
         (0.5, 1, 0), (0.5, 2, 0), (0.9, 1, 1), (0.9, 2, 1),
@@ -178,20 +145,6 @@ def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):
     code, _, wrong = run(options)
     assert code == 2
     assert "no ground motion" in wrong
-
-
-def test_folders_say_what_runs_them_apart(tmp_path):
-    motions = tmp_path / "motions"
-    motions.mkdir()
-    for name in ("m.csv", "m.txt"):
-        (motions / name).write_text("0 1\n")
-    cases = cases_of(["B=VRAI", "A=1.5"], motions)
-    assert folder_names(cases) == ["A=1.5_B=VRAI_m.csv", "A=1.5_B=VRAI_m.txt"]
-    odd = folder_names(cases_of(["W=a/b,a-b," + "x" * 200], None))
-    assert odd[1] == "W=a-b"
-    assert odd[0].startswith("W=a-b_")
-    assert all("/" not in name and len(name) < 130 for name in odd)
-    assert len(set(odd)) == 3
 
 
 def test_another_script_makes_the_runs_of_a_folder_anew(deck, tmp_path):

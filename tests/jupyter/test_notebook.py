@@ -10,13 +10,14 @@ from pathlib import Path
 import pytest
 
 import ssilang
-from ssilang.jupyter.__main__ import install
+from ssilang.jupyter.__main__ import install, main
 
 pytest.importorskip("ipykernel")
 nbclient = pytest.importorskip("nbclient")
 nbformat = pytest.importorskip("nbformat")
 
 from ssilang.jupyter.kernel import GibianeKernel  # noqa: E402
+from ssilang.messages.message import sentence  # noqa: E402
 
 CELLS = {
     "assigns": "LENGTH = 3. ; T1 = TABL ; T1 . 'ALPHA' = 2.5 ; L = PROG 1. PAS 1. 40. ;",
@@ -218,8 +219,11 @@ def test_help_completion_and_inspection_know_the_session(ran):
     assert asyncio.run(kernel.do_is_complete("X = ) ;"))["status"] == "complete"
 
 
-def test_the_kernel_is_told_to_jupyter_with_its_language(tmp_path):
-    place = install(str(tmp_path), "fr")
+def test_the_kernel_is_told_to_jupyter_with_its_language(tmp_path, capsys):
+    assert main(["install", "--prefix", str(tmp_path), "--lang", "fr"]) == 0
+    said = capsys.readouterr().out
+    (place,) = (p.parent for p in tmp_path.rglob("kernel.json"))
+    assert said == sentence("jupyter.installed", {"place": place}, "fr") + "\n"
     spec = json.loads((place / "kernel.json").read_text())
     assert spec["argv"][:4] == [sys.executable, "-P", "-m", "ssilang.jupyter"]
     assert spec["env"] == {"SSILANG_LANGUAGE": "fr"}

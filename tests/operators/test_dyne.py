@@ -330,14 +330,17 @@ R = DYNE 'DE_VOGELAERE' TB TI TL TS 2000 1.E-3 ;
 
 
 def test_a_point_of_a_body_that_turns_goes_on_its_circle(tmp_path):
-    root = run(BODY.format(stiffness="1.E-9"), tmp_path)
-    link = root.find("R").get(root.find("L1"))
+    pair = "L1 . 'TYPE_LIAISON' = MOT 'POINT_POINT' ; L1 . 'POINT_A' = P ; L1 . 'POINT_B' = G ; "
     t = 1e-3 * np.arange(2001)
     c, s = np.cos(9.0 * t), np.sin(9.0 * t)
-    np.testing.assert_allclose(
-        link.get("UX").values, 0.7 * t + 0.3 * (c - 1.0) - 0.4 * s, atol=1e-6
-    )
-    np.testing.assert_allclose(link.get("UY").values, 0.4 * (c - 1.0) + 0.3 * s, atol=1e-6)
+    for tail, before in (("", ""), ("_POINT_A", pair)):
+        script = BODY.format(stiffness="1.E-9").replace("R = DYNE", before + "R = DYNE")
+        root = run(script, tmp_path)
+        link = root.find("R").get(root.find("L1"))
+        x = 0.7 * t + 0.3 * (c - 1.0) - 0.4 * s
+        np.testing.assert_allclose(link.get(f"UX{tail}").values, x, atol=1e-6)
+        y = 0.4 * (c - 1.0) + 0.3 * s
+        np.testing.assert_allclose(link.get(f"UY{tail}").values, y, atol=1e-6)
 
 
 def test_a_spring_at_a_body_that_turns_keeps_energy(tmp_path):
@@ -439,13 +442,22 @@ def test_models_of_a_table_pasapas_are_the_tables_of_the_other_form(tmp_path):
         G = T . 'LIAISONS' . L . 'FORCE_DE_CHOC_NORMALE' ; X = T . 'TEMPS' . 500 ;
         H = MAXI ((T . 'REPRISE_DYNE' . 'VITESSE') - (R . 'REPRISE' . 'VITESSE')) 'ABS' ;
         E = MAXI ((T . 'DEPLACEMENTS' . 400) - D) 'ABS' ;
+        C = CHAR (MANU 'CHPO' PX 1 'FALF' 3.) (EVOL 'MANU' (PROG 0. 1.) (PROG 1. 0.5)) ;
+        TC = TABL 'CHARGEMENT' ; TC . 'BASE_A' = C ; TI = TABL 'INITIAL' ;
+        TI . 'REPRISE' = R . 'REPRISE' ; R = DYNE 'DE_VOGELAERE' TB TI TL TC 600 1.E-4 3 ;
+        T . 'INIT_DYNE' = T . 'REPRISE_DYNE' ; T . 'CHARGEMENT' = C ; T . 'NOMBRE_PAS' = 600 ;
+        T . 'SORTIE' = TABL ; T . 'SORTIE' . 'VARIABLE' = TABL ;
+        T . 'SORTIE' . 'VARIABLE' . 'VITESSE' = FAUX ; DYNE 'DE_VOGELAERE' T ;
+        W = MAXI ((T . 'DEPLACEMENTS' . 200) - (R . 201 . 'DEPLACEMENT')) 'ABS' ;
+        N = DIME (T . 'VITESSES') ; Y = T . 'TEMPS' . 200 ;
         """,
         tmp_path,
     )
     assert root.find("X") == pytest.approx(0.15)
     assert root.find("F").values.min() < -100.0
     np.testing.assert_allclose(root.find("G").values, root.find("F").values)
-    assert max(root.find("E"), root.find("H")) < 1e-12
+    assert max(root.find("E"), root.find("H"), root.find("W")) < 1e-12
+    assert (root.find("N"), root.find("Y")) == (0, pytest.approx(0.21))
 
 
 def test_pasapas_steps_models_of_links(tmp_path):

@@ -36,13 +36,20 @@ LOOPS = {
 }
 
 
+YIELDS = """M1 = MODE BLOC 'MECANIQUE' 'ELASTIQUE' ; A1 = MATE M1 'YOUN' 1.E9 'NU' 0.2 'RHO' 2000. ;
+M2 = MODE SOL 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ;
+A2 = MATE M2 'YOUN' 1.E9 'NU' 0.2 'RHO' 2000. 'SIGY' 1.E4 ; T . 'MODELE' = MJ ET M2 ;
+T . 'CARACTERISTIQUES' = AJ ET A2 ; T . 'RIGI' = (RIGI M1 A1) ET B1 ;
+T . 'MASS' = (MASS M1 A1) ET (MASS M2 A2) ;"""
+
+
 def ran(text):
     result = run_text(text)
     assert result.exit_code == 0, result.message
     return result.session.root.find
 
 
-@pytest.mark.parametrize("step", LOOPS.values(), ids=LOOPS)
+@pytest.mark.parametrize("step", [*LOOPS.values(), YIELDS], ids=[*LOOPS, "yielding ground"])
 def test_fields_at_a_few_nodes_are_those_of_the_body(step):
     find = ran(BLOCK.format(step=step))
     whole, few = find("R1"), find("R2")
@@ -147,6 +154,7 @@ def test_relations_that_the_stiffness_has_not_are_refused_by_name(relations, cod
 
 
 CURVES = {
+    "word behind": ("'DEPL' P 'UX'", lambda s, f: s.get("DEPL").components["UX"].at([f("P").node])),
     "displacement": (
         "'DEPL' 'UY' P",
         lambda s, f: s.get("DEPL").components["UY"].at([f("P").node]),
@@ -198,10 +206,13 @@ def test_curves_follow_what_a_script_put_into_the_table():
     assert np.allclose(after, ratio * before, rtol=1e-14)
 
 
-def test_a_node_that_is_not_kept_is_told_with_the_nearest_one():
-    text = BLOCK.format(step="") + "E = EVOL 'TEMP' R2 'DEPL' 'UY' (C POIN 'PROC' (0. 0.)) ;"
-    result = run_text(text)
-    assert result.exit_code != 0
+@pytest.mark.parametrize(
+    ("step", "asked"),
+    [("", "R2 'DEPL' 'UY' (C POIN 'PROC' (0. 0.))"), (YIELDS, "R1 'DEPL' (0. 9.) 'UY'")],
+)
+def test_a_node_that_is_not_kept_is_told_with_the_nearest_one(step, asked):
+    result = run_text(BLOCK.format(step=step) + f"E = EVOL 'TEMP' {asked} ;")
+    assert [e.code for e in result.errors] == ["operators.curves.no-value-at-node"]
     assert "0. 1." in result.message
 
 

@@ -72,6 +72,27 @@ def test_restrained_expansion_presses(tmp_path):
     assert stress == pytest.approx(-1e6 * 1e-5 * 5.0, rel=1e-10)
 
 
+def test_a_warm_body_goes_on_from_the_stresses_of_its_time(tmp_path):
+    """Pulled and heated: in one run, and from fields that another run has left at t = 0.5."""
+    warm = "T . 'CHARGEMENT' = (CHAR 'MECA' F EV) ET (CHAR 'T' (MANU 'CHPO' S 1 'T' 10.) EV) ; "
+    again = """PASAPAS T ; T2 = TABL ; REPE B 4 ;
+    M = EXTR (MOTS 'MODELE' 'CARACTERISTIQUES' 'BLOCAGES_MECANIQUES' 'CHARGEMENT') &B ;
+    T2 . M = T . M ; FIN B ;
+    T2 . 'TEMPS_CALCULES' = PROG 0.75 1. ; T2 . 'TEMPS' = TABL ; T2 . 'TEMPS' . 0 = 0.5 ;
+    REPE B 2 ; M = EXTR (MOTS 'DEPLACEMENTS' 'CONTRAINTES') &B ; T2 . M = TABL ;
+    T2 . M . 0 = T . M . 2 ; FIN B ; PASAPAS T2 ; """
+    find = run(BAR + warm + again, tmp_path)
+    for step, held in ((1, 3), (2, 4)):
+        whole, part = find("T"), find("T2")
+        for word in ("UX", "UY"):
+            exact, u = (x.get("DEPLACEMENTS").get(i).components[word].values for x, i in
+                        ((whole, held), (part, step)))  # fmt: skip
+            np.testing.assert_allclose(u, exact, rtol=1e-9, atol=1e-15)
+        exact, s = (x.get("CONTRAINTES").get(i).blocks[0].components["SMXX"] for x, i in
+                    ((whole, held), (part, step)))  # fmt: skip
+        np.testing.assert_allclose(s, exact, rtol=1e-9)
+
+
 def test_initial_stress_is_balanced_by_the_first_load(tmp_path):
     text = (
         BAR

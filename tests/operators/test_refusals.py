@@ -38,8 +38,13 @@ def test_it_is_refused_for_its_reason_and_at_its_place(code, tmp_path):
         assert_refused(ROWS["before"] + script + " ;", code, (), tmp_path)
 
 
-@pytest.mark.parametrize("name", ROWS["told"])
-def test_it_is_told(name, tmp_path):
-    group = ROWS["told"][name]
-    for code, script, *said in group["rows"]:
-        assert_refused(group["before"] + script, code, said, tmp_path)
+TOLD = [
+    pytest.param(group["before"] + script, code, said, id=f"{name}-{i}")
+    for name, group in ROWS["told"].items()
+    for i, (code, script, *said) in enumerate(group["rows"])
+]
+
+
+@pytest.mark.parametrize(("script", "code", "said"), TOLD)
+def test_it_is_told(script, code, said, tmp_path):
+    assert_refused(script, code, said, tmp_path)

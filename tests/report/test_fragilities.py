@@ -288,7 +288,9 @@ def test_without_limits_nothing_of_an_earlier_command_stays(case):
 def test_unknown_names_are_told_with_the_near_one_after_the_first_run(case):
     code, _, err = run(case, ["drfit>1"], ag="AG=1")
     assert code == 2
-    assert "no run has a figure drfit (did you mean drift?)" in err
+    assert (
+        err.count("no run has a figure drfit (did you mean drift?)") == 2
+    )  # first, and at the end
     assert err.index("drfit") < err.index("run 10 failed")
     assert "(did you mean drift?)" in (case / "out" / "report.html").read_text()
 

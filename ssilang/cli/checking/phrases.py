@@ -182,7 +182,7 @@ class PhraseReader:
         words = tuple(str(word) for word in values.get("said", ()))  # not every form has them
         if ANY_WORD not in words:
             self._trial(call, lambda: refuse_words(call, words))
-        if "mesh" in values and kind_word(call.operands[0].value) == "MMODEL":
+        if "mesh" in values:  # not of contacts
             call.operands[0].value = known_model(words)
 
     def _word(self, values: Mapping[str, Any], call: AbstractCall) -> None:

@@ -110,8 +110,6 @@ def lsqf(
     """Simplify signals."""
     if best is not None:
         raise call.error("operators.curves.no-optimal-fit")
-    if count < 1 or (size is not None and size < 1):
-        raise call.error("operators.curves.counts-not-positive")
     parts = []
     for p in curve.parts:
         constant_step(p.abscissas)

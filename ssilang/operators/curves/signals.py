@@ -190,8 +190,6 @@ def filt(
             omega[0] = np.inf
         values = omega**cut
     else:
-        if cut <= 0:
-            raise call.error("operators.curves.cut-off-not-positive", cut, cut=cut)
         ratio = 1j * f / cut
         values = (ratio if kind.word == "PHAU" else 1.0) / (1.0 + ratio)
     return spectrum(f, values, form)

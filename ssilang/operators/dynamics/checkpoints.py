@@ -371,12 +371,8 @@ def kept_calculation(
         reason = Sentence(REASONS[index])
         raise entries.error("operators.dynamics.not-kept", index=index, reason=reason)
     steps, minutes = asked.get("PAS"), asked.get("MINUTES")
-    if steps is not None and steps < 1:
-        raise entries.error("operators.dynamics.steps-of-reprise", steps=steps)
     if steps is not None and not asked.has("MINUTES"):
         minutes = np.inf
-    if not minutes > 0.0:
-        raise entries.error("operators.dynamics.minutes-of-reprise", minutes=minutes)
     output = run_output(entries.call.session)
     if output.checkpoints is None:
         entries.warn("operators.dynamics.nothing-kept")

@@ -144,8 +144,6 @@ def _integrated(
         raise entries.error("operators.dynamics.reduction-or-charmeca")
     if full:
         raise entries.error("operators.dynamics.reduction-or-newton")
-    if not 0.0 < tolerance < 1.0:
-        raise entries.error("operators.dynamics.tolerance-of-reduction", tolerance=tolerance)
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
@@ -223,8 +221,6 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
         raise entries.error("operators.dynamics.instants-must-increase")
     if frequency is None:
         return stops, np.isin(stops, wanted)
-    if frequency <= 0:
-        raise entries.error("operators.dynamics.frequency-not-positive", frequency=frequency)
     if float(stops[-1] - stops[0]) * 4 * frequency > MOST_STEPS:
         raise entries.error(
             "operators.dynamics.too-many-steps", frequency=frequency, most_steps=MOST_STEPS

@@ -28,9 +28,6 @@ def target_path(call: Call, suffix: str = "", also: tuple[str, ...] = ()) -> Pat
 _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
 
 
-_NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
-
-
 @SORT.form(
     said("EXCE"),
     many(
@@ -44,8 +41,8 @@ _NUMBER = arg("n", "ENTIER", range=NOT_NEGATIVE)
         en="lists, or what holds them",
         range=CARRIED,
     ),
-    key("width", "NCOL", _NUMBER, en="columns side by side"),
-    key("digits", "DIGI", _NUMBER, en="decimals"),
+    key("width", "NCOL", arg("n", "ENTIER", range=POSITIVE), en="columns side by side"),
+    key("digits", "DIGI", arg("n", "ENTIER", range=NOT_NEGATIVE), en="decimals"),
     select(
         "separator", {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
     ),
@@ -58,10 +55,8 @@ def _exce(
     separator: Chosen | None,
 ) -> None:
     options: dict[str, Any] = {}
-    for name, word, n, least in (("width", "NCOL", width, 1), ("digits", "DIGI", digits, 0)):
+    for name, n in (("width", width), ("digits", digits)):
         if n is not None:
-            if n < least:
-                raise call.error("operators.files.positive-number", n, said=word, n=n)
             options[name] = n
     if separator is not None:
         options["separator"] = _SEPARATORS[separator["sign"]]

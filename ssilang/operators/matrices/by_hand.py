@@ -169,8 +169,6 @@ def mfil(
     dual: str | None = Opt("MOT", kind="component", en="dual, else the same"),
 ) -> Matrix:
     """Weights of a filter."""
-    if radius < 0.0:
-        raise call.error("operators.matrices.filter-radius-negative", radius, radius=radius)
     name = "SCAL" if unknown is None else unknown.rstrip()
     return filter_weights(
         weights, radius, power, least, name, name if dual is None else dual.rstrip()

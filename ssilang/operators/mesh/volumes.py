@@ -104,7 +104,7 @@ def volu(
     if goal is not None:
         end = surface_to_sweep(goal, 0)
         path = ruling(surface_to_sweep(base, 1), end)
-        made = _make(base, path, mean_density(end), cuts_of(call, count, sizes), places)
+        made = _make(base, path, mean_density(end), cuts_of(count, sizes), places)
         return made if end is goal else stacked(made, goal)
     if thickness is None and count:
         thickness = float(count)
@@ -132,7 +132,7 @@ def translated(
 ) -> Mesh:
     """Sweep a volume along a vector."""
     path = translation(vector.coordinates.copy())
-    return _make(base, path, vector.density, cuts_of(call, count, sizes), places)
+    return _make(base, path, vector.density, cuts_of(count, sizes), places)
 
 
 @volu.form(said("ROTATION"), _BASE, *_CUTS, ANGLE, AXIS)
@@ -150,7 +150,7 @@ def turned(
     count, degrees = count_and_angle(call, count, angle)
     turn, size = turning(call, degrees, axis)
     path = turn(surface_to_sweep(base, 1))
-    return _make(base, path, size, cuts_of(call, count, sizes), places)
+    return _make(base, path, size, cuts_of(count, sizes), places)
 
 
 @volu.form(

@@ -35,8 +35,6 @@ MATRICES = {
 def known_names(entries: Entries) -> Names:
     """Unknowns and harmonics of a table given to HBM."""
     harmonics = entries.needed("N_HARMONIQUE")
-    if harmonics < 1:
-        raise entries.error("operators.modal.harmonics-not-positive", harmonics=harmonics)
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     given = [m for m in (entries.get(w) for w in words) if m is not None]
     return names_of(given, harmonics)

@@ -17,8 +17,6 @@ def session_generator(call: Call, skip: int | None) -> np.random.Generator:
     found = options.get("RANDOM GENERATOR")
     if found is None or skip is not None:
         found = np.random.default_rng(1)
-        if skip is not None and skip < 0:
-            raise call.error("operators.numbers.negative-skip", skip, skip=skip)
         if skip:
             found.random(skip)
         options["RANDOM GENERATOR"] = found

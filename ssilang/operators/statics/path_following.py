@@ -290,8 +290,6 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     asked = entries.get("AUTOCRIT")
     most = entries.get("AUTOPAS") or entries.default("AUTOPAS")
     every = entries.get("AUTORESU") or entries.default("AUTORESU")
-    if asked <= 0.0 or most < 1 or every < 1:
-        raise entries.error("operators.statics.control-not-positive")
     model = entries.needed("MODELE")
     material = entries.get("CARACTERISTIQUES") or CellField((), "CARACTERISTIQUES")
 

@@ -60,12 +60,8 @@ def _item(said: str, value: object, sign: str, scale: int, text: str) -> str:
     width, digits = int(found["width"] or 0), int(found["digits"] or 0)
     if kind == "A":
         return str(value)[:width].rjust(width) if width else str(value)
-    if isinstance(value, str):
-        return value
     if kind == "I":
         return _fit(f"{int(float(str(value))):{sign}d}", width)
-    if kind == "L":
-        return _fit("T" if value else "F", width)
     return _real(float(str(value)), kind, width, digits, sign, scale)
 
 

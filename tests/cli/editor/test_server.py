@@ -175,6 +175,9 @@ async def test_hover_and_completion_are_of_the_place(client):
     assert entries["AMOR"].new_text == "'AMOR'"
     assert entries["AMOR"].range.start.character == 5
     assert "DROIT" not in entries
+    item = lsp.CompletionItem("DROIT", kind=lsp.CompletionItemKind.Function)
+    item = await client.completion_item_resolve_async(item)
+    assert item.documentation.value.startswith("**DROI (DROIT) : operator")
 
 
 async def test_names_are_found_and_renamed_within_their_scope(client):
@@ -183,6 +186,14 @@ async def test_names_are_found_and_renamed_within_their_scope(client):
         lsp.ReferenceParams(context=lsp.ReferenceContext(True), **at(DECK, "SIDE", number=4))
     )
     assert [place.range.start.line for place in inner] == [8, 9]  # the procedure's own
+    marks = await client.text_document_document_highlight_async(
+        lsp.DocumentHighlightParams(**at(DECK, "SIDE", number=4))
+    )
+    kinds = lsp.DocumentHighlightKind
+    assert [(m.range.start.line, m.kind) for m in marks] == [(8, kinds.Write), (9, kinds.Read)]
+    asked = at(DECK, "SIDE", number=4)
+    held = await client.text_document_prepare_rename_async(lsp.PrepareRenameParams(**asked))
+    assert (held.start, held.end) == (lsp.Position(8, 2), lsp.Position(8, 6))
     found = await client.text_document_definition_async(
         lsp.DefinitionParams(**at(DECK, "HALF", number=2))
     )

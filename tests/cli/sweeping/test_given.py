@@ -21,7 +21,7 @@ from ssilang.cli.sweeping.given import (
         ("3", [3]), (" -3 ", [-3]), ("1.5d3", [1500.0]), ("+.5E-1", [0.05]), ("2.", [2.0]),
         ("vrai,FAUX", [True, False]), ("dense, Modal", ["dense", "Modal"]),
         ("b,3,a", ["b", 3, "a"]), ("1:7:2", [1, 3, 5, 7]), ("7:1:-3", [7, 4, 1]),
-        ("0:0.3:0.1", [0.0, 0.1, 0.2, 0.3]),
+        ("0:0.3:0.1", [0.0, 0.1, 0.2, 0.3]), ("0.5:0.7:0.1", [0.5, 0.6, 0.7]),
         ("2:2:5", [2]), ("1.:3:1", [1.0, 2.0, 3.0]), ("a:b", ["a:b"]), ("a:b:c", ["a:b:c"]),
     ],
 )  # fmt: skip
@@ -80,7 +80,7 @@ def test_all_combinations_the_last_name_fastest(tmp_path):
     ("settings", "code"),
     [
         (["A=1", "a=2"], "cli.set-twice"), ([f"{MOTION}=x"], "cli.set-twice"),
-        (["A=1,2,1"], "cli.value-twice"), ([], None), (["A=1,1.,VRAI"], None),
+        (["A=0.5,x,0.50"], "cli.value-twice"), ([], None), (["A=1,1.,VRAI"], None),
     ],
 )  # fmt: skip
 def test_what_is_given_twice(tmp_path, settings, code):

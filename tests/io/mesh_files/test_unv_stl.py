@@ -81,7 +81,9 @@ def tetrahedron() -> Mesh:
 @pytest.mark.filterwarnings("ignore:overflow")  # of meshio itself
 def test_meshio_reads_our_triangles(tmp_path: Path) -> None:
     path = tmp_path / "t.stl"
-    path.write_text("\n".join(stl_lines(tetrahedron())))
+    lines = stl_lines(tetrahedron(), "body")
+    assert (lines[0], lines[-1]) == ("solid body", "endsolid body")
+    path.write_text("\n".join(lines))
     read = meshio.read(path)
     corners = read.points[read.cells[0].data]
     volume = np.einsum("ni,ni->n", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6

@@ -109,6 +109,13 @@ def test_a_series_whose_files_are_gone_is_not_listed(tmp_path: Path) -> None:
         assert refused.value.code == "io.series-files-gone"
         assert refused.value.data["names"] == [gone]
         assert not (tmp_path / "bar.pvd").exists()
+        kept, later = series.position(), SeriesWriter(tmp_path / "bar")
+        with pytest.raises(OutputError, check=lambda e: e.code == "io.series-files-gone"):
+            later.go_back(kept)
+        (tmp_path / gone).touch()
+        later.go_back(kept)
+        assert later.files == series.files
+        assert later.last_time == 1.0
 
 
 def test_a_step_is_accepted_later_and_with_the_same_parts(tmp_path: Path) -> None:

@@ -163,6 +163,16 @@ ROWS = [
 ]  # fmt: skip
 
 
+def test_a_long_word_of_a_deep_entry_widens_its_column():
+    name = "A_NAME_OF_TWENTY_EIGHT_CHARS"
+    rows = (entry("TAB2.T", "TABLE", en="it"), entry(f"TAB2.T.{name}", "POINT", en="in it"))
+    made = Declaration("ZPROC", ENTRIES.arguments, rows)
+    assert entries_text(made, "en", 80)[2:] == [
+        f"    {'index':<32}  types  unit  default  meaning", "", "  Problem",
+        f"    {'T':<32}  TABLE                 it", f"      . {name}  POINT                 in it",
+    ]  # fmt: skip
+
+
 def test_the_tables_of_a_page_say_what_every_entry_declares(build):
     assert "\n".join(["", *entries_text(ENTRIES, "en", 80)]) == TEXT
     lines = build.entries_markdown(ENTRIES, "en")

@@ -54,7 +54,7 @@ def cerc(
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
     curve = arc_through if through == "PASS" else arc_about_centre
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     return drawn_by_middle(call, curve, (start, middle, end), cuts)
 
 
@@ -70,7 +70,7 @@ def turned_point(
 ) -> Mesh:
     """The arc that a point describes in a rotation."""
     count, degrees = count_and_angle(call, count, angle)
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     if closed and abs(abs(degrees) - 360.0) > 1e-6:
         raise call.error("operators.mesh.turn-not-whole", degrees=degrees)
     origin, direction = axis_of(call, axis)
@@ -92,7 +92,7 @@ def cer3(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the arc through three points."""
-    return drawn_by_middle(call, arc_through, (start, middle, end), cuts_of(call, count, sizes))
+    return drawn_by_middle(call, arc_through, (start, middle, end), cuts_of(count, sizes))
 
 
 @operator("PARC", family="mesh")
@@ -106,7 +106,7 @@ def parc(
 ) -> Mesh:
     """Draw parabolas along an arc."""
     ws = workspace(call.session)
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     ends = ends_of(call, start, end)
     different_nodes(ws.nodes, ends.start, ends.end)
     a, b = positions(ws, ends.start, ends.end)

@@ -75,7 +75,7 @@ def crossing(
     end: Point | Mesh | None = END,
 ) -> Mesh:
     """The line along which two surfaces cross, from a point or a line to another."""
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     if len(surfaces) != 2:
         raise call.error("operators.mesh.two-surfaces-wanted", n_surfaces=len(surfaces))
     ends = ends_of(call, start, end)

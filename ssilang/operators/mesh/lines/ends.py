@@ -60,11 +60,8 @@ class Cuts:
         return self.first or densities[0], self.last or densities[1]
 
 
-def cuts_of(call: Call, count: int | None, sizes: Sizes) -> Cuts:
+def cuts_of(count: int | None, sizes: Sizes) -> Cuts:
     """What `COUNT` and `SIZES` have read."""
-    for _, size in sizes:
-        if size <= 0.0:
-            raise call.error("operators.mesh.size-not-positive", size, size=size)
     said = dict(sizes)
     return Cuts(count or 0, said.get("DINI", 0.0), said.get("DFIN", 0.0))
 

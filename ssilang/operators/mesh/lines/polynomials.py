@@ -34,7 +34,7 @@ def para(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw an arc of parabola."""
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     return drawn_by_middle(call, parabola, (start, middle, end), cuts)
 
 
@@ -54,7 +54,7 @@ def cubp(
     inner = first.coordinates.copy(), second.coordinates.copy()
     a, b = positions(workspace(call.session), ends.start, ends.end)
     shape = cubic_through(a, *inner, b, uniform)
-    return drawn(call, ends, shape, shape.length, cuts_of(call, count, sizes))
+    return drawn(call, ends, shape, shape.length, cuts_of(count, sizes))
 
 
 @operator("CUBT", family="mesh")
@@ -72,7 +72,7 @@ def cubt(
     tangents = first.coordinates.copy(), second.coordinates.copy()
     a, b = positions(workspace(call.session), ends.start, ends.end)
     shape = cubic_tangents(a, *tangents, b)
-    return drawn(call, ends, shape, shape.length, cuts_of(call, count, sizes))
+    return drawn(call, ends, shape, shape.length, cuts_of(count, sizes))
 
 
 @operator("COUR", family="mesh", full_name="COURBE")
@@ -103,7 +103,7 @@ def cour(
     """Draw a polynomial curve."""
     if len(points) < 2:
         raise call.missing(("POINT",))
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     table = np.array([p.coordinates for p in points])
     shape = Polynomial(table, *limits, regular=regular)
     ends = _curve_ends(call, shape, before, after)

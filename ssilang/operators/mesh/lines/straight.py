@@ -36,7 +36,7 @@ def droi(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a straight line."""
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     ends = ends_of(call, start, end)
     a, b = positions(workspace(call.session), ends.start, ends.end)
     return drawn(call, ends, lambda s: a + s[:, None] * (b - a), float(np.linalg.norm(b - a)), cuts)
@@ -56,7 +56,7 @@ def lign(
     if isinstance(centre, Mesh):
         raise call.error("operators.mesh.mesh-as-centre", centre)
     count, degrees = count_and_angle(call, count, angle)
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     axis = np.array([0.0, 0.0, 1.0])
     if workspace(call.session).dimension == 3:
         if normal is None:
@@ -88,7 +88,7 @@ def segment(
     def way(at: FloatArray) -> tuple[CurveMap, float]:
         return lambda s: at + s[:, None] * step, float(np.linalg.norm(step))
 
-    return drawn_from(call, start, way, cuts_of(call, count, sizes), vector.density)
+    return drawn_from(call, start, way, cuts_of(count, sizes), vector.density)
 
 
 @operator("QUEL", family="mesh", full_name="QUELCONQUE")

@@ -76,9 +76,9 @@ def equal_parts(
 
 
 @part.form(said("ARLE"), of=("MAILLAGE",))
-def dealt_out(call: Call, mesh: Mesh = _MESH, count: int = _COUNT, free: bool = _FREE) -> Table:
+def dealt_out(mesh: Mesh = _MESH, count: int = _COUNT, free: bool = _FREE) -> Table:
     """Cells dealt out in turn."""
-    return _table(scattered(mesh, _positive(call, count)), free)
+    return _table(scattered(mesh, count), free)
 
 
 @part.form(
@@ -87,19 +87,13 @@ def dealt_out(call: Call, mesh: Mesh = _MESH, count: int = _COUNT, free: bool = 
     _FREE,
 )
 @part.form(said("ARLE"), arg("model", "MMODEL", en="model"), _COUNT, _FREE, of=("MMODEL",))
-def dealt_out_model(call: Call, model: Model, count: int, free: bool) -> Table:
+def dealt_out_model(model: Model, count: int, free: bool) -> Table:
     """Models whose cells are dealt out in turn, zone by zone."""
-    made: list[list[Zone]] = [[] for _ in range(_positive(call, count))]
+    made: list[list[Zone]] = [[] for _ in range(count)]
     for zone in model.zones:
         for place, mesh in enumerate(scattered(Mesh(zone.cells.nodes, (zone.cells,)), len(made))):
             made[place] += [replace(zone, cells=cells) for cells in mesh.blocks]
     return _table([Model(tuple(zones)) for zones in made if zones], free)
-
-
-def _positive(call: Call, count: int) -> int:
-    if count < 1:
-        raise call.error("operators.mesh.no-such-number-of-parts", count, count=count)
-    return count
 
 
 def _table(zones: Sequence[Mesh | Model], free: bool) -> Table:

@@ -92,7 +92,7 @@ def tran(
 ) -> Mesh:
     """Sweep a line along a vector."""
     shift = vector.coordinates.copy()
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     return _swept(call, swept, lambda line: translation(shift), vector.density, cuts)
 
 
@@ -108,7 +108,7 @@ def rota(
     """Sweep a line about a centre or an axis."""
     count, degrees = count_and_angle(call, count, angle)
     turn, size = turning(call, degrees, axis)
-    return _swept(call, swept, turn, size, cuts_of(call, count, sizes))
+    return _swept(call, swept, turn, size, cuts_of(count, sizes))
 
 
 def turning(
@@ -134,7 +134,7 @@ def regl(
         if not goal.sides:
             raise call.error("operators.mesh.no-side-to-reach", goal)
         reached = goal.sides[0]
-    cuts = cuts_of(call, count, sizes)
+    cuts = cuts_of(count, sizes)
     made = _swept(call, swept, lambda line: ruling(line, reached), mean_density(reached), cuts)
     if reached is goal:
         return made

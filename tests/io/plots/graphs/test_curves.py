@@ -61,6 +61,11 @@ def test_curves_without_a_colour_get_different_ones() -> None:
 def test_a_single_curve_is_in_the_default_ink() -> None:
     (axes,) = draw_curves(curve(0)).axes
     assert to_hex(axes.lines[0].get_color()) == shade(0)
+    (with_axes,) = draw_curves(curve(0), CurveOptions(axes=True)).axes
+    drawn = [(line.get_xdata()[:], line.get_ydata()[:]) for line in with_axes.lines]
+    zeros = [[list(map(float, d)) for d in pair] for pair in drawn if len(pair[0]) == 2]
+    assert zeros == [[[0.0, 1.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]]]
+    assert len(axes.lines) == 1
 
 
 def test_bounds_and_logarithms() -> None:
