@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import script_runs
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.language.text.source import Source
@@ -32,13 +33,13 @@ def test_check_says_the_same_at_the_same_place(code):
     assert found >= ROWS["before_the_run"][code]
 
 
-@pytest.mark.parametrize("code", ROWS["refused"])
+@together("code", ROWS["refused"])
 def test_it_is_refused_for_its_reason_and_at_its_place(code, tmp_path):
     for script in ROWS["refused"][code]:
         assert_refused(ROWS["before"] + script + " ;", code, (), tmp_path)
 
 
-@pytest.mark.parametrize("name", ROWS["told"])
+@together("name", ROWS["told"])
 def test_it_is_told(name, tmp_path):
     group = ROWS["told"][name]
     for code, script, *said in group["rows"]:
