@@ -3,6 +3,7 @@
 import ctypes
 import gc
 import importlib.util
+import itertools
 import os
 import sys
 from collections.abc import Iterator
@@ -34,6 +35,17 @@ gc.set_threshold(SELDOM)
 
 
 figure.DPI = 60  # what few pixels show is the same, and software draws each pixel of a scene
+
+
+_FOLDERS = itertools.count()
+
+
+@pytest.fixture
+def tmp_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The next number is free: pytest looks through all folders for that, thousands in the end."""
+    path = tmp_path_factory.getbasetemp() / str(next(_FOLDERS))
+    path.mkdir(mode=0o700)
+    return path
 
 
 @pytest.fixture

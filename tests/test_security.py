@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from together import together
 
 from ssilang.cli.main import main
 
@@ -20,7 +21,7 @@ READS = re.compile(
 )
 
 
-@pytest.mark.parametrize(("module", "test"), ROWS)
+@together("module, test", ROWS)
 def test_each_reader_is_there_and_has_its_test(module: str, test: str) -> None:
     assert (ROOT / module).is_file()
     file, _, name = test.partition("::")

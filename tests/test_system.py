@@ -19,6 +19,7 @@ from pathlib import Path
 import mypy
 import pytest
 from script_runs import HOPPING
+from together import together
 
 import ssilang
 from ssilang import system
@@ -343,7 +344,7 @@ def test_names_that_windows_refuses_are_told() -> None:
     assert kinds == STRANGE
 
 
-@pytest.mark.parametrize("name", STRANGE)
+@together("name", STRANGE)
 def test_windows_writes_no_such_file(name: str, tmp_path: Path, monkeypatch) -> None:
     output = RunOutput(tmp_path / "out", tmp_path)
     assert output.target(name) is not None

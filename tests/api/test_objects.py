@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 import ssilang
 import ssilang.api
@@ -201,7 +202,7 @@ def modules():
     return [importlib.import_module(f"ssilang.api.{name}") for name in names]
 
 
-@pytest.mark.parametrize("module", modules(), ids=lambda m: m.__name__)
+@together("module", modules())
 def test_examples_in_docstrings_run(module):
     tried = doctest.testmod(module)
     assert tried.failed == 0
@@ -217,8 +218,8 @@ T . 2.5 = 'word' ; T . P = -3 ; K = RIGI M (MATE M 'YOUN' 1. 'NU' 0.) ; V = TABL
 """
 
 
-@pytest.mark.parametrize(
-    ("name", "shown", "cells"),
+@together(
+    "name, shown, cells",
     [
         ("P", r"<POINT .*\(2\. 3\.\)>", None),
         ("S", "<MAILLAGE 6 QUA4, 1 TRI3, 15 nodes>", None),
@@ -315,8 +316,8 @@ def test_results_by_hand_are_in_the_order_of_time():
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("given", "values"),
+@together(
+    "given, values",
     [
         (np.arange(3), [0, 1, 2]), ((0.5, "a", True), [0.5, "a", True]), ("ab", ["ab"]),
         (Path("a") / "b", ["a/b"]), ([Path("c"), np.float64(2.5)], ["c", 2.5]), (7, [7]),

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from together import together
 
 from ssilang.cli.check import check_file, check_source
 from ssilang.cli.run import run_text
@@ -41,8 +42,8 @@ def errors(source: Source) -> list[str]:
     return [render(p, "en", names) for p in problems if p.severity == "error"]
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         ("X = PORG 1. 2. ; MESS X ;", "unknown-operator"),
         ("X = (PORG 1. 2.) ; MESS X ;", "unknown-operator"),
@@ -89,8 +90,8 @@ def test_finds(text, code):
     assert code in codes(text)
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         ("X = 1 / 2 ; MESS X ;", "integer-division"),
         ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
@@ -125,7 +126,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
     assert "CAPA is a Cast3M operator (heat), out of ssilang's scope" in message
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     [
         "X = ABRACADABRA ; MESS X ;",
@@ -169,7 +170,7 @@ _MODEL = "MO = MODE S MECANIQUE ELASTIQUE ; "
 _CURVE = "(PROG 1. 2.) {} (PROG 3. 4.) ; LIST E ; "
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     [
         _MODEL + "YOUN1 = 2. ; ALPH1 = 1. ; A = MATE MO YOUNG YOUN1 NU 0. ALPHA ALPH1 ; LIST A ;",
@@ -186,8 +187,8 @@ def test_words_of_operators_are_no_misspelt_names(text):
     assert [p.code for p in problems if p.code != "unused-name"] == []
 
 
-@pytest.mark.parametrize(
-    ("text", "code", "place"),
+@together(
+    "text, code, place",
     [
         ("M = MODE S THERMIQUE ;", "operators.models.formulation-not-available", "THERMIQUE"),
         ("M = MODE S 'POREUX' ;", "operators.models.formulation-not-available", "'POREUX'"),
@@ -206,10 +207,10 @@ def test_finds_what_a_run_refuses_of_a_model(text, code, place):
     assert [(p.code, p.span.text) for p in found] == [(code, place)]
 
 
-@pytest.mark.parametrize(
+@together(
     "path",
     sorted(_ROOT.glob("cases/**/*.ssi")) + sorted(_ROOT.glob("stdlib/*.ssi")),
-    ids=lambda p: p.name,
+    by=lambda p: p.parent.name,
 )
 def test_sound_decks_pass(path):
     assert errors(read_source(path)) == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-import pytest
+from together import together
 
 from ssilang.language.registry import OPERATORS, operators_by_family
 from ssilang.language.run.library import standard_procedures
@@ -19,7 +19,7 @@ _WORKERS = ("ZBIL", "ZCON", "ZDYN", "ZFRE", "ZHBM", "ZHPO", "ZPAS", "ZPIL", "ZSP
 _NAMES = sorted({o.name for o in OPERATORS.values()}) + sorted(standard_procedures())
 
 
-@pytest.mark.parametrize("name", _NAMES)
+@together("name", _NAMES)
 def test_page(name):
     page = find_page(name, standard_procedures())
     assert page is not None
@@ -36,14 +36,14 @@ def test_overview_names_them_all():
     assert all(name in text for name in _NAMES)
 
 
-@pytest.mark.parametrize("name", _NAMES)
+@together("name", _NAMES)
 def test_examples_are_shown_as_they_run(name):
     for example in find_page(name, standard_procedures()).help.examples:
         shown = example_lines(example)
         assert " ".join(" ".join(shown).split()) == " ".join(example.split())
 
 
-@pytest.mark.parametrize("family", sorted(operators_by_family()))
+@together("family", sorted(operators_by_family()))
 def test_examples_stand_by_operators_of_their_family(family):
     names = {found.name for found in operators_by_family()[family]}
     path = Path(message.__file__).parent / "examples" / f"{family}.toml"

@@ -11,7 +11,7 @@ import io
 import os
 from pathlib import Path
 
-import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, RunResult, run_source
 from ssilang.language.text.source import Source
@@ -43,7 +43,7 @@ def message_of(name: str, language: str, folder: Path) -> str:
     return message.replace(str(inner), "FOLDER").replace(str(folder), "ABOVE") + "\n"
 
 
-@pytest.mark.parametrize(("name", "language"), _CASES, ids=lambda v: v)
+@together("name, language", _CASES, by=lambda c: c[1])
 def test_message(name, language, tmp_path):
     found = message_of(name, language, tmp_path)
     pinned = _SCRIPTS / f"{name}.{language}.txt"
@@ -52,7 +52,7 @@ def test_message(name, language, tmp_path):
     assert found == pinned.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", sorted(p.stem for p in _ACCEPTED.glob("*.ssi")))
+@together("name", sorted(p.stem for p in _ACCEPTED.glob("*.ssi")))
 def test_the_script_as_it_should_be_runs_without_a_word(name, tmp_path):
     assert (_SCRIPTS / f"{name}.ssi").is_file()
     result, shown = run(_ACCEPTED / f"{name}.ssi", "en", tmp_path)
@@ -63,7 +63,7 @@ def test_there_are_at_least_sixty_broken_scripts():
     assert len(list(_SCRIPTS.glob("*.ssi"))) >= 60
 
 
-@pytest.mark.parametrize("name", sorted(p.stem for p in _SCRIPTS.glob("*.ssi")))
+@together("name", sorted(p.stem for p in _SCRIPTS.glob("*.ssi")))
 def test_no_message_shows_the_inside_of_the_program(name):
     text = (_SCRIPTS / f"{name}.en.txt").read_text(encoding="utf-8")
     for sign in ("Traceback", "defect of ssilang", "numpy", "{", "None"):

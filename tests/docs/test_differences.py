@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.main import main
 from ssilang.cli.run import run_text
@@ -86,7 +87,7 @@ def claims() -> list[str]:
     return re.findall(r"^- (.*)$", differing, re.MULTILINE)
 
 
-@pytest.mark.parametrize("claim", claims())
+@together("claim", claims())
 def test_each_claim_is_run(claim):
     known = [k for k in (*RUNS, *STAND, *_NO_RUN) if claim.startswith(k)]
     assert len(known) == 1
@@ -104,10 +105,9 @@ def test_the_tests_named_exist(place):
     assert name in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}
 
 
-@pytest.mark.parametrize(
-    ("text", "code", "name", "value"),
+@together(
+    "text, code, name, value",
     [case for cases in RUNS.values() for case in cases],
-    ids=[f"{claim}-{i}" for claim, cases in RUNS.items() for i in range(len(cases))],
 )
 def test_the_page_tells_what_happens(text, code, name, value, tmp_path):
     result = run_text(text, output_directory=tmp_path)

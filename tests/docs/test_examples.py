@@ -15,6 +15,7 @@ from pathlib import Path
 
 import pytest
 import script_runs
+from together import together
 
 from ssilang.cli.check import typed_source
 from ssilang.cli.run import RunOptions, run_text
@@ -113,7 +114,7 @@ def _checked(text, result):
     assert {name: seen[name] or there[name] for name in there} == there
 
 
-@pytest.mark.parametrize("operator", [pytest.param(o, id=o.name) for o in _OPERATORS])
+@together("operator", _OPERATORS, by=lambda o: o.family)
 def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_path):
     ran = FormsRan()
     for number, text in enumerate(_examples(operator), 1):
@@ -125,9 +126,7 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
     assert ran.missing(operator) == untried.get(operator.name, [])
 
 
-@pytest.mark.parametrize(
-    "operator", [pytest.param(o, id=o.name) for o in _OPERATORS if not o.empties]
-)
+@together("operator", [o for o in _OPERATORS if not o.empties], by=lambda o: o.family)
 def test_objects_that_hold_nothing_are_told(operator, tmp_path, monkeypatch):
     """Each call of the examples is tried with nothing in place of each of its objects."""
     emptied = Emptied(operator)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -45,7 +46,6 @@ TABLE.add(np.array([[x, y, z] for z in (0, 1) for y in (0, 1, 2) for x in (0, 1,
 LINE, SURE = (Mesh.of(TABLE, "SEG2", np.array(c)) for c in ([[0, 1], [1, 2]], [[3, 4], [4, 5]]))
 STAR = Mesh.of(TABLE, "SEG2", np.array([[1, 4], [3, 4], [4, 5]]))
 QUADS = Mesh.of(TABLE, "QUA4", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
-CURVED = Mesh.of(TABLE, "SEG3", np.array([[0, 1, 2]]))
 BRICK = Mesh.of(TABLE, "CUB8", np.array([[0, 1, 4, 3, 9, 10, 13, 12]]))
 FIVE = Mesh.of(TABLE, "POL5", np.array([[0, 1, 5, 7, 3]]))
 POINTS = Mesh.of(TABLE, "POI1", np.array([[0], [4]]))
@@ -344,7 +344,7 @@ CASES = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("room", "code", "way"), CASES)
+@together("room, code, way", CASES)
 def test_what_cannot_be_is_refused_by_its_code(room, code, way):
     with pytest.raises(KernelError) as caught:
         REFUSED[room][code][way]()

@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.language.registry import find_operator
 from ssilang.language.run.library import standard_procedures
@@ -85,7 +86,7 @@ def _asks_entries(node: ast.Call) -> bool:
 EVERY = {e.index for d in DECLARED.values() for e in d.entries}
 
 
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 def test_each_entry_is_whole(name):
     for entry in DECLARED[name].entries:
         is_whole(entry)
@@ -112,7 +113,7 @@ def is_whole(entry: TableEntry) -> None:
     assert not (entry.needed and entry.default is not None)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 def test_it_belongs_to_a_procedure_or_an_operator(name):
     assert name in PROCEDURES or find_operator(name) is not None
     if name in PROCEDURES:
@@ -128,7 +129,7 @@ def test_every_procedure_that_takes_a_table_declares_it():
     assert takes <= set(NAMES)
 
 
-@pytest.mark.parametrize("name", [n for n in NAMES if n in PROCEDURES])
+@together("name", [n for n in NAMES if n in PROCEDURES])
 def test_procedures_read_what_is_declared_and_declare_what_they_read(name):
     code, declared = code_of(name), DECLARED[name]
     for argument in declared.arguments:
@@ -149,7 +150,7 @@ def test_python_asks_only_for_what_is_declared():
     assert python_indices()["asked"] <= EVERY
 
 
-@pytest.mark.parametrize("name", ["DYNE", "DYNC", "ZCOL", "PREC", "DESS", "BLOQ"])
+@together("name", ["DYNE", "DYNC", "ZCOL", "PREC", "DESS", "BLOQ"])
 def test_operators_read_what_is_declared(name):
     own = [e for e in DECLARED[name].entries if e.role not in (UNUSED, REFUSED, WRITTEN)]
     words = {e.index for e in own} - {NUMBER, ANYTHING}
@@ -159,7 +160,7 @@ def test_operators_read_what_is_declared(name):
     } == set()
 
 
-@pytest.mark.parametrize("name", NAMES)
+@together("name", NAMES)
 def test_words_that_name_operators_are_shown_behind_mot(name):
     """A quoted word that names an operator runs it: such words are shown behind MOT."""
     shown = " ".join(" ".join(entries_text(DECLARED[name], "fr", 100)).split())

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.language.registry import arguments_in, operators_by_family
@@ -107,8 +108,8 @@ def test_defaults_lie_in_their_range():
             assert belongs(entry.range, entry.fallback), entry.path
 
 
-@pytest.mark.parametrize(
-    ("text", "inside", "outside"),
+@together(
+    "text, inside, outside",
     [
         ("> 0", [1e-9, 5], [0, -1]),
         (">= 1", [1, 2], [0]),
@@ -180,7 +181,7 @@ NAN = "X = EXTR ((PROG 0.) / (PROG 0.)) 1 ; XL = (PROG 1. 0.) / (PROG 1. 0.) ; "
 CURVE = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; S = SUIT C C ; "
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     """Z = PROG 0. 'PAS' X 1. ;| Z = PROG 1. 'PAS' 1. 'GEOM' X 3. ;| Z = PROG 'SINU' X XL ;
 Z = PROG 'SINU' 1. 'PHAS' X XL ;| Z = PROG 'LINE' 'A' X XL ;| Z = EVOL 'TEMP' S XL 'UX' P ;
@@ -256,14 +257,13 @@ A = MATE M 'KN' 1.E9 'KS' 1.E7 'QD' 1. 'KPOS' 1.E6 'BETA' 0.2 ;""",
 RUN = {MOTION: "R = DYNAMIC T ;", SOIL: "R = IMPEDSOL T ;"}
 
 
-@pytest.mark.parametrize(
-    ("model", "line"),
+@together(
+    "model, line",
     [
         (model, line.strip())
         for model, lines in PROBES.items()
         for line in lines.replace("\n", "|").split("|")
     ],
-    ids=lambda text: text[:40] if text not in PROBES else "",
 )
 def test_senseless_numbers_are_told(model, line):
     result = run_text(model + line + RUN.get(model, ""))

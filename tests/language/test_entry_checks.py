@@ -4,6 +4,7 @@ import io
 
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.cli.run import RunOptions, make_session, phrase_values, run_text
 from ssilang.language.say.diagnostics import sentence
@@ -52,8 +53,8 @@ def test_a_word_for_a_logical_is_told_and_taken_as_it(deck, entry, word):
     )
 
 
-@pytest.mark.parametrize(
-    ("deck", "entry", "right"),
+@together(
+    "deck, entry, right",
     [
         (DYNAMIC, "T1 . 'CHARGEMENT' = 1 ;", "'CHAR'"),
         (DYNAMIC, "T1 . 'AMORTISSEMENT' = 1 ;", "'AMOR'"),
@@ -123,9 +124,7 @@ def test_values_that_cannot_be_used_are_refused_with_those_that_can(entry, words
         assert word in result.message
 
 
-@pytest.mark.parametrize(
-    "value", ["VRAI", "FAUX", "'INERTIE'", "'RAIDEUR'", "MOT 'MASSE'", "MOT 'RIGIDITE'"]
-)
+@together("value", ["VRAI", "FAUX", "'INERTIE'", "'RAIDEUR'", "MOT 'MASSE'", "MOT 'RIGIDITE'"])
 def test_documented_words_and_older_ones_work(value):
     assert warnings(OSCILLATOR + f"T1 . 'VITEUNIL' = {value} ; T2 = DYNAMIC T1 ;") == []
 

@@ -1,13 +1,13 @@
 """Near names: fewest slips, a swap being one."""
 
-import pytest
+from together import together
 
 from ssilang.language.cast3m import find_cast3m_word
 from ssilang.language.search import likeness, nearest, nearest_names, slips
 
 
-@pytest.mark.parametrize(
-    ("said", "meant", "count"),
+@together(
+    "said, meant, count",
     [("RESO", "RESO", 0), ("RSEO", "RESO", 1), ("DORI", "DROI", 1), ("DRO", "DROI", 1),
      ("DROIX", "DROI", 1), ("DRAI", "DROI", 1), ("", "DROI", 4), ("CA", "ABC", 3)],
 )  # fmt: skip
@@ -33,8 +33,8 @@ def test_a_word_unlike_all_has_no_near_name():
     assert nearest("ZZZZ", ["RESO", "DROI"]) == ""
 
 
-@pytest.mark.parametrize(
-    ("said", "name"),
+@together(
+    "said, name",
     [("EXTRAIRE", "EXTR"), ("extr", "EXTR"), ("CTOD", "CTOD"), ("CTODX", None),
      ("@CARENE", "@CARENE"),
      ("@CAR", None), ("NOWORD", None)],

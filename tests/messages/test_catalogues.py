@@ -12,6 +12,7 @@ from pathlib import Path
 from string import Formatter
 
 import pytest
+from together import together
 
 import ssilang
 from ssilang.language import vocabulary
@@ -116,7 +117,7 @@ def rooms() -> dict[str, list[str]]:
     return found
 
 
-@pytest.mark.parametrize("room", sorted(rooms()))
+@together("room", sorted(rooms()))
 def test_both_languages_tell_the_same_data(room):
     lost = [code for code in rooms()[room] if not both_languages_tell_the_same(code)]
     assert not lost
@@ -135,7 +136,7 @@ def both_languages_tell_the_same(code: str) -> bool:
 
 
 @pytest.mark.parametrize("language", ["en", "fr"])
-@pytest.mark.parametrize("room", sorted(rooms()))
+@together("room", sorted(rooms()))
 def test_every_message_is_told(room, language):
     for code in rooms()[room]:
         if _own(code):

@@ -8,14 +8,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 import ssilang
 from ssilang.kernel.base.errors import MeshError
 from ssilang.messages.message import Sentence, filled, find, hint, sentence
 
 
-@pytest.mark.parametrize(
-    ("template", "data", "language", "told"),
+@together(
+    "template, data, language, told",
     [
         ("{x:.3g} of {name!r}", {"x": 2.0, "name": "A"}, "en", "2 of 'A'"),
         ("{n} {n:node|nodes}", {"n": 1}, "en", "1 node"),
@@ -38,8 +39,8 @@ def test_templates(template, data, language, told):
     assert filled(template, data, language) == told
 
 
-@pytest.mark.parametrize("spec", ["{x:.3g}", "{x:g}", "{xs:.2g}", "{xs:words .3g}"])
-@pytest.mark.parametrize("value", [4.905e-8, 0.125, 2.5, 1e300, 0.0, -1.5e-5])
+@together("spec", ["{x:.3g}", "{x:g}", "{xs:.2g}", "{xs:words .3g}"])
+@together("value", [4.905e-8, 0.125, 2.5, 1e300, 0.0, -1.5e-5])
 def test_no_digit_that_is_told_hangs_on_rounding(spec, value):
     """Half an ulp up or down, and a thousand of them, make the same text."""
     said = {

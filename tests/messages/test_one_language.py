@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.cli.helping import show_help
@@ -54,8 +55,8 @@ def foreign(text: str, language: str) -> set[str]:
     return set(re.findall(r"\w+", text)) & TELLTALE[other]
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
-@pytest.mark.parametrize("script", sorted(SCRIPTS))
+@together("language", ["en", "fr"])
+@together("script", sorted(SCRIPTS))
 def test_a_run_speaks_its_language(script: str, language: str, tmp_path: Path) -> None:
     options = RunOptions(tmp_path, language=language)
     result = run_text(SCRIPTS[script], options=options)

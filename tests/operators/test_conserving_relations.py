@@ -14,7 +14,7 @@ R = (BLOQ 'UX' PC) ET (RELA 'MINI' 'UY' PC + 1.5 'RZ' PC) ET (RELA 'MINI' 'UY' P
 T = TABL ; T . 'RIGI' = R ; T . 'MASS' = (MASS 'DEPL' 1.E5 PC) ET (MASS 'ROTA' 8.E5 PC) ;
 T . 'DEPL' = (MANU 'CHPO' PC 1 'UY' 0.015) ET (MANU 'CHPO' PC 1 'RZ' 0.01) ;
 T . 'CHAR' = CHAR 'MECA' (FORC (0. -9.81E5) PC) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 3. ; T . 'CONSERVATIF' = VRAI ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 2.E-3 3. ; T . 'CONSERVATIF' = VRAI ;
 """
 END = """ T2 = DYNAMIC T ; LE = T . 'ENERGIES' . 'ECART' ; LC = T . 'ENERGIES' . 'CINETIQUE' ;
 LTH = EXTR (EVOL 'TEMP' T2 'DEPL' 'RZ' PC) 'ORDO' ; """
@@ -36,7 +36,7 @@ def test_a_rocking_block_keeps_its_energy_whatever_the_method(found, method):
     ("entry", "warned"), [("", False), ("FAUX", False), ("VRAI", True), ("MOT 'RIGIDITE'", True)]
 )
 def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, warned):
-    text = BLOCK.replace("1.E-3 3.", "1.E-3 0.1") + (
+    text = BLOCK.replace("2.E-3 3.", "1.E-3 0.1") + (
         f"T . 'VITEUNIL' = {entry} ; " if entry else ""
     )
     result = ran(text + END)
@@ -55,7 +55,7 @@ def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, w
 )
 def test_energy_that_impacts_create_is_told_in_every_method(entries, told):
     """The block gains more than it had: measured by what it was given, not by its later fall."""
-    text = BLOCK.replace("T . 'CONSERVATIF' = VRAI ;", entries).replace("1.E-3 3.", "1.E-2 3.")
+    text = BLOCK.replace("T . 'CONSERVATIF' = VRAI ;", entries).replace("2.E-3 3.", "1.E-2 3.")
     result = run_text(text + END)
     codes = [w.code for w in result.session.warnings]
     assert ("operators.dynamics.impacts-change-energy" in codes) is told, codes

@@ -4,7 +4,6 @@ import pytest
 
 from ssilang.cli.run import run_text
 
-TENT = "E = EVOL 'MANU' 'TEMPS' (PROG 0. 1. 2.) 'DEPL' (PROG 0. 3. 1.) ; "
 LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 10 (0. 0.) (3. 4.) ; X Y = COOR L ; "
 
 

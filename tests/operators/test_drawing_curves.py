@@ -5,6 +5,7 @@ from xml.etree import ElementTree
 
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.cli.run import RunResult
 
@@ -83,8 +84,8 @@ def test_only_one_format_on_demand_named_after_the_file(tmp_path: Path) -> None:
 PORTION = "T = TABL ; T . '{0}' = TABL ; T . '{0}' . 1 = {1} ; "
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
+@together(
+    "text, said",
     [
         ("DESS 3 ;", "EVOLUTIO"),
         ("DESS E 'XBOR' 2. 2. ;", "both 2"),

@@ -7,6 +7,7 @@ A file `drawn_SEED.forms` holds a short script a form and, behind `---`, what it
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -33,15 +34,17 @@ def same(printed: str, expected: str) -> bool:
         return printed == expected
 
 
-@pytest.mark.parametrize(("script", "expected"), [pytest.param(s, e, id=n) for n, s, e in forms()])
-def test_a_form_does_what_its_notice_says(script: str, expected: str, tmp_path: Path) -> None:
+@together("name, script, expected", forms(), by=lambda f: f[0].partition("-")[0])
+def test_a_form_does_what_its_notice_says(
+    name: str, script: str, expected: str, tmp_path: Path
+) -> None:
     result = run_text(script, output_directory=tmp_path)
     if expected.startswith("!"):
         assert result.exit_code == 1
         assert "defect of ssilang" not in result.message
         assert expected[1:].strip() in result.message
         return
-    assert result.exit_code == 0, result.message
+    assert result.exit_code == 0, f"{name}: {result.message}"
     printed, wanted = result.output.split(), expected.removeprefix("-").strip().split()
     if wanted[0].startswith("~"):
         wanted[0] = wanted[0].removeprefix("~")

@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -29,10 +30,10 @@ def test_a_motion_that_is_known_everywhere_loads(operator, column):
     assert done.session.root.find("X") > 0.0
 
 
-@pytest.mark.parametrize("column", ["", WHOLE])
-@pytest.mark.parametrize("operator", LOADS)
-@pytest.mark.parametrize("of", ["DEPL", "VITE", "ACCE"])
-@pytest.mark.parametrize("part", ["EXCO 'UX' Z 'UX'", "EXCO 'UY' Z 'UY'", "REDU Z (COTE 1 S)"])
+@together("column", ["", WHOLE])
+@together("operator", LOADS)
+@together("of", ["DEPL", "VITE", "ACCE"])
+@together("part", ["EXCO 'UX' Z 'UX'", "EXCO 'UY' Z 'UY'", "REDU Z (COTE 1 S)"])
 def test_a_motion_that_is_not_known_somewhere_is_refused(operator, column, of, part):
     lost = f"I = W . 2 ; I . '{of}' = {part} ; "
     done = run_text(f"{COLUMN}{lost}{LOADS[operator]}{column}C = {operator} T ;")

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -39,8 +40,8 @@ def test_the_sound_decks_run(name, tmp_path):
     assert not result.errors, result.message
 
 
-@pytest.mark.parametrize(
-    ("name", "path", "value", "says"),
+@together(
+    "name, path, value, says",
     [
         # decreasing, standing and missing times
         ("DYNAMIC", "T1 . 'TEMPS_CALCULES'", "(PROG 1. 0.5 0.)", ["0.5 follows 1"]),

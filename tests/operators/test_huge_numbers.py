@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.messages.message import sentence
@@ -16,8 +17,8 @@ def code_of(text, folder):
     return result.errors[0].code if result.errors else ""
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         ("Z = FLOT (10 ** 400) ;", "number-too-large"),
         ("Z = PROG (10 ** 400) ;", "number-too-large"),
@@ -73,8 +74,8 @@ _LARGE = (
 )
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         ("Z = C * C ;", "arithmetic"),
         ("Z = C * 1.E300 ;", "arithmetic"),
@@ -151,8 +152,8 @@ def test_an_operator_that_fails_over_a_field_names_it(tmp_path):
     assert run_text(NAN + text.format("0.1"), tmp_path).exit_code == 0
 
 
-@pytest.mark.parametrize(
-    ("text", "wanted"),
+@together(
+    "text, wanted",
     [
         ("Z = 3 EGA Y ;", False),
         ("Z = Y EGA 3 ;", False),

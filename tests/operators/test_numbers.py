@@ -96,9 +96,6 @@ def test_what_a_list_of_integers_cannot_hold_is_refused(phrase, says):
     assert says in result.message
 
 
-_POINT = "OPTI DIME 2 MODE PLAN DEFO ; P = 0. 0. ; C = MANU 'CHPO' P {} ; "
-
-
 @pytest.mark.parametrize(("mean", "count"), [(7, 400), (0, 3), (3, 0)])
 def test_noise_of_poisson_has_its_mean(mean, count):
     result = ran(f"L = BRUI 'BLAN' 'POIS' {mean} {count} ;")

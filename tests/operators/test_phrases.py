@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import signal, special
+from together import together
 
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.kernel.curves.curve import Curve
@@ -38,9 +39,7 @@ def oscillator(frequency, damping, values, times, start=(0.0, 0.0)):
 KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special, "approx": pytest.approx}
 KNOWN |= {"sig": signal, "osc": oscillator, "T8": np.arange(8) / 2}
 KNOWN |= {"G8": np.array([0, 2, -1, 3, 0.5, -4, 1, 2])}
-ROWS = [
-    pytest.param(g, p, id=f"{g}-{p}") for g, group in GROUPS.items() for p in group if p != "before"
-]
+ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p != "before"]
 
 
 @pytest.fixture(scope="module")
@@ -111,7 +110,7 @@ def assert_field(field, wanted):
         np.testing.assert_allclose(values, np.broadcast_to(exact, values.shape), 1e-9, 1e-12)
 
 
-@pytest.mark.parametrize(("group", "phrase"), ROWS)
+@together("group, phrase", ROWS, by=lambda row: row[0])
 def test_a_phrase_gives_its_value(sessions, group, phrase):
     session = sessions(group)
     said, _, asked = phrase.rpartition(";")

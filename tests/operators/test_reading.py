@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, RunResult, run_file
 from ssilang.kernel.curves.curve import Curve
@@ -96,8 +97,8 @@ def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
     assert run_file(tmp_path / "deck" / "deck.ssi", options).exit_code == 0
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
+@together(
+    "text, said",
     [
         ("A = LIRE 'CSV' 'none.csv' ;", "no such file"),
         ("A = LIRE 'MDE' 'v.txt' ;", "did you mean 'MED'?"),
@@ -256,8 +257,8 @@ def test_several_records_of_cosmos(tmp_path: Path) -> None:
     assert [w.code for w in result.session.warnings] == ["operators.files.several-channels"]
 
 
-@pytest.mark.parametrize(
-    ("content", "told"),
+@together(
+    "content, told",
     [
         (cosmos(version="v01.00"), "version 01.00 of the COSMOS format, 1.20 is read"),
         ("1. 2.\n", "no version of the COSMOS format"),

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import script_runs
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.language.text.source import Source
@@ -32,19 +33,19 @@ def test_check_says_the_same_at_the_same_place(code):
     assert found >= ROWS["before_the_run"][code]
 
 
-@pytest.mark.parametrize("code", ROWS["refused"])
+@together("code", ROWS["refused"])
 def test_it_is_refused_for_its_reason_and_at_its_place(code, tmp_path):
     for script in ROWS["refused"][code]:
         assert_refused(ROWS["before"] + script + " ;", code, (), tmp_path)
 
 
 TOLD = [
-    pytest.param(group["before"] + script, code, said, id=f"{name}-{i}")
-    for name, group in ROWS["told"].items()
-    for i, (code, script, *said) in enumerate(group["rows"])
+    (group["before"] + script, code, said)
+    for group in ROWS["told"].values()
+    for code, script, *said in group["rows"]
 ]
 
 
-@pytest.mark.parametrize(("script", "code", "said"), TOLD)
+@together("script, code, said", TOLD)
 def test_it_is_told(script, code, said, tmp_path):
     assert_refused(script, code, said, tmp_path)

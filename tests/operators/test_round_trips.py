@@ -7,6 +7,7 @@ import re
 import numpy as np
 import pytest
 from script_runs import found, printed
+from together import together
 
 from ssilang.kernel.mesh.mesh import Mesh
 
@@ -60,9 +61,7 @@ def cells(mesh: Mesh) -> list:
 LINELESS = ("Abaqus deck", "mixed in the plane")
 
 
-@pytest.mark.parametrize(
-    ("file", "mesh"), [p for p in itertools.product(FILES, MESHES) if p != LINELESS]
-)
+@together("file, mesh", [p for p in itertools.product(FILES, MESHES) if p != LINELESS])
 def test_cells_come_back_as_they_were(file, mesh, tmp_path):
     if file == "MED" and importlib.util.find_spec("h5py") is None:
         pytest.skip("h5py is not installed")
@@ -80,9 +79,9 @@ LISTS = {
 SIGNS = {"VIRG": ",", "PVIR": ";", "ESPA": " "}
 
 
-@pytest.mark.parametrize("mark", SIGNS)
-@pytest.mark.parametrize("rows", [4, 1])
-@pytest.mark.parametrize("order", list(itertools.permutations(LISTS)))
+@together("mark", SIGNS)
+@together("rows", [4, 1])
+@together("order", list(itertools.permutations(LISTS)))
 def test_columns_come_back_in_their_order(order, rows, mark, tmp_path):
     made = " ".join(f"(EXTR ({LISTS[name][0]}) (LECT 1 PAS 1 {rows}))" for name in order)
     script = (
@@ -101,7 +100,7 @@ SAVED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("names", [list(SAVED), list(SAVED)[::-1], *([name] for name in SAVED)])
+@together("names", [list(SAVED), list(SAVED)[::-1], *([name] for name in SAVED)])
 def test_values_come_back_from_an_archive(names, tmp_path):
     """All at once in either order, and each alone."""
     made = " ; ".join(SAVED[name] for name in names)

@@ -5,6 +5,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -560,7 +561,7 @@ def written(files: dict[str, str], folder: Path) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("what", FILES)
+@together("what", FILES)
 def test_files_that_hold_something_else_are_told(what: str, tmp_path: Path) -> None:
     script, files, code = FILES[what]
     assert code in told(script, written(files, tmp_path), what)
@@ -572,13 +573,13 @@ def test_files_that_hold_what_they_say_are_not(what: str, tmp_path: Path) -> Non
     assert told(script, written(files, tmp_path)) == []
 
 
-@pytest.mark.parametrize("what", MODELS)
+@together("what", MODELS)
 def test_models_that_make_no_sense_are_told(what: str, tmp_path: Path) -> None:
     script, code = MODELS[what]
     assert code.replace("D.", "operators.dynamics.") in told(script, tmp_path, what)
 
 
-@pytest.mark.parametrize("what", SENSIBLE_MODELS)
+@together("what", SENSIBLE_MODELS)
 def test_models_that_make_sense_are_not(what: str, tmp_path: Path) -> None:
     codes = told(SENSIBLE_MODELS[what], tmp_path)
     assert {c for c in codes if c != "operators.dynamics.contact-not-resolved"} == set()
@@ -588,7 +589,7 @@ DRAWN = tomllib.loads(Path(__file__).with_name("senseless_drawn.toml").read_text
 SETUPS = DRAWN.pop("setups")
 
 
-@pytest.mark.parametrize("what", DRAWN)
+@together("what", DRAWN)
 def test_scripts_drawn_over_all_operators_are_told(what: str, tmp_path: Path) -> None:
     script = DRAWN[what]["script"]
     while "{" in script:
@@ -625,7 +626,7 @@ SENSIBLE_ENDS = {
 }
 
 
-@pytest.mark.parametrize("what", SENSIBLE_ENDS)
+@together("what", SENSIBLE_ENDS)
 def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
     assert told(SENSIBLE_ENDS[what], tmp_path) == []
 

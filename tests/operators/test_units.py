@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import meshio
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.cli.run import RunOptions, RunResult, run_source, run_text
@@ -51,8 +52,8 @@ def test_a_unit_of_mass_is_what_a_unit_of_force_accelerates() -> None:
     assert masses == pytest.approx({"SI": 1.0, "KN-M": 1e3, "MN-M": 1e6, "N-MM": 1e3})
 
 
-@pytest.mark.parametrize(
-    ("system", "unit", "written", "factor"),
+@together(
+    "system, unit, written, factor",
     [
         ("N-MM", "Pa", "MPa", 1e6),
         ("N-MM", "kg/m3", "t/mm3", 1e12),
@@ -82,8 +83,8 @@ def test_every_unit_of_the_vocabulary_has_its_size_in_every_system() -> None:
 # ---- materials
 
 
-@pytest.mark.parametrize("system", SYSTEMS)
-@pytest.mark.parametrize("material", [STEEL, CLAY], ids=["steel", "clay"])
+@together("system", SYSTEMS)
+@together("material", [STEEL, CLAY])
 def test_materials_in_their_units_are_taken_in_silence(
     system: str, material: dict[str, tuple[str, str]]
 ) -> None:
@@ -91,8 +92,8 @@ def test_materials_in_their_units_are_taken_in_silence(
     assert warned(system, f"'YOUN' {young} 'NU' 0.3 'RHO' {density} 'ALPH' 1.2E-5") == []
 
 
-@pytest.mark.parametrize(
-    ("system", "given", "likely", "written"),
+@together(
+    "system, given, likely, written",
     [
         ("N-MM", "'YOUN' 2.1E11 'NU' 0.3", ["Pa"], ["210000"]),
         ("N-MM", "'YOUN' 2.E5 'NU' 0.3 'RHO' 7850.", ["kg/m3"], ["7.85e-09"]),

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import script_runs
 from scipy import special
+from together import together
 
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.kernel.fields.cell_field import CellField
@@ -99,7 +100,7 @@ def both(function, first, second):
             for f, g in zip(first, second, strict=True)]  # fmt: skip
 
 
-@pytest.mark.parametrize("word", FUNCTIONS)
+@together("word", FUNCTIONS)
 def test_functions_of_all_types_of_operands(session, word):
     f = FUNCTIONS[word]
     assert asked(session, f"{word} -1.5") == pytest.approx(f(-1.5), rel=1e-14)
@@ -190,7 +191,7 @@ NUMBERS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("phrase", NUMBERS)
+@together("phrase", NUMBERS)
 def test_numbers_of_fields_lists_and_meshes(session, phrase):
     found = asked(session, phrase)
     if hasattr(found, "values"):
@@ -263,7 +264,7 @@ FIELDS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("phrase", FIELDS)
+@together("phrase", FIELDS)
 def test_fields_of_fields(session, phrase):
     assert_field(asked(session, phrase), FIELDS[phrase])
 
@@ -290,7 +291,7 @@ LISTS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("phrase", LISTS)
+@together("phrase", LISTS)
 def test_lists_of_lists_and_curves(session, phrase):
     found = asked(session, phrase)
     found = found.values if hasattr(found, "values") else found

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
@@ -72,14 +73,14 @@ _KNOWN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", vocabulary.KINDS)
+@together("kind", vocabulary.KINDS)
 def test_every_word_has_an_entry_and_every_entry_is_known(kind):
     known, declared = set(_KNOWN[kind]), set(vocabulary.names(kind))
     assert known - declared == set(), "words without an entry"
     assert declared - known == set(), "entries that nothing knows"
 
 
-@pytest.mark.parametrize("name", words.known_parameters())
+@together("name", words.known_parameters())
 def test_every_meaning_of_a_parameter_is_that_of_some_law_or_element(name):
     used = [meaning for _, meaning in words.owners(name)]
     for word in vocabulary.meanings("parameter", name):
@@ -93,7 +94,7 @@ def test_meanings_are_limited_to_what_exists():
         assert set(word.of) <= known, f"{word.name} is limited to {word.of}"
 
 
-@pytest.mark.parametrize(("kind", "word"), _ALL, ids=lambda v: getattr(v, "name", v))
+@together("kind, word", _ALL)
 def test_an_entry_is_whole(kind, word):
     assert word.name == word.name.upper()
     values = word.values if isinstance(word, Option) else ()
@@ -106,9 +107,7 @@ def test_an_entry_is_whole(kind, word):
         assert word.meaning(language)[:20] in vocabulary_text(kind, word, language)
 
 
-@pytest.mark.parametrize(
-    "word", [w for _, w in _ALL if isinstance(w, Quantity)], ids=lambda w: w.name
-)
+@together("word", [w for _, w in _ALL if isinstance(w, Quantity)])
 def test_units_and_ranges_are_sound(word):
     assert word.unit is None or word.unit in UNITS
     for span in (word.range, word.usual):
@@ -138,7 +137,7 @@ def test_one_meaning_has_one_unit_in_each_zone():
     assert words.parameter("PHI", slips).unit == "deg"
 
 
-@pytest.mark.parametrize("key", EXAMPLES)
+@together("key", EXAMPLES)
 def test_examples_run(key, tmp_path):
     ran(EXAMPLES[key], output_directory=tmp_path)
 
@@ -149,8 +148,8 @@ def test_every_law_and_element_has_an_example(kind):
         assert example(kind, word), word.name
 
 
-@pytest.mark.parametrize(
-    ("kind", "said", "name"),
+@together(
+    "kind, said, name",
     [("law", "JOINT_SDM", "JOINT_SDM"), ("law", "joint_s", "JOINT_SDM"),
      ("law", "ELAS", "ELASTIQUE"),
      ("law", "ELA", ""), ("element", "POUTRE", "POUT"), ("option", "DIMENSION", "DIME"),
@@ -180,8 +179,8 @@ def test_ranges_are_told_as_inequalities(low, text):
 # ---- help ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("word", "parts"),
+@together(
+    "word, parts",
     [
         ("JOINT_SDM", ("law of joints", "JOI2", "FROT", "Pa/m", "required", "JOINT_DILATANT")),
         ("KN", ("Pa/m", "N/m", "MACRO_SEMELLE", "JOI1", "KN >= 0")),
@@ -362,7 +361,7 @@ def test_a_formulation_lists_its_own_laws(name, own, other):
     assert found.isdisjoint(other.split())
 
 
-@pytest.mark.parametrize("law", vocabulary.words("law"), ids=lambda w: w.name)
+@together("law", vocabulary.words("law"))
 def test_the_zone_that_shows_a_law_has_it(law):
     zone = words.sample_of_law(law)
     if zone is None:

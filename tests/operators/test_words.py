@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.base.errors import KernelError
@@ -10,8 +11,8 @@ from ssilang.language.values import ANNULE
 from ssilang.operators.texts.fortran_format import formatted
 
 
-@pytest.mark.parametrize(
-    ("form", "value", "expected"),
+@together(
+    "form, value, expected",
     [
         ("(1PE12.5)", 25.86, " 2.58600E+01"),
         ("(F6.2)", 25.86, " 25.86"),

@@ -9,6 +9,7 @@ import itertools
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, execute, make_session
 from ssilang.kernel.fields.cell_field import CellField
@@ -103,7 +104,7 @@ def assert_near(found, wanted):
         assert found[key] == pytest.approx(value, rel=1e-12, abs=1e-13), key
 
 
-@pytest.mark.parametrize("phrase", OF_CELLS + OF_BODIES)
+@together("phrase", OF_CELLS + OF_BODIES)
 def test_fields_in_cells_are_those_of_each_zone(session, phrase):
     zones = (1, 2) if phrase in OF_BODIES else (1, 2, 3)
     alone = {}
@@ -118,7 +119,7 @@ def test_fields_in_cells_are_those_of_each_zone(session, phrase):
                 np.testing.assert_allclose(values, alone[key][name], rtol=1e-12, atol=1e-13)
 
 
-@pytest.mark.parametrize("phrase", [*OF_NODES, "CNEQ {M} G", *(f"({m}) * U" for m in MATRICES)])
+@together("phrase", [*OF_NODES, "CNEQ {M} G", *(f"({m}) * U" for m in MATRICES)])
 def test_forces_add_up_over_zones(session, phrase):
     total = {}
     zones = (1, 2) if phrase.startswith("CNEQ") else (1, 2, 3)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from chromium import PROGRAM, Chromium
 from scipy import stats
+from together import together
 
 from ssilang.cli.main import main
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
@@ -52,8 +53,8 @@ def suite(n=12, scales=(1, 2, 4)):
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("said", "found"),
+@together(
+    "said, found",
     [
         ("drift>0.01", [Limit("drift", False, 0.01)]),
         (" PART < .5 , 1e-1", [Limit("PART", True, 0.5), Limit("PART", True, 0.1)]),
@@ -136,8 +137,8 @@ def test_a_bad_run_is_left_out_and_counted_and_one_of_other_units_is_named(tmp_p
     assert page.count("times the median") == 1
 
 
-@pytest.mark.parametrize(
-    ("rows", "said"),
+@together(
+    "rows, said",
     [
         (suite()[:1], "three runs at least, found 1"),
         (suite(scales=[0.1])[:3], "none of 3 runs exceeds"),

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -180,8 +181,8 @@ def test_element_option_of_the_deck_is_left_as_it_was():
     assert str(result.session.root.find("E1")).rstrip() == "TRI6"
 
 
-@pytest.mark.parametrize(
-    ("call", "said"),
+@together(
+    "call, said",
     [
         ("'SOL' 24. 8.", "footing's width is missing"),
         ("'SOL' 3. 8. 'SEMELLE' 4.", "does not stand inside"),

@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import ran, refused
+from together import together
 
 
 def found(script, name):
@@ -12,7 +13,7 @@ def test_unknown_units_are_named():
     assert "no unit of time" in refused("T = CONVT 1. 2 'FORTNIGHT' ;")
 
 
-@pytest.mark.parametrize("count", range(21))
+@together("count", range(21))
 def test_palette_has_different_colours_that_the_picture_knows(count):
     colours = [str(c).strip() for c in found(f"L = @PALETTE {count} ;", "L").values]
     assert len(set(colours)) == len(colours) == count

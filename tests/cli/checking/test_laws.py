@@ -1,6 +1,6 @@
 """`check` says of the constants of MATE what a run would say, at the same place."""
 
-import pytest
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.cli.run import run_text
@@ -49,7 +49,7 @@ def found(text: str) -> list[SsiError]:
     return [p for p in problems if p.code != "unused-name"]
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@together("name", REFUSED)
 def test_check_refuses_as_the_run_does(name: str) -> None:
     text = deck(*REFUSED[name])
     (ran,), (checked,) = run_text(text).errors, found(text)
@@ -58,8 +58,8 @@ def test_check_refuses_as_the_run_does(name: str) -> None:
         assert render(checked, language) == render(ran, language)
 
 
-@pytest.mark.parametrize(
-    ("model", "law", "given"),
+@together(
+    "model, law, given",
     [
         (BODY, "", ELASTIC + "'RHO' 2500."),
         (BODY, "'PLASTIQUE' 'CAM_CLAY'", CLAY + "0.05"),

@@ -1,6 +1,7 @@
 """What is known of names in branches: a branch has its own knowledge, and what both say stays."""
 
 import pytest
+from together import together
 
 from ssilang.cli.checking.kinds import ANY_WORD, SOMETHING, UNKNOWN, kind_word, same, typed
 from ssilang.cli.checking.scope import Scope, assigned_names
@@ -22,8 +23,8 @@ def test_a_branch_does_not_change_what_stands_before_it():
     assert (before.values, before.open, before.dimension) == ({"Z": 1, "A": "W"}, True, 3)
 
 
-@pytest.mark.parametrize(
-    ("a", "b", "known"),
+@together(
+    "a, b, known",
     [
         (3, 3, 3), (3, 4, typed("ENTIER")), (3, 3.0, UNKNOWN), (2.5, 2.5, 2.5),
         (Mot("A"), Mot("A"), Mot("A")), (Mot("A"), Mot("B"), ANY_WORD), (Mot("A"), 1, UNKNOWN),

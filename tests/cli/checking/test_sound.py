@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.cli.checking import walk
@@ -143,8 +144,8 @@ def test_procedures_beside_the_script_are_read_anew_when_they_change(tmp_path):
     assert "unknown-operator" in codes()
 
 
-@pytest.mark.parametrize(
-    ("between", "sure"),
+@together(
+    "between, sure",
     [
         ("X = 'a' ;", True),
         ("REPE B 0 ; X = 'a' ; FIN B ;", False),

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from script_printer import same_tree
+from together import together
 
 from ssilang.cli.editor.formatting import formatted
 from ssilang.language.text.source import Source
@@ -84,7 +85,7 @@ def test_blocks_blanks_comments_strings_and_lines():
     assert assert_kept(MESSY) == NEAT
 
 
-@pytest.mark.parametrize("path", DECKS, ids=lambda p: p.name)
+@together("path", DECKS, by=lambda p: p.parent.name)
 def test_decks_keep_their_meaning(path):
     assert_kept(read_source(path).text)
 

@@ -4,6 +4,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang.cli.editor.complete import candidates
 from ssilang.cli.editor.document import Document
@@ -34,8 +35,8 @@ def reader(language):
     return Reader(document, find_problems(document.source, language), library(), language)
 
 
-@pytest.mark.parametrize(
-    ("word", "number", "told"),
+@together(
+    "word, number, told",
     [
         ("DIME", 1, ("**DIME : option of OPTI**\n\nNumber of dimensions of space: 1, 2 or 3.",
                      "**DIME : option d'OPTI**\n\nNombre de dimensions de l'espace : 1, 2 ou 3.")),

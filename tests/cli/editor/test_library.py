@@ -7,7 +7,7 @@ from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
-import pytest
+from together import together
 
 from ssilang.cli.editor.document import Document
 from ssilang.language.text import tree
@@ -36,7 +36,7 @@ def given(statement: tree.Statement) -> list[tree.Name]:
     return [item for item in (*statement.targets, *reads) if isinstance(item, tree.Name)]
 
 
-@pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
+@together("path", LIBRARY)
 def test_names_are_those_that_the_language_reads(path):
     document = Document.of(path.read_text(encoding="utf-8"), path)
     script = parse(Source(str(path), document.source.text, path))
@@ -60,7 +60,7 @@ def test_names_are_those_that_the_language_reads(path):
     ]
 
 
-@pytest.mark.parametrize("path", LIBRARY, ids=lambda path: path.stem)
+@together("path", LIBRARY)
 def test_a_name_of_a_procedure_is_renamed_wherever_it_is_meant(path):
     """The renamed text is read as the old one was, with another name in the same places."""
     document = Document.of(path.read_text(encoding="utf-8"), path)

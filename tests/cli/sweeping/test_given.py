@@ -1,6 +1,7 @@
 """Values of the command line: how they are read, and how runs are named and combined."""
 
 import pytest
+from together import together
 
 from ssilang.cli.sweeping.given import (
     MOTION,
@@ -15,8 +16,8 @@ from ssilang.cli.sweeping.given import (
 )
 
 
-@pytest.mark.parametrize(
-    ("text", "values"),
+@together(
+    "text, values",
     [
         ("3", [3]), (" -3 ", [-3]), ("1.5d3", [1500.0]), ("+.5E-1", [0.05]), ("2.", [2.0]),
         ("vrai,FAUX", [True, False]), ("dense, Modal", ["dense", "Modal"]),
@@ -31,8 +32,8 @@ def test_values(text, values):
     assert [type(v) for v in found] == [type(v) for v in values]
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         ("1:7:0", "cli.range-no-values-first"), ("1:7:-2", "cli.range-no-values-first"),
         ("7:1:2", "cli.range-no-values-first"), ("1:6:2", "cli.range-misses-end"),
@@ -53,7 +54,7 @@ def test_the_value_before_an_end_that_is_missed_is_told():
     assert parse_value("1.d-2") == 0.01
 
 
-@pytest.mark.parametrize("text", ["Z", "=3", "Z=", "1Z=3", "Z A=3", "Z= "])
+@together("text", ["Z", "=3", "Z=", "1Z=3", "Z A=3", "Z= "])
 def test_settings_that_are_none(text):
     with pytest.raises(GivenError) as caught:
         parse_setting(text)

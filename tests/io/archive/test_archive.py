@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from ssilang.cli.run import run_file
-from ssilang.io.archive import Decoder, Encoder, Record, read_archive, write_archive
+from ssilang.io.archive import Decoder, Encoder, Record, container, read_archive, write_archive
 from ssilang.io.archive.classes import HOMES, class_name, class_named
 from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -210,10 +210,11 @@ def test_an_archive_that_unpacks_past_any_use_is_refused_unread(tmp_path):
     assert "deck.ssi:2:1" in result.message
 
 
-def test_an_array_that_is_asked_for_again_and_again_counts_each_time(tmp_path):
+def test_an_array_that_is_asked_for_again_and_again_counts_each_time(tmp_path, monkeypatch):
     sound, crafted = tmp_path / "sound", tmp_path / "crafted"
     saved(sound, X=np.zeros(3))
-    _crafted(crafted, {0: 200 * 2**20}, sound)
+    monkeypatch.setattr(container, "_SMALL", 2**22)
+    _crafted(crafted, {0: 3 * 2**20}, sound)
     archive = read_archive(crafted)
     with pytest.raises(InputError) as first:  # these zeros are no array
         archive.array(0)

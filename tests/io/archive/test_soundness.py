@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.archive.decoding import _AGREEMENTS, flaw_of
 from ssilang.kernel.curves.curve import CurvePart
@@ -64,12 +65,12 @@ def test_a_cell_of_many_nodes_is_taken_that_this_process_has_not_made(name: str)
     assert flaw_of(CellBlock, {**cells, "raw": raw[:, 1:]}) == "raw"
 
 
-@pytest.mark.parametrize("cls", SOUND)
+@together("cls", SOUND)
 def test_what_agrees_is_taken(cls: type) -> None:
     assert flaw_of(cls, SOUND[cls]) == ""
 
 
-@pytest.mark.parametrize(("cls", "name", "value"), DAMAGED)
+@together("cls, name, value", DAMAGED)
 def test_what_does_not_agree_is_named(cls: type, name: str, value: object) -> None:
     assert flaw_of(cls, SOUND[cls] | {name: value}) == name
 

@@ -234,7 +234,7 @@ def test_what_is_allowed_runs_under_a_guard_where_there_is_one(tmp_path, monkeyp
     ids=["a loop", "a huge mesh", "a huge list"],
 )
 def test_what_takes_all_is_ended(text, tmp_path, monkeypatch, capsys):
-    monkeypatch.setenv("SSILANG_GEO_SECONDS", "2")
+    monkeypatch.setenv("SSILANG_GEO_SECONDS", "1")
     (tmp_path / "box.geo").write_text(text)
     (tmp_path / "case.ssi").write_text("OPTI DIME 2 ; T = MAILLER 'box.geo' ;")
     begun = time.monotonic()

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.plots.annotations import arrow_ends
 from ssilang.io.plots.bands import choose_levels
@@ -20,9 +21,9 @@ VECTORS = np.array([[3.0, 4, 0], [0.01, 0, 0], [0, 2, 1]])  # the second is too 
 SEEN = [0, 2]
 
 
-@pytest.mark.parametrize("heads", [True, False])
-@pytest.mark.parametrize("scale", [2.0, -2.0, None])
-@pytest.mark.parametrize("follows", [True, False])
+@together("heads", [True, False])
+@together("scale", [2.0, -2.0, None])
+@together("follows", [True, False])
 def test_arrows_begin_and_end_where_they_say(heads, scale, follows):
     nodes = np.array([3, 1, 0])
     part = ArrowPart(ORIGINS, VECTORS, nodes, scale, heads=heads)
@@ -70,8 +71,8 @@ def test_annotations_join_in_order():
     assert [c.text for c in first.joined(other).categories] == ["a", "b"]
 
 
-@pytest.mark.parametrize(
-    ("descriptor", "value", "text"),
+@together(
+    "descriptor, value, text",
     [
         ("I5", 2.6, "3"), ("(F8.2)", 3.14159, "3.14"), ("E12.3", 1234.56, "1.235E+03"),
         ("1PE10.2", 0.5, "5.00E-01"), ("G10.3", 1234.5, "1.23E+03"), (" d9.1 ", -20, "-2.0E+01"),
@@ -102,8 +103,8 @@ def test_one_value_lies_in_the_middle_of_its_band(value):
     assert bounds == pytest.approx([value - abs(value) / 1e3, value + abs(value) / 1e3], rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("element", "cells"),
+@together(
+    "element, cells",
     [("TRI3", "TRI3"), ("QUA4", "QUA4"), ("QUA8", "QUA8"), ("TRI6", "TRI6"), ("CUB8", "CUB8"),
      ("TET4", "TET4"), ("PRI6", "PRI6")],
 )  # fmt: skip

@@ -7,6 +7,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import Encoding, grid_of, write_vtu
@@ -60,7 +61,7 @@ def quadratic_cell(name: str) -> Mesh:
     return Mesh.of(table, name, table.add(points)[None, :])
 
 
-@pytest.mark.parametrize("name", sorted(VTK_EDGES))
+@together("name", sorted(VTK_EDGES))
 def test_quadratic_middles_follow_vtk_edges(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -204,8 +205,8 @@ def test_forces_of_a_shell_are_named_each_by_its_component() -> None:
     assert set(cell_arrays(forces, mesh, "F")) == {"F_N11", "F_M11"}
 
 
-@pytest.mark.parametrize("encoding", Encoding)
-@pytest.mark.parametrize("kind", ["<f8", ">f8", "<f4", ">f4", "<i4", ">i8", "u1", "?"])
+@together("encoding", Encoding)
+@together("kind", ["<f8", ">f8", "<f4", ">f4", "<i4", ">i8", "u1", "?"])
 def test_numbers_of_any_kind_and_order_are_read_back(kind, encoding, tmp_path: Path) -> None:
     mesh, _, _ = square_with_fields()
     values = np.arange(24).reshape(2, 12).astype(kind).T  # neither contiguous nor of one value

@@ -6,7 +6,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -76,6 +76,3 @@ def field(zone, **functions):
     x = table.coordinates
     values = {k: np.broadcast_to(f(x), len(table)) for k, f in functions.items()}
     return NodeField.of(table, ids, values, "DIFFUS")
-
-
-MODES_2D = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.AXISYMMETRIC)

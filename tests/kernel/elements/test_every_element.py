@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
@@ -133,7 +134,7 @@ def measure(two, element, mode):
     return parts.sum(axis=1)
 
 
-@pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if e not in ROUGH])
+@together("element, mode", [(e, m) for e, m in ALL if e not in ROUGH])
 def test_forces_and_energies_are_those_of_the_stresses(element, mode):
     two = Two(element, mode, np.eye(3))
     zone, given = two.zone, two.material
@@ -159,7 +160,7 @@ def test_forces_and_energies_are_those_of_the_stresses(element, mode):
     near(work, np.einsum("ci,cij,cj->c", v, K.values, v), tolerance)
 
 
-@pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE])
+@together("element, mode", [(e, m) for e, m in ALL if m in FREE])
 def test_nothing_depends_on_how_a_body_is_turned(element, mode):
     found = []
     for angle in (0.0, 0.7):
@@ -173,7 +174,7 @@ def test_nothing_depends_on_how_a_body_is_turned(element, mode):
         near(a, b)
 
 
-@pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE])
+@together("element, mode", [(e, m) for e, m in ALL if m in FREE])
 def test_rigid_motions_alone_strain_nothing_and_need_no_force(element, mode):
     two = Two(element, mode, np.eye(3))
     space = mode in SPACED
@@ -196,7 +197,7 @@ def test_rigid_motions_alone_strain_nothing_and_need_no_force(element, mode):
         assert np.abs(values).max() <= 1e-8 * np.abs(usual[name]).max()
 
 
-@pytest.mark.parametrize(("element", "mode"), [(e, m) for e, m in ALL if m in FREE and e != "SHB8"])
+@together("element, mode", [(e, m) for e, m in ALL if m in FREE and e != "SHB8"])
 def test_stresses_that_turn_with_a_body_turn_its_forces(element, mode):
     """Geometric stiffness times a small turn is the turned forces, whatever the stresses.
 
@@ -221,8 +222,8 @@ def test_stresses_that_turn_with_a_body_turn_its_forces(element, mode):
     near(two.product(G, spin)[0], np.cross(w, forces[0]))
 
 
-@pytest.mark.parametrize(("element", "mode"), ALL)
-@pytest.mark.parametrize("lumped", [False, True])
+@together("element, mode", ALL)
+@together("lumped", [False, True])
 def test_mass_is_that_of_the_matter_in_each_direction(element, mode, lumped):
     two = Two(element, mode, np.eye(3))
     M = families.mass(two.zone, two.material, lumped)
@@ -270,7 +271,7 @@ def test_a_line_that_turns_has_the_energy_of_its_sections_in_their_axes(element)
     near(np.einsum("ci,cij,cj->c", turn, M.values, turn), given["RHO"] * length * exact, 1e-12)
 
 
-@pytest.mark.parametrize(("element", "mode"), ALL)
+@together("element, mode", ALL)
 def test_cells_one_by_one_give_what_all_at_once_do(element, mode, monkeypatch):
     two = Two(element, mode, np.eye(3))
     made = (families.stiffness, families.mass)

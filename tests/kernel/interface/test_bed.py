@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from references.assembled import Bench
 from references.recorder import Recorder
 from scipy.optimize import brentq
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError, MaterialError
 from ssilang.kernel.curves.curve import Load
@@ -176,8 +177,8 @@ def test_eccentric_loads_meet_the_effective_width(part, spots):
     assert abs(M) == pytest.approx(-N * B / 2 * (1 - found), rel=2e-3)
 
 
-@pytest.mark.parametrize("name", SHAPES)
-@pytest.mark.parametrize(("v", "turn"), [(-0.01, 4e-3), (-0.01, 0.02), (0.01, 0.03)])
+@together("name", SHAPES)
+@together("v, turn", [(-0.01, 4e-3), (-0.01, 0.02), (0.01, 0.03)])
 def test_a_first_push_is_the_integral_of_a_fine_bed(name, v, turn):
     """Pressures min(q, -k w) all over the base, by many places."""
     footing, n = made(name, COHE=C), 1200

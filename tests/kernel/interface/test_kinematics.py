@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from scipy.spatial.transform import Rotation
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.families import stiffness
@@ -74,7 +75,7 @@ def test_jumps_at_nodes_and_in_the_middle_are_those_of_the_sides_there(element, 
     assert made.weights.sum() == pytest.approx(AREA[face] * 3.0 ** (d - 1))
 
 
-@pytest.mark.parametrize(("element", "rule"), CASES)
+@together("element, rule", CASES)
 def test_uniform_jump_gives_uniform_traction_and_its_resultant(element, rule):
     zone, material, x, R = one_joint(element, rule)
     d = x.shape[1]
@@ -90,7 +91,7 @@ def test_uniform_jump_gives_uniform_traction_and_its_resultant(element, rule):
     np.testing.assert_allclose(force[1].sum(axis=0), -force[0].sum(axis=0), rtol=1e-12)
 
 
-@pytest.mark.parametrize(("element", "rule"), CASES)
+@together("element, rule", CASES)
 def test_rigid_motion_gives_no_force(element, rule):
     zone, material, x, _ = one_joint(element, rule)
     d = x.shape[1]
@@ -102,7 +103,7 @@ def test_rigid_motion_gives_no_force(element, rule):
     assert np.abs(K @ np.concatenate([u, u])).max() < 1e-12 * np.abs(K).max()
 
 
-@pytest.mark.parametrize(("element", "rule"), CASES)
+@together("element, rule", CASES)
 def test_linear_opening_has_the_exact_moment(element, rule):
     zone, material, x, R = one_joint(element, rule)
     d = x.shape[1]
@@ -119,7 +120,7 @@ def test_linear_opening_has_the_exact_moment(element, rule):
         assert moment == pytest.approx(5.0 * width * 3.0 ** (d + 1), rel=1e-12)
 
 
-@pytest.mark.parametrize("element", FACES)
+@together("element", FACES)
 def test_reversed_joint_is_refused_when_it_has_a_thickness(element):
     zone, material, _, _ = one_joint(element, reverse=True, gap=0.05)
     with pytest.raises(MeshError) as error:

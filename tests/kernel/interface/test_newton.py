@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.iterations import KINDS, at_rest, compiled_newton, plain_newton, room
+from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.interface import interface_of
@@ -13,9 +14,9 @@ from ssilang.kernel.interface.response import Joints, accept
 from ssilang.kernel.matrices.assembly import numbering_of
 
 
-@pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("held", [False, True])
-@pytest.mark.parametrize("extra", [{}, {"FROT": 0.5}, {"FU": 1e4, "GF": 5.0, "FC": -1e3}])
+@together("kind", KINDS)
+@together("held", [False, True])
+@together("extra", [{}, {"FROT": 0.5}, {"FU": 1e4, "GF": 5.0, "FC": -1e3}])
 def test_one_step_agrees(extra, held, kind):
     bench, cells = Bench(), 12
     top = [bench.node(i / cells, 0.0) for i in range(cells + 1)]

@@ -1,7 +1,7 @@
 """Points are found in the cell that holds them: each kind of cell, mixed, crooked, in space."""
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.matrices.location import locate
@@ -27,7 +27,7 @@ def inner(shape, n, rng):
     return x
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@together("kind", KINDS)
 def test_a_point_is_where_the_shape_functions_put_it(kind):
     rng = np.random.default_rng(1)
     cell, table = REFERENCE_CELLS[kind], NodeTable()

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from references.straight_line import straight_line
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import envelope, faces_inside
@@ -112,9 +113,9 @@ def test_frames_of_a_closed_circle_are_exact() -> None:
     assert frames[:, 2] == pytest.approx(np.tile(Z, (len(ids), 1)), abs=1e-12)
 
 
-@pytest.mark.parametrize("turned", [(), (0,), (1,), (0, 1)])
-@pytest.mark.parametrize("order", [1, -1])
-@pytest.mark.parametrize("dimension", [2, 3])
+@together("turned", [(), (0,), (1,), (0, 1)])
+@together("order", [1, -1])
+@together("dimension", [2, 3])
 def test_touching_parts_are_joined_once_and_open_as_they_part(
     dimension: int, order: int, turned: tuple[int, ...]
 ) -> None:

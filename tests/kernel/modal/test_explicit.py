@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal import links as law
@@ -43,8 +44,8 @@ def error(scheme, steps, xi):
     return abs(out.values[-1, 0, 0] - exact)
 
 
-@pytest.mark.parametrize(
-    ("scheme", "xi", "order"),
+@together(
+    "scheme, xi, order",
     [(s, xi, 2) for s in SCHEMES[1:3] for xi in (0.0, 0.1)]
     + [("DE_VOGELAERE", 0.0, 4), ("DE_VOGELAERE", 0.1, 4), ("FOX_GOODWIN", 0.0, 4)],
 )
@@ -171,11 +172,11 @@ def test_step_too_long_is_refused(scheme):
     assert run(ONE, 0 * ONE, ONE, 1.0, 0.0, 0.3, 10, scheme=scheme).times[-1] == pytest.approx(3.0)
 
 
-@pytest.mark.parametrize(
-    ("scheme", "limit"),
+@together(
+    "scheme, limit",
     [("DE_VOGELAERE", 8**0.5), ("DIFFERENCES_CENTREES", 2.0), ("FOX_GOODWIN", 6**0.5)],
 )
-@pytest.mark.parametrize("w", [0.05, 1.0, 40.0])
+@together("w", [0.05, 1.0, 40.0])
 def test_the_longest_step_is_a_number_over_the_highest_frequency(scheme, limit, w):
     """Slow modes take long steps; the limits of the schemes for undamped oscillators."""
     stiffness = np.diag([w**2, 0.25 * w**2])

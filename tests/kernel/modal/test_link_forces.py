@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.modal import links as law
 from ssilang.kernel.modal.link_laws import link_forces
@@ -35,7 +36,7 @@ COUPLINGS = {
 }
 
 
-@pytest.mark.parametrize("kind", COUPLINGS)
+@together("kind", COUPLINGS)
 def test_couplings_are_their_formulas(kind):
     numbers = {law.FACTOR: 1.7, law.EXPONENT: 3.0, law.FREQUENCY: 2.3}
     total, record, _ = forces([Link(kind, RECEIVES, SEES, numbers)])
@@ -154,8 +155,8 @@ CONTACTS = {
 }
 
 
-@pytest.mark.parametrize("spring", [None, SPRING], ids=["linear", "law"])
-@pytest.mark.parametrize("name", CONTACTS)
+@together("spring", [None, SPRING])
+@together("name", CONTACTS)
 def test_contacts_push_by_the_derivative_of_their_energy(name, spring):
     kind, depth, more, ends = CONTACTS[name]
     met = 0

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.plasticity.finite import finite_zone
 from ssilang.kernel.plasticity.finite_space_beam import finite_beam, finite_space_beam
@@ -46,8 +47,8 @@ def moved(rest, amount=0.3, seed=3):
     return amount * np.random.default_rng(seed).standard_normal(rest.shape).reshape(len(rest), -1)
 
 
-@pytest.mark.parametrize("amount", [0.01, 0.1])
-@pytest.mark.parametrize("name", MESH)
+@together("amount", [0.01, 0.1])
+@together("name", MESH)
 def test_tangent_is_the_derivative_of_the_forces(name, amount):
     zone, _, rest = zone_of(name)
     u, du = moved(rest, amount), moved(rest, 1.0, 4)
@@ -60,7 +61,7 @@ def test_tangent_is_the_derivative_of_the_forces(name, amount):
     )
 
 
-@pytest.mark.parametrize("name", MESH)
+@together("name", MESH)
 def test_forces_are_the_derivative_of_the_energy(name):
     zone, _, rest = zone_of(name)
     u, du, h = moved(rest, 0.1), moved(rest, 1.0, 4), 1e-6
@@ -69,8 +70,8 @@ def test_forces_are_the_derivative_of_the_energy(name):
         assert np.sum(now.forces(u) * du) == pytest.approx(slope, rel=1e-6)
 
 
-@pytest.mark.parametrize("name", [n for n in MESH if n != "ring"])
-@pytest.mark.parametrize("v", [[0, 0, 2.1], [0, 0, 0.5], [-2.5, 1.0, 2.0]])
+@together("name", [n for n in MESH if n != "ring"])
+@together("v", [[0, 0, 2.1], [0, 0, 0.5], [-2.5, 1.0, 2.0]])
 def test_a_turned_body_has_no_stress(name, v):
     zone, cells, rest = zone_of(name)
     d = cells.shape[-1]
@@ -83,7 +84,7 @@ def test_a_turned_body_has_no_stress(name, v):
     np.testing.assert_allclose(zone.forces(u), 0.0, atol=1e-13)
 
 
-@pytest.mark.parametrize("name", MESH)
+@together("name", MESH)
 def test_given_stresses_are_shown_at_their_displacement(name):
     zone, _, rest = zone_of(name)
     given, u = zone.shown(moved(rest, 0.05, 5)), moved(rest, 0.1)

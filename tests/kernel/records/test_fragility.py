@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy import optimize, stats
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.fragility import of_cloud, of_exceedances
@@ -72,8 +73,8 @@ def test_another_unit_scales_the_median_alone():
     assert (b.dispersion, b.median_error) == pytest.approx((a.dispersion, a.median_error), rel=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("x", "exceeded", "code"),
+@together(
+    "x, exceeded, code",
     [
         ([1, 2, 3], [0, 0, 0], "none"),
         ([1, 2, 3], [1, 1, 1], "all"),
@@ -180,8 +181,8 @@ def test_errors_of_a_cloud_are_those_of_repeated_samples(repeated):
     assert np.mean(errors, axis=0) == pytest.approx(seen, rel=0.2)
 
 
-@pytest.mark.parametrize(
-    ("x", "d", "more", "code"),
+@together(
+    "x, d, more, code",
     [
         ([1, 2, 3], [1, 2, 0], {}, "demand"),
         ([1, 2, 3], [1, 2, np.inf], {}, "demand"),

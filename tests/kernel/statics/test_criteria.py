@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -80,7 +81,7 @@ def expected(name, s, e, centre):
     return None
 
 
-@pytest.mark.parametrize("name", LAWS)
+@together("name", LAWS)
 def test_criteria_are_those_of_the_laws(name):
     zone, field = body(name)
     rng = np.random.default_rng(3)
@@ -149,9 +150,9 @@ def joint(law, space, **given):
     return zone, field_of(zone, values)
 
 
-@pytest.mark.parametrize("space", [False, True])
-@pytest.mark.parametrize("rough", [0.0, 0.6])
-@pytest.mark.parametrize("strength", [0.0, 3.0])
+@together("space", [False, True])
+@together("rough", [0.0, 0.6])
+@together("strength", [0.0, 3.0])
 def test_joints_open_or_slide(space, rough, strength):
     given = {"KN": 1e4, "KS": 1e3, "FROT": rough, "FU": strength, "GF": 0.8}
     given = {k: v for k, v in given.items() if v}

@@ -16,6 +16,7 @@ import scipy.linalg as la
 from hypothesis import Phase, given, settings
 from references.awkward import LINES, POINTS, PUSH, UNITS, Awkward, problems
 from references.recorder import Recorder
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths
@@ -223,8 +224,8 @@ def test_steps_are_those_of_the_equations(loop):
     holds()
 
 
-@pytest.mark.parametrize("lost", [1, 21])
-@pytest.mark.parametrize("loop", [*[*LOOPS][:-1], "adaptive", "adaptive, large"])
+@together("lost", [1, 21])
+@together("loop", [*[*LOOPS][:-1], "adaptive", "adaptive, large"])
 def test_a_step_without_an_answer_is_told_and_those_before_it_are_handed_over(loop, lost):
     told, times, instants = run(Awkward(3, **LOOPS.get(loop, {})), loop, lost)
     assert (told["step"], told["time"], instants) == (lost, times[lost], lost)

@@ -10,6 +10,7 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.stepping.newmark import generalised_alpha, hht, newmark
@@ -32,7 +33,6 @@ TABLE = {
     "alpha 0.8": (generalised_alpha(0.8), (1 / 3, 4 / 9, 25 / 81, 11 / 18)),
     "alpha 1": (generalised_alpha(1.0), (1 / 2, 1 / 2, 1 / 4, 1 / 2)),
 }
-SCHEMES = [pytest.param(*row, id=name) for name, row in TABLE.items()]
 
 
 def one_step(numbers, m, c, k, dt, state, load, next_load):
@@ -66,7 +66,7 @@ def by_the_equations(numbers, times, loads, u0, v0):
     return np.array(states)
 
 
-@pytest.mark.parametrize(("scheme", "numbers"), SCHEMES)
+@together("scheme, numbers", TABLE.values())
 def test_coefficients_are_those_of_the_papers(scheme, numbers):
     found = (scheme.alpha_m, scheme.alpha_f, scheme.beta, scheme.gamma)
     np.testing.assert_allclose(found, numbers, rtol=1e-14, atol=1e-15)
@@ -121,8 +121,8 @@ def oscillator(scheme, times, u0, v0, factors, others=0):
     return problem, problem.numbering.index_of(top, "UX")
 
 
-@pytest.mark.parametrize("way", ["default", "full Newton", "sparse"])
-@pytest.mark.parametrize(("scheme", "numbers"), SCHEMES)
+@together("way", ["default", "full Newton", "sparse"])
+@together("scheme, numbers", TABLE.values())
 def test_steps_are_those_of_the_equations(scheme, numbers, way, monkeypatch):
     if way == "sparse":
         monkeypatch.setattr("ssilang.kernel.stepping.problem.problem.SMALL", 0)

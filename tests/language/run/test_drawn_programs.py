@@ -5,7 +5,7 @@ import random
 from functools import partial
 from typing import Any
 
-import pytest
+from together import together
 
 from ssilang.cli.check import check_source
 from ssilang.cli.run import run_text
@@ -201,7 +201,7 @@ class Program:
         self.procedures.append((name, call))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@together("seed", range(40))
 def test_drawn_programs_do_what_python_does(seed):
     program = Program(seed)
     values = {name: 3 * i + 1 for i, name in enumerate("ABCDE")}

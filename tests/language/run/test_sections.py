@@ -3,13 +3,13 @@
 import tomllib
 from pathlib import Path
 
-import pytest
+from together import together
 
 SECTIONS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-ROWS = [pytest.param(r, id=n) for section in SECTIONS.values() for n, r in section.items()]
+ROWS = [row for section in SECTIONS.values() for row in section.values()]
 
 
-@pytest.mark.parametrize("row", ROWS)
+@together("row", ROWS)
 def test_a_script_comes_to_its_values_or_fails_at_its_place(run, fails, row):
     if "fails" in row:
         assert fails(row["say"]) == row["fails"]

@@ -6,14 +6,14 @@
 import tomllib
 from pathlib import Path
 
-import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
 ROWS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["whole"]
 
 
-@pytest.mark.parametrize("row", ROWS)
+@together("row", ROWS)
 def test_a_message_says_what_where_and_how_to_mend_it(row):
     text, _, told = row.partition("\n>> ")
     said, *behind = told.split("\n")

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from together import together
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.by_grammar import parse_by_grammar, words_of_grammar
@@ -41,7 +42,7 @@ def quick(source):
     return quick_reader().read(source, source.code)
 
 
-@pytest.mark.parametrize("path", _FILES, ids=lambda p: p.name)
+@together("path", _FILES, by=lambda p: p.parent.name)
 def test_decks_give_the_grammars_tree(path):
     source = read_source(path)
     text = source.code
@@ -71,8 +72,8 @@ def test_any_text_is_read_or_refused_as_by_the_grammar(pieces):
     assert tree(quick(source)) == tree(expected)
 
 
-@pytest.mark.parametrize(
-    ("text", "sound"),
+@together(
+    "text, sound",
     [
         ("% A ;", True),  # the object that runs a method
         ("X = % A ;", True),
@@ -117,7 +118,7 @@ def test_kept_words_are_those_of_the_grammar(tmp_path, monkeypatch):
     assert len(list((tmp_path / "ssilang" / "started").iterdir())) == 1
 
 
-@pytest.mark.parametrize("damage", ["", "{", "[1, 2]", '{"sum": 1, "words": 3}', "cut", "changed"])
+@together("damage", ["", "{", "[1, 2]", '{"sum": 1, "words": 3}', "cut", "changed"])
 def test_damaged_words_are_made_again(tmp_path, monkeypatch, damage):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     grammar_words()
@@ -136,9 +137,9 @@ def test_words_need_no_folder(tmp_path, monkeypatch):
     assert grammar_words() == words_of_grammar()
 
 
-@pytest.mark.parametrize("read", [quick, lambda s: parse_by_grammar(s, s.code)])
-@pytest.mark.parametrize(
-    ("text", "value"),
+@together("read", [quick, lambda s: parse_by_grammar(s, s.code)])
+@together(
+    "text, value",
     [
         ("1.5d3", 1500.0), ("1.5D-3", 0.0015), ("2e2", 200.0), ("2.E+2", 200.0), ("-.5d1", -5.0),
         ("7", 7), ("-12", -12), ("0.25", 0.25), ("3.", 3.0),

@@ -1,8 +1,8 @@
 """Whatever stands around them, slips of syntax and of blocks are all told in one pass, in place."""
 
-import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from together import together
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.source import Source
@@ -62,9 +62,9 @@ def test_slips_of_blocks_are_told_together(statements):
     assert found == meant
 
 
-@pytest.mark.parametrize("before", ["", *SOUND])
-@pytest.mark.parametrize(
-    ("slip", "code"),
+@together("before", ["", *SOUND])
+@together(
+    "slip, code",
     [("«SI VRAI» ; x = 1 ;", "unclosed-block"), ("«REPE b2 2» ; x = 1 ;", "unclosed-block"),
      ("«DEBP P x*ENTIER» ; y = x ;", "unclosed-block"),
      ("MESS «'»open ; x = 1 ;", "unclosed-string"), ("«'»open ; x = 1 ;", "unclosed-string"),

@@ -1,6 +1,7 @@
 """Blocks, the end of a run, names that a script assigns, and scripts printed again."""
 
 import pytest
+from together import together
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text import tree
@@ -10,7 +11,7 @@ from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, If, Loop, Statement, first_assignments
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     [
         "A = 1 ; FIN ;",
@@ -76,8 +77,8 @@ def _shape(nodes):
     return made
 
 
-@pytest.mark.parametrize(
-    ("text", "shape"),
+@together(
+    "text, shape",
     [
         ("SI (A > 1) ; B ; SINON ; C ; D ; FINSI ; E ;",
          [["SI", "(A > 1)", ["B"], ["C", "D"]], "E"]),

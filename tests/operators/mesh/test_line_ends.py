@@ -1,8 +1,8 @@
 """Every line goes from its first point to its last, and drawn the other way is the same line."""
 
 import numpy as np
-import pytest
 from script_runs import found
+from together import together
 
 PLACES = "A = 0.2 0.1 ; B = 3.1 0.7 ; C = 0.9 1.3 ; D = 2.4 -0.6 ; O = 1.45 1.3 ;"
 # there, and back: nothing is symmetric
@@ -25,9 +25,9 @@ def places(line):
     return np.vstack([ends[:1, 0], ends[:, 1]])
 
 
-@pytest.mark.parametrize("name", LINES)
-@pytest.mark.parametrize(
-    ("n", "sizes", "turned"),
+@together("name", LINES)
+@together(
+    "n, sizes, turned",
     [("1", "", ""), ("7", "", ""), ("", "'DINI' 0.1 'DFIN' 0.4", "'DINI' 0.4 'DFIN' 0.1")],
 )
 def test_a_line_and_the_way_back(name, n, sizes, turned):

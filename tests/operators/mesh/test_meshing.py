@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.mesh import Mesh
@@ -50,7 +51,7 @@ def test_negative_number_grades_by_the_given_sizes() -> None:
     assert sizes[0] < sizes[-1]
 
 
-@pytest.mark.parametrize(
+@together(
     "phrase",
     [
         "C 8 A O (0. 1.)",
@@ -96,8 +97,8 @@ def test_broken_line_from_lists_points_and_meshes() -> None:
 # ---- surfaces and volumes -----------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("phrase", "cells"),
+@together(
+    "phrase, cells",
     [
         ("S VOLU 3 'TRAN' Z", 24),
         ("VOLU 3 S 'TRAN' Z", 24),

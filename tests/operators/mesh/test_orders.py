@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -117,10 +118,10 @@ A INTE 8 'CYLI' O Z 'PLAN' X1 C | A C INTE 'CYLI' O Z 'PLAN' X1 8 | INTE A 'CYLI
 def _cases() -> list[Any]:
     rows = [(PLANE, row) for row in SAME_IN_THE_PLANE.strip().split("\n")]
     rows += [(SPACE, row) for row in SAME_IN_SPACE.strip().split("\n")]
-    return [pytest.param(base, row.split(" | "), id=row.split(" | ")[0]) for base, row in rows]
+    return [(base, row.split(" | ")) for base, row in rows]
 
 
-@pytest.mark.parametrize(("base", "phrases"), _cases())
+@together("base, phrases", _cases())
 def test_orders_give_the_same(base: str, phrases: list[str]) -> None:
     first, *others = (result(base, phrase) for phrase in phrases)
     assert others == [first] * (len(phrases) - 1)
@@ -141,8 +142,8 @@ def test_points_move_alike_whatever_the_order(row: str) -> None:
     assert first != result(PLANE, "P")
 
 
-@pytest.mark.parametrize(
-    ("phrase", "words"),
+@together(
+    "phrase, words",
     [
         ("P SYME A", ("POINT", "DROIT", "PLAN")),
         ("LIGN O V", ("ROTA", "TRAN")),

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from script_runs import found, refused
+from together import together
 
 TWISTED = (
     "OPTI DIME 3 ELEM {element} DENS 0.25 ; "
@@ -13,9 +14,9 @@ TWISTED = (
 )
 
 
-@pytest.mark.parametrize("word", ["DALL", "SURF"])
-@pytest.mark.parametrize("element", ["QUA4", "QUA8", "TRI3", "TRI6"])
-@pytest.mark.parametrize("more", ["", "'REGU'", "'PARA' -1. 2. 0.5 1.5"])
+@together("word", ["DALL", "SURF"])
+@together("element", ["QUA4", "QUA8", "TRI3", "TRI6"])
+@together("more", ["", "'REGU'", "'PARA' -1. 2. 0.5 1.5"])
 def test_nodes_lie_on_the_polynomial(word, element, more):
     """x = 1 + 2 u, so u is known from x; then y = v (1 + u^2 / 2) gives v, and z = u^2 + u v."""
     mesh = found(TWISTED.format(word=word, element=element, more=more), "S")

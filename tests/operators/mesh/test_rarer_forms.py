@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 PLANE = "OPTI DIME 2 ELEM QUA4 ; O = 0. 0. ; A = 1. 0. ; B = 1. 1. ; E = 0. 1. ; "
 STRIP = PLANE + "L = O D 4 A ; S = L TRAN 2 (0. 1.) ; "
@@ -25,8 +26,8 @@ CROSSING = (
 )
 
 
-@pytest.mark.parametrize(
-    ("script", "said"),
+@together(
+    "script, said",
     [
         (PLANE + "D1 E1 F1 = (O D 5 A) CONG 8 0.25 (A D 5 B) 'DOUBLE' ;", "DOUBLE"),
         (STRIP + "T = L TRAN 1 (0. 1.) ; X = INCL S (CONT T) 'STRI' ;", "inside"),

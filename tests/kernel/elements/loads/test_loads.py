@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import families
@@ -30,7 +31,7 @@ def _mode(element):
     return Mode.PLANE_STRAIN if element in PLANE else Mode.THREE_DIMENSIONAL
 
 
-@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+@together("element", [*PLANE, *SPACE])
 def test_pressure_all_around_is_in_balance_with_minus_the_identity(element):
     zone = cell_zone(element, _mode(element))
     got = pressure(Model((zone,)), _skin(zone), P)
@@ -52,7 +53,7 @@ def test_pressure_on_a_ring_counts_the_circumference():
     assert got.components["FR"].values.sum() == pytest.approx(-2 * np.pi * P * area, rel=1e-10)
 
 
-@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+@together("element", [*PLANE, *SPACE])
 def test_weight_equals_mass_times_gravity(element):
     zone = cell_zone(element, _mode(element))
     name = "FY" if element in PLANE else "FZ"

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
@@ -97,8 +98,8 @@ class Bodies:
 MODES = (*PLANES, Mode.THREE_DIMENSIONAL)
 
 
-@pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("given", ["number", "nodes", "cells", "cell"])
+@together("mode", MODES)
+@together("given", ["number", "nodes", "cells", "cell"])
 def test_pressures_work_on_the_sides_of_all_bodies(mode, given):
     b = Bodies(mode)
     table, inner = b.sides()
@@ -247,7 +248,7 @@ def test_curves_that_vary_inside_a_cell_and_wrong_numbers_of_points_are_refused(
         carry(np.ones((1, 3)), "QUA4", "NOEUD", "RIGIDITE")
 
 
-@pytest.mark.parametrize("element", ["QUA8", "TRI6", "CU20", "QUA4", "TE10", "PR15"])
+@together("element", ["QUA8", "TRI6", "CU20", "QUA4", "TE10", "PR15"])
 def test_linear_values_go_from_points_to_nodes_and_back(element):
     at = REFERENCE_CELLS[ELEMENTS[element].cell_type].nodes
     points = support_rule(element, "RIGIDITE").points

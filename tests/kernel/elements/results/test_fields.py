@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
@@ -53,8 +54,8 @@ def _strip(n=3):
 
 
 # one stress point cannot carry a linear field
-@pytest.mark.parametrize("element", [e for e in (*PLANE, *SPACE) if e not in _ONE_POINT])
-@pytest.mark.parametrize("target", ["NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES"])
+@together("element", [e for e in (*PLANE, *SPACE) if e not in _ONE_POINT])
+@together("target", ["NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES"])
 def test_a_linear_field_survives_every_change_of_support(element, target):
     zone = cell_zone(element, _mode(element))
     nodal = field(zone, SCAL=lambda x: 2.0 + x[:, 0] - 3 * x[:, 1] + 0.5 * x[:, 2])

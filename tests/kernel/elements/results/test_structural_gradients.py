@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.results.structural_gradients import (
@@ -31,7 +32,7 @@ def as_field(two, values):
     return CellField((CellFieldBlock(two.zone.cells, parts, "STRESSES", two.zone.element),))
 
 
-@pytest.mark.parametrize(("element", "mode"), CASES)
+@together("element, mode", CASES)
 def test_a_linear_motion_has_its_slopes_in_the_own_axes(element, mode):
     two = Two(element, mode, turned(0.5, mode))
     A = np.random.default_rng(1).standard_normal((3, 3))
@@ -60,7 +61,7 @@ def test_a_linear_motion_has_its_slopes_in_the_own_axes(element, mode):
                 assert got[0, 0] + got[1, 1] == pytest.approx(np.trace(P @ G @ P))
 
 
-@pytest.mark.parametrize(("element", "mode"), CASES)
+@together("element, mode", CASES)
 def test_forces_work_as_products_of_gradients(element, mode):
     two = Two(element, mode, turned(0.5, mode))
     parameters = zone_field(two.zone, two.material)

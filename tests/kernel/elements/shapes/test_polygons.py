@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import found
+from together import together
 
 from ssilang.kernel.elements.shapes.geometry import cell_geometry
 from ssilang.kernel.elements.shapes.polygons import (
@@ -19,7 +20,7 @@ PLATE = (
 )
 
 
-@pytest.mark.parametrize("n", sorted(SIDES.values()))
+@together("n", sorted(SIDES.values()))
 def test_functions_are_positive_inside_and_the_excess_is_the_distance_beyond_a_side(n: int) -> None:
     corners = regular_polygon(n)
     inside = 0.6 * corners @ np.array([[0.8, 0.6], [-0.6, 0.8]]) + 0.1
@@ -110,8 +111,8 @@ def test_mass_of_polygons_is_that_of_the_plate() -> None:
     assert total == pytest.approx(6.0)
 
 
-@pytest.mark.parametrize("n", [5, 6, 9])
-@pytest.mark.parametrize("per_side", [1, 3])
+@together("n", [5, 6, 9])
+@together("per_side", [1, 3])
 def test_rules_of_polygons_integrate_squares(n: int, per_side: int) -> None:
     """Against Green's theorem on the regular polygon."""
     rule = quadrature(f"polygon{n}", per_side * n)

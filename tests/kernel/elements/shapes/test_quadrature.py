@@ -6,6 +6,7 @@ from math import factorial
 import numpy as np
 import pytest
 from scipy.special import roots_jacobi, roots_legendre
+from together import together
 
 from ssilang.kernel.elements.shapes.quadrature import quadrature
 
@@ -27,7 +28,7 @@ def test_heights_of_a_pyramid_s_points_are_those_of_jacobi(n: int) -> None:
     np.testing.assert_allclose(layers.sum(1), 4 * weights / 8, rtol=2e-15)
 
 
-@pytest.mark.parametrize("powers", [p for p in itertools.product(range(6), repeat=3) if sum(p) < 6])
+@together("powers", [p for p in itertools.product(range(6), repeat=3) if sum(p) < 6])
 def test_the_conical_rule_integrates_polynomials_of_degree_5(powers: tuple[int, ...]) -> None:
     rule = quadrature("tetrahedron", 27)
     i, j, k = powers
@@ -52,8 +53,8 @@ def exact(shape: str, powers: tuple[int, ...]) -> float:
     return even[0] * even[1] * along
 
 
-@pytest.mark.parametrize(
-    ("shape", "n_points", "degree"),
+@together(
+    "shape, n_points, degree",
     [
         ("line", 1, 1), ("line", 2, 3), ("line", 3, 5), ("line", 5, 9),
         ("triangle", 1, 1), ("triangle", 3, 2), ("triangle", 7, 5),

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.shapes.reference import (
@@ -17,14 +18,14 @@ EVERY = sorted(name for name, cell in REFERENCE_CELLS.items() if cell.nodes.shap
 QUADRATIC = {2: [(2, 0), (1, 1), (0, 2)], 3: [(2, 0, 0), (1, 0, 1), (0, 1, 1), (0, 0, 2)]}
 
 
-@pytest.mark.parametrize("name", EVERY)
+@together("name", EVERY)
 def test_each_function_is_one_at_its_node_alone(name: str) -> None:
     nodes = reference_cell(name).nodes
     assert len(nodes) == CELL_TYPES[name].n_nodes
     np.testing.assert_allclose(shape_functions(name, nodes), np.eye(len(nodes)), atol=1e-11)
 
 
-@pytest.mark.parametrize("name", CELLS)
+@together("name", CELLS)
 def test_the_last_node_of_a_face_is_its_middle(name: str) -> None:
     nodes = reference_cell(name).nodes
     for face, local in CELL_TYPES[name].faces:
@@ -33,7 +34,7 @@ def test_the_last_node_of_a_face_is_its_middle(name: str) -> None:
             np.testing.assert_allclose(corners.mean(axis=0), nodes[local[-1]], atol=1e-15)
 
 
-@pytest.mark.parametrize("name", EVERY)
+@together("name", EVERY)
 def test_linear_functions_are_reproduced(name: str) -> None:
     nodes = reference_cell(name).nodes
     points = np.random.default_rng(4).dirichlet(np.ones(len(nodes)), size=9) @ nodes
@@ -42,7 +43,7 @@ def test_linear_functions_are_reproduced(name: str) -> None:
     np.testing.assert_allclose(shapes @ nodes, points, atol=1e-12)
 
 
-@pytest.mark.parametrize("name", CELLS)
+@together("name", CELLS)
 def test_quadratic_functions_are_reproduced(name: str) -> None:
     nodes = reference_cell(name).nodes
     points = np.random.default_rng(1).uniform(0.05, 0.3, (7, nodes.shape[1]))
@@ -54,7 +55,7 @@ def test_quadratic_functions_are_reproduced(name: str) -> None:
         np.testing.assert_allclose(shapes @ np.prod(nodes**powers, axis=1), expected, atol=1e-14)
 
 
-@pytest.mark.parametrize("name", EVERY)
+@together("name", EVERY)
 def test_gradients_are_those_of_finite_differences(name: str) -> None:
     dimension = reference_cell(name).nodes.shape[1]
     points = np.random.default_rng(2).uniform(0.05, 0.3, (5, dimension))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements import families
@@ -28,8 +29,8 @@ def _plane_stresses(mode, exx, eyy, gxy):
     return [sx, sy, NU * (sx + sy), shear]
 
 
-@pytest.mark.parametrize("element", PLANE)
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.PLANE_STRESS])
+@together("element", PLANE)
+@together("mode", [Mode.PLANE_STRAIN, Mode.PLANE_STRESS])
 def test_a_linear_displacement_gives_the_exact_constant_stress(element, mode):
     zone = cell_zone(element, mode)
     mat = material(zone, YOUN=E, NU=NU)
@@ -44,7 +45,7 @@ def test_a_linear_displacement_gives_the_exact_constant_stress(element, mode):
         np.testing.assert_allclose(block.components[name], value, rtol=1e-11, atol=1e-9)
 
 
-@pytest.mark.parametrize("element", SPACE)
+@together("element", SPACE)
 def test_a_linear_displacement_in_space_gives_the_exact_constant_strain(element):
     zone = cell_zone(element, Mode.THREE_DIMENSIONAL)
     G = np.array([[1.0, 2.0, -3.0], [0.5, -1.0, 4.0], [2.5, 0.7, 0.3]]) * 1e-3
@@ -58,7 +59,7 @@ def test_a_linear_displacement_in_space_gives_the_exact_constant_strain(element)
         np.testing.assert_allclose(block.components[name], value, rtol=1e-10)
 
 
-@pytest.mark.parametrize("element", [*PLANE, *SPACE])
+@together("element", [*PLANE, *SPACE])
 def test_weights_are_those_of_the_strain_operator(element):
     mode = Mode.PLANE_STRESS if element in PLANE else Mode.THREE_DIMENSIONAL
     zone = cell_zone(element, mode)

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
@@ -94,8 +95,8 @@ def test_the_same_jump_again_changes_nothing(name, d):
         np.testing.assert_allclose(same, energies, atol=1e-9 * KN * 1e-6)
 
 
-@pytest.mark.parametrize("d", [2, 3])
-@pytest.mark.parametrize("name", ALL)
+@together("d", [2, 3])
+@together("name", ALL)
 def test_all_that_is_answered_is_written_and_the_tangent_is_its_slope(name, d):
     """Nothing of what stood there stays; slopes are compared where both sides agree."""
     point, codes = Point(name, d), np.array([int(ALL[name][0])] * 2)

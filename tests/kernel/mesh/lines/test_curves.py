@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.lines import curves
@@ -37,7 +38,7 @@ ARCS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", ARCS)
+@together("name", ARCS)
 def test_arcs_turn_evenly_at_their_radius_from_end_to_end(name):
     arc, first, last = ARCS[name]
     if last is None:  # the frame may be left-handed
@@ -108,8 +109,8 @@ def test_parabolas_touch_their_arc_at_their_ends():
         curves.ParabolicArc(arc, np.array([0.0, 0.2, 1.0])).middles()
 
 
-@pytest.mark.parametrize(
-    ("made", "match"),
+@together(
+    "made, match",
     [
         (lambda: curves.arc_about_centre(AT, place(1), AT), "coincide"),
         (lambda: curves.arc_about_centre(place(0), AT, place(1, 1.8)), "distance"),

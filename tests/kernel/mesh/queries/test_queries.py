@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
@@ -26,7 +27,7 @@ def cell(name, x):
     return CellBlock.make(table, name, np.arange(len(x))[None])
 
 
-@pytest.mark.parametrize("name", [n for n, k in WHOLE.items() if k.nodes.shape[1] == 3])
+@together("name", [n for n, k in WHOLE.items() if k.nodes.shape[1] == 3])
 def test_volumes_follow_the_determinant_of_a_map(name):
     kind = WHOLE[name]
     exact = VOLUMES.get(kind.shape, 8.0) * np.linalg.det(A)
@@ -257,7 +258,7 @@ def rotated():
     return np.linalg.qr(np.random.default_rng(0).standard_normal((3, 3)))[0]
 
 
-@pytest.mark.parametrize("name", ["SEG2", "TRI3", "TRI6", "QUA4", "TET4", "PYR5", "PRI6", "CUB8"])
+@together("name", ["SEG2", "TRI3", "TRI6", "QUA4", "TET4", "PYR5", "PRI6", "CUB8"])
 def test_cells_contain_their_means_and_nothing_beyond_a_side(name):
     nodes = REFERENCE_CELLS[name].nodes
     nodes = np.column_stack([nodes, np.zeros((len(nodes), 3 - nodes.shape[1]))]) @ A.T + [2, 1, 0]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
@@ -63,8 +64,8 @@ def test_distances_are_those_of_the_equation(name):
     np.testing.assert_allclose(shape.distance(x), expected, atol=1e-12)
 
 
-@pytest.mark.parametrize("apex", [None, np.array([0.5, 0.9, -0.4])])
-@pytest.mark.parametrize("name", SHAPES)
+@together("apex", [None, np.array([0.5, 0.9, -0.4])])
+@together("name", SHAPES)
 def test_projections_are_the_nearest_along_the_ray_on_either_side(name, apex):
     shape, equation = SHAPES[name]
     x = ORIGIN + 1.7 * np.random.default_rng(3).standard_normal((30, 3))
@@ -150,7 +151,7 @@ def chart_of(name, boundary):
 CHARTS = ("plane", "cylinder", "cone", "downward cone", "sphere", "torus")
 
 
-@pytest.mark.parametrize("name", CHARTS)
+@together("name", CHARTS)
 def test_a_chart_lifts_what_it_flattens_and_keeps_lengths_or_angles(name):
     """Planes, cylinders and cones keep both; spheres angles; the torus lengths where it is read."""
     x = ORIGIN + on_surface(name) @ FRAME.T

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.plasticity.finite import finite_zone
 from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
@@ -55,9 +56,9 @@ def stretched(cells, *factors):
     return (cells * (np.array(factors) - 1.0)).reshape(len(cells), -1)
 
 
-@pytest.mark.parametrize("word", ["MI_PAS", "FIN_PAS", "TOTAL"])
-@pytest.mark.parametrize("law", ["perfect", "kinematic", "cone"])
-@pytest.mark.parametrize("mesh", MESH)
+@together("word", ["MI_PAS", "FIN_PAS", "TOTAL"])
+@together("law", ["perfect", "kinematic", "cone"])
+@together("mesh", MESH)
 def test_tangent_is_the_derivative_of_the_forces(mesh, law, word):
     zone, blank, cells = zone_of(mesh, law, word)
     first = moved(cells, 0.03, 1)
@@ -74,9 +75,9 @@ def test_tangent_is_the_derivative_of_the_forces(mesh, law, word):
     np.testing.assert_allclose(found, slope, atol=2e-6 * np.abs(slope).max())
 
 
-@pytest.mark.parametrize("word", ["MI_PAS", "FIN_PAS"])
-@pytest.mark.parametrize("law", ["kinematic", "cone"])
-@pytest.mark.parametrize("mesh", ["strain", "stress", "space"])
+@together("word", ["MI_PAS", "FIN_PAS"])
+@together("law", ["kinematic", "cone"])
+@together("mesh", ["strain", "stress", "space"])
 def test_what_turns_on_its_way_gets_the_same_stresses_turned(mesh, law, word):
     zone, blank, cells = zone_of(mesh, law, word)
     path = [moved(cells, 0.05, 1), moved(cells, 0.05, 1) + moved(cells, 0.04, 2)]
@@ -149,8 +150,8 @@ def test_elastic_stretch_between_rigid_walls(word, share):
         np.testing.assert_allclose(seen[:, 0], 0.1 * D, rtol=5e-4)
 
 
-@pytest.mark.parametrize("word", ["MI_PAS", "FIN_PAS"])
-@pytest.mark.parametrize("mesh", MESH)
+@together("word", ["MI_PAS", "FIN_PAS"])
+@together("mesh", MESH)
 def test_given_stresses_are_shown_at_their_displacement(mesh, word):
     zone, blank, cells = zone_of(mesh, "kinematic", word)
     u = turned(cells, 0.0 if mesh == "ring" else 2.0, moved(cells, 0.05, 5))[0]

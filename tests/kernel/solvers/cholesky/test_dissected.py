@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 import scipy.sparse.linalg as spla
+from together import together
 
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.solvers.backends import factorise
@@ -32,10 +33,8 @@ def grid(*shape, unknowns=1, seed=0):
     return sp.csr_array(A), np.repeat(points, unknowns, axis=0)
 
 
-@pytest.mark.parametrize(
-    ("shape", "unknowns"), [((300,), 1), ((3, 2), 2), ((40, 23), 2), ((9, 8, 7), 3), ((1, 1), 3)]
-)
-@pytest.mark.parametrize("ending", [0, 5, 41])
+@together("shape, unknowns", [((300,), 1), ((3, 2), 2), ((40, 23), 2), ((9, 8, 7), 3), ((1, 1), 3)])
+@together("ending", [0, 5, 41])
 def test_solves(shape, unknowns, ending):
     A, points = grid(*shape, unknowns=unknowns)
     n = A.shape[0]

@@ -43,7 +43,7 @@ TAB1 . 'CHAR' = (CHAR 'MECA' POID (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)))
   ET (CHAR 'MECA' (MM * UNX * -1.) EVP) ;
 TAB1 . 'RIGI' = RIG ; TAB1 . 'MASS' = MM ;
 TAB1 . 'MODELE' = MOJ ; TAB1 . 'CARACTERISTIQUES' = MAJ ;
-TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.01 0.5 ;
+TAB1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.02 0.5 ;
 TAB1 . 'NEWTON_COMPLET' = FULL0 ;
 TAB2 = DYNAMIC TAB1 ;
 EV1 = EVOL 'TEMP' TAB2 'DEPL' 'UX' PTOP ;
@@ -174,7 +174,9 @@ def test_a_lost_rank_ends_the_run_with_a_message(tmp_path, monkeypatch):
 def test_a_lost_rank_leaves_a_checkpoint_of_the_steps_before(tmp_path, monkeypatch, full):
     from ssilang.kernel.stepping import keeping
 
-    motion = MOTION.replace("FULL0", full).replace("0.01 0.5 ;\nTAB1", "0.01 0.3 ;\nTAB1")
+    motion = MOTION.replace("FULL0", full).replace(
+        "0.02 0.5 ;\nTAB1 . 'NEW", "0.01 0.3 ;\nTAB1 . 'NEW"
+    )
     script = HEAD + ASKED + MODEL + motion
     script = script.replace("TAB2 =", "TAB1 . 'REPRISE' = TABL ; TAB1 . 'PAS_SAUVES' = 1 ; TAB2 =")
     monkeypatch.setattr(keeping, "stride_of", lambda done, *_: 16 - done % 16)  # a large model's

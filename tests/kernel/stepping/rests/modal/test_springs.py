@@ -70,7 +70,7 @@ def test_many_exchanges_do_not_gather_rounding():
 
 @pytest.mark.parametrize("scheme", [Scheme(), hht(0.1)])
 def test_rocking_beam_steps_as_the_full_newton(scheme):
-    problem = rocking(scheme)
+    problem = rocking(scheme, 600)
     assert rule_of(Case(problem, Integration(problem).motion, 1e-3)).name == "springs"
     few, other = (Recorder(len(problem.times)) for _ in range(2))
     found = integrate(problem, [few])
