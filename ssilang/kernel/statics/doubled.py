@@ -89,17 +89,6 @@ def held_nowhere(matrix: Matrix) -> set[str]:
     return alone - known if matrix.blocks and all(b.zone for b in matrix.blocks) else set()
 
 
-def holding_nothing(matrix: Matrix, used: IntArray) -> IntArray:
-    """A node (n,) of each condition all of whose nodes no cell, other condition nor `used` has."""
-    stiff = np.zeros(len(matrix.table), dtype=bool)
-    stiff[used] = True
-    for block in matrix.blocks:
-        stiff[block.nodes] = True
-    held = _held_alone(matrix)
-    own = [np.unique(r.nodes) for r in matrix.relations if stiff.any() and len(r.nodes)]
-    return np.array([n[0] for n in own if np.isin(n, held).all() and not stiff[n].any()], np.int64)
-
-
 def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
     """The `nodes` at the place of one of `others`, and these (n,), pairwise."""
     if not len(nodes) or not len(others):

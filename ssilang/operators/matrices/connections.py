@@ -15,7 +15,6 @@ from ssilang.kernel.statics.doubled import (
     bodies_apart,
     doubled_supports,
     held_nowhere,
-    holding_nothing,
     repeated_cells,
     springs_apart,
 )
@@ -57,7 +56,7 @@ def warn_connections(
 
     foreign = (w for w in session.warnings if w.code == "operators.matrices.foreign-unknown")
     known = {n for w in foreign for n in w.data["names"]}
-    doubled = _warn_doubled_supports(tell, matrix, model, known)
+    _warn_doubled_supports(tell, matrix, model, known)
     made = _joints_in(matrix)
     if model is None and made:
         model = Model(made)
@@ -69,8 +68,6 @@ def warn_connections(
     others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
     found = {"operators.matrices.nodes-hang": hanging_nodes(matrix)}
-    if not doubled:
-        found["operators.matrices.holds-nothing"] = holding_nothing(matrix, used)
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
@@ -93,16 +90,15 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
 
 def _warn_doubled_supports(
     tell: Tell, matrix: Matrix, model: Model | None, known: set[str]
-) -> bool:
+) -> None:
     if model is None and (names := sorted(held_nowhere(matrix) - known)):
         tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
     found = doubled_supports(matrix, used)
     if found is None:
-        return False
+        return
     x, y, z = matrix.table.coordinates[found.held[0]]
     tell("operators.matrices.held-nodes-without-stiffness", n_held=len(found.held), x=x, y=y, z=z)
-    return True
 
 
 def _warn_negative(tell: Tell, matrix: Matrix) -> None:
