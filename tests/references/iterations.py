@@ -13,7 +13,7 @@ from ssilang.kernel.interface.response import (
     new_trial,
 )
 
-KINDS = {"inverse": {}, "LU": {"few": 0}, "changed LU": {"few": 0, "large": 1}}
+KINDS = {"inverse": {}, "LU": {"few": 0}, "single LU": {"few": 0, "single": True}}
 """Thresholds under which an interface of any size keeps these factors."""
 
 

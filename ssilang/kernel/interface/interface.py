@@ -46,6 +46,8 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 
+SOFT = 1e4  # stiffness of closed joints times compliance, up to which single precision serves
+
 
 @dataclass(frozen=True, eq=False)
 class Interface:
@@ -132,6 +134,10 @@ class Interface:
         """Stiffness of the closed joints on the jumps, dense (size, size)."""
         D = elastic_tangent(self.parameters, self.dimension)
         return joint_stiffness(self.points, D, self.size).toarray()
+
+    def is_soft(self, S: FloatArray) -> bool:
+        """Whether directions may be of single precision, S being the compliance of all else."""
+        return bool((self.closed_stiffness().diagonal() * S.diagonal()).max(initial=0.0) < SOFT)
 
 
 def joint_stiffness(joints: Joints, D: FloatArray, size: int) -> sp.csr_array:

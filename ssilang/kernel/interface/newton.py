@@ -221,13 +221,15 @@ class Workspace(NamedTuple):
     shares: FloatArray  # (n_points, d), see `projected`; NaN: not looked at yet
 
 
-def workspace(shape: tuple[int, ...], q: int, mean: bool = False) -> Workspace:
+def workspace(
+    shape: tuple[int, ...], q: int, mean: bool = False, single: bool = False
+) -> Workspace:
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet.
 
-    Steps of `mean` tractions have no start by projected ones.
+    Steps of `mean` tractions have no start by projected ones; `single` is the precision of factors.
     """
     shares = np.full(shape, 1.0 if mean else np.nan)
-    return Workspace(new_trial(shape, q, mean), new_factors(shape, q), shares)
+    return Workspace(new_trial(shape, q, mean), new_factors(shape, q, single=single), shares)
 
 
 @compiled

@@ -1,174 +1,231 @@
-"""LU factors of a large interface used on while few points change (Woodbury's formula).
+"""The condensed interface of many jumps: kept for some tangents, corrected where others are theirs.
 
-With A the matrix of the factors and E the columns of the jumps whose points changed,
+With `Y = (1 + S K)^-1 S`, K the stiffness of the tangents that Y was made of (less what S holds in
+excess), and dK what was added to it since, on the jumps that changed points join,
 
-    (A + S E dK E^T)^-1 x = z - Z (1 + dK E^T Z)^-1 dK E^T z ,   z = A^-1 x ,  Z = A^-1 S E
+    (1 + S (K + dK))^-1 x = z - Y v ,   z = x - Y K x ,   (1 + dK Y) v = dK z
 
-Columns of Z are kept as long as the factors are.
+v is no larger than these jumps, and iterated on (GMRES, Saad and Schultz 1986). Directions need few
+digits, since Newton's residual is made with S itself: Y may be of single precision.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import later
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.apart import apart, later
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import is_equal
-from ssilang.kernel.interface.factors.lu import LU
-from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.solvers.dense import (
-    factorise_dense,
-    multiply,
-    solve_factors,
-    solve_factors_together,
-)
+from ssilang.kernel.interface.copies import copy_state, dot, is_equal
+from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 
-MOST_CHANGED = 4  # one of so many jumps may have changed
-
-DONE, SINGULAR, TOO_MANY = range(3)
+MOST_TURNS = 60
+FEW_TURNS = 10
+WORTH = 0.5  # numbers read, over q^3, for which a new Y costs as much
 
 
-class Changes(NamedTuple):
-    """Columns of Z that are known.
+class Changed(NamedTuple):
+    """Y and what is overwritten; the first three of one precision.
 
     Attributes
     ----------
-    Z : array (m, q)
-        One column a row.
-    row : array (q,)
-        Row of each jump, -1 for none.
-    held : array (1,)
-        Rows in use.
+    Y : array (q, q)
+    own : array (q q,)
+        Y of the changed jumps.
+    x : array (q,)
+        A vector on its way.
+    jumps : array (q,)
+        The changed jumps.
+    V : array (m + 1, q)
+        Directions of the iteration.
+    spent : array (1,)
+        Numbers of `own` read by long iterations since Y was made.
     """
 
-    Z: FloatArray
-    row: IntArray
-    held: IntArray
+    Y: FloatArray
+    own: FloatArray
+    x: FloatArray
+    jumps: IntArray
+    V: FloatArray
+    spent: FloatArray
+
+
+def new_changed(q: int, precision: Any) -> Changed:
+    """Room for q jumps of pairs (0: none is needed)."""
+    return Changed(
+        np.zeros((q, q), precision), np.zeros(q * q, precision), np.zeros(q, precision),
+        np.zeros(q, np.int64), np.zeros((min(MOST_TURNS, q) + 1, q)),
+        np.zeros(1),
+    )  # fmt: skip
+
+
+@compiled_fast
+def _subtract_jumps(changed: Changed, forces: FloatArray, x: FloatArray) -> None:
+    """x -= Y forces."""
+    Y, room = changed.Y, changed.x
+    for i in range(len(x)):
+        room[i] = forces[i]
+    for i in range(len(x)):
+        x[i] -= dot(Y[i], room)
+
+
+@apart
+@compiled
+def solve_base(
+    joints: Joints, condensed: Condensed, known: FloatArray, changed: Changed, x: FloatArray
+) -> None:
+    """`(1 + S K)^-1 x` in place, K of the tangents `known` that Y was made of."""
+    forces = np.zeros(len(x))
+    add_stiffness_forces(joints, condensed.c, known, x, forces)
+    for i in range(len(condensed.R)):
+        forces[i] -= dot(condensed.R[i], x)
+    _subtract_jumps(changed, forces, x)
 
 
 @compiled
-def forget_changes(changes: Changes) -> None:
-    """New factors: no column is known."""
-    changes.held[0] = 0
-    for j in range(len(changes.row)):
-        changes.row[j] = -1
-
-
-@compiled
-def _changed_jumps(
-    pairs: IntArray, D: FloatArray, known: FloatArray, n: int
-) -> tuple[IntArray, int]:
-    """Place (n,) of each jump among those of points whose tangent changed, -1 elsewhere."""
-    place, count, d = np.full(n, -1, np.int64), 0, D.shape[1]
-    for p in range(D.shape[0]):
+def _find_changes(joints: Joints, D: FloatArray, known: FloatArray, jumps: IntArray) -> int:
+    """How many jumps are those of points whose tangent changed: the first ones of `jumps`."""
+    pairs, d, count = joints.pairs, D.shape[1], 0
+    seen = np.zeros(len(jumps), np.bool_)
+    for p in range(len(D)):
         if not is_equal(D[p], known[p]):
             for a in range(pairs.shape[1]):
                 for i in range(d):
-                    if place[pairs[p, a] * d + i] < 0:
-                        place[pairs[p, a] * d + i] = count
-                        count += 1
-    return place, count
+                    seen[pairs[p, a] * d + i] = True
+    for j in range(len(jumps)):
+        if seen[j]:
+            jumps[count] = j
+            count += 1
+    return count
+
+
+@compiled_fast
+def _changed_forces(
+    joints: Joints, c: float, change: FloatArray, changed: Changed, g: FloatArray, v: FloatArray
+) -> None:
+    """v += dK Y v of the changed jumps; g is room."""
+    n = len(v)
+    C, x = changed.own[: n * n].reshape((n, n)), changed.x[:n]
+    for a in range(n):
+        x[a] = v[a]
+    for i in range(len(g)):
+        g[i] = 0.0
+    forces = np.zeros(len(g))
+    for a in range(n):
+        g[changed.jumps[a]] = dot(C[a], x)
+    add_stiffness_forces(joints, c, change, g, forces)
+    for a in range(n):
+        v[a] += forces[changed.jumps[a]]
+
+
+@compiled_fast
+def _orthogonalise(V: FloatArray, k: int, h: FloatArray) -> None:
+    """Row k + 1 of V, made normal to those before and of length one; h (k + 2,) are its parts."""
+    w = V[k + 1]
+    for i in range(k + 1):
+        v = V[i]
+        h[i] = dot(v, w)
+        for j in range(len(w)):
+            w[j] -= h[i] * v[j]
+    h[k + 1] = math.sqrt(dot(w, w))
+    if h[k + 1] > 0.0:
+        for j in range(len(w)):
+            w[j] /= h[k + 1]
+
+
+@compiled_fast
+def _rotate(H: FloatArray, k: int, turned: FloatArray, e: FloatArray) -> None:
+    """Column k of H, a row here, becomes one of a triangle; so does the right side e."""
+    h = H[k]
+    for i in range(k):
+        c, s = turned[i, 0], turned[i, 1]
+        h[i], h[i + 1] = c * h[i] + s * h[i + 1], c * h[i + 1] - s * h[i]
+    size = math.hypot(h[k], h[k + 1])
+    c, s = (h[k] / size, h[k + 1] / size) if size > 0.0 else (1.0, 0.0)
+    turned[k, 0], turned[k, 1] = c, s
+    h[k], h[k + 1] = size, 0.0
+    e[k], e[k + 1] = c * e[k], -s * e[k]
+
+
+@compiled_fast
+def _combine(H: FloatArray, V: FloatArray, e: FloatArray, count: int, x: FloatArray) -> bool:
+    """The combination x of `count` directions that the triangle gives; False if it is singular."""
+    for i in range(len(x)):
+        x[i] = 0.0
+    for k in range(count - 1, -1, -1):
+        if H[k, k] == 0.0:
+            return False
+        for after in range(k + 1, count):
+            e[k] -= H[after, k] * e[after]
+        e[k] /= H[k, k]
+        v = V[k]
+        for i in range(len(x)):
+            x[i] += e[k] * v[i]
+    return True
 
 
 @compiled
-def _stiffness_change(
-    joints: Joints, c: float, D: FloatArray, known: FloatArray, place: IntArray, count: int
-) -> FloatArray:
-    """Change (count, count) of `c K` since the factors, on the changed jumps."""
-    pairs, B = joints.pairs, joints.B
-    change, d, m = np.zeros((count, count)), D.shape[1], pairs.shape[1]
-    for p in range(D.shape[0]):
-        if is_equal(D[p], known[p]):
-            continue
-        for i in range(d):
-            for j in range(d):
-                value = c * joints.weights[p] * (D[p, i, j] - known[p, i, j])
-                if value != 0.0:
-                    for a in range(m * d):
-                        row = place[pairs[p, a // d] * d + a % d]
-                        part = value * B[p, i, a]
-                        for b in range(m * d):
-                            change[row, place[pairs[p, b // d] * d + b % d]] += part * B[p, j, b]
-    return change
-
-
-@compiled
-def _complete(S: FloatArray, lu: LU, changes: Changes, place: IntArray) -> bool:
-    """Columns of Z for all changed jumps; False if there is no room left."""
-    n, wanted = len(S), 0
-    for j in range(n):
-        if place[j] >= 0 and changes.row[j] < 0:
-            wanted += 1
-    held = changes.held[0]
-    if held + wanted > len(changes.Z):
-        return False
-    if wanted == 0:
+def _iterate(
+    joints: Joints, c: float, change: FloatArray, changed: Changed, g: FloatArray, v: FloatArray,
+    enough: float,
+) -> bool:  # fmt: skip
+    """`(1 + dK Y)^-1 v` in place by iterations; False if that takes too many turns."""
+    n, most = len(v), len(changed.V) - 1
+    V = changed.V[:, :n]
+    H, turned, e = np.zeros((most, most + 1)), np.zeros((most, 2)), np.zeros(most + 1)
+    e[0] = math.sqrt(dot(v, v))
+    if e[0] == 0.0:
         return True
-    X, fresh = np.empty((n, wanted)), 0
-    for j in range(n):
-        if place[j] >= 0 and changes.row[j] < 0:
-            for i in range(n):
-                X[i, fresh] = S[i, j]
-            changes.row[j] = held + fresh
-            fresh += 1
-    solve_factors_together(lu.A, lu.exchanges, X)
-    for e in range(wanted):
-        for i in range(n):
-            changes.Z[held + e, i] = X[i, e]
-    changes.held[0] = held + wanted
-    return True
-
-
-@compiled
-def _correct(changes: Changes, place: IntArray, change: FloatArray, x: FloatArray) -> bool:
-    """x := x - Z (1 + dK E^T Z)^-1 dK E^T x; False if that matrix is singular."""
-    n, count = len(x), len(change)
-    jumps = np.empty(count, np.int64)
-    for j in range(n):
-        if place[j] >= 0:
-            jumps[place[j]] = j
-    right, own = np.empty((count, 1)), np.empty((count, count))
-    for a in range(count):
-        right[a, 0] = x[jumps[a]]
-        for b in range(count):
-            own[a, b] = changes.Z[changes.row[jumps[b]], jumps[a]]
-    small, turned = np.empty((count, count)), np.empty((count, 1))
-    multiply(change, own, small)
-    multiply(change, right, turned)
-    for a in range(count):
-        small[a, a] += 1.0
-    order = np.empty(count, np.int64)
-    if not factorise_dense(small, order):
-        return False
-    solve_factors_together(small, order, turned)
-    for a in range(count):
-        row = changes.row[jumps[a]]
-        for i in range(n):
-            x[i] -= turned[a, 0] * changes.Z[row, i]
-    return True
+    limit = enough * e[0]
+    for i in range(n):
+        V[0, i] = v[i] / e[0]
+    for k in range(most):
+        copy_state(V[k], V[k + 1])
+        _changed_forces(joints, c, change, changed, g, V[k + 1])
+        _orthogonalise(V, k, H[k])
+        _rotate(H, k, turned, e)
+        if k >= FEW_TURNS:
+            changed.spent[0] += n * n
+        if abs(e[k + 1]) <= limit and _combine(H, V, e, k + 1, v):
+            return True
+    return False
 
 
 @later
 @compiled
-def solve_changed(
-    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, lu: LU,
-    changes: Changes, x: FloatArray,
-) -> int:  # fmt: skip
-    """Solve in place with the tangents D by factors of the tangents `known`.
+def correct_changes(
+    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, changed: Changed,
+    x: FloatArray, enough: float,
+) -> bool:  # fmt: skip
+    """x from `solve_base` becomes that of the tangents D; False if that takes too many turns.
 
-    Returns
-    -------
-    int
-        DONE, SINGULAR, or TOO_MANY: x is what it was, factors are made anew more cheaply.
+    `enough` is the residual of v that is left, relative to that of none.
     """
-    n = len(x)
-    place, count = _changed_jumps(joints.pairs, D, known, n)
-    if count > n // MOST_CHANGED or not _complete(condensed.S, lu, changes, place):
-        return TOO_MANY
-    change = _stiffness_change(joints, condensed.c, D, known, place, count)
-    solve_factors(lu.A, lu.exchanges, x)
-    return DONE if _correct(changes, place, change, x) else SINGULAR
+    q, jumps = len(x), changed.jumps
+    n = _find_changes(joints, D, known, jumps)
+    if n == 0:
+        return True
+    change, g, forces = np.empty(D.shape), np.empty(q), np.zeros(q)
+    for p in range(len(D)):
+        for i in range(D.shape[1]):
+            for j in range(D.shape[2]):
+                change[p, i, j] = D[p, i, j] - known[p, i, j]
+    C = changed.own[: n * n].reshape((n, n))
+    for a in range(n):
+        row = changed.Y[jumps[a]]
+        for b in range(n):
+            C[a, b] = row[jumps[b]]
+    add_stiffness_forces(joints, condensed.c, change, x, forces)
+    v = np.empty(n)
+    for a in range(n):
+        v[a] = forces[jumps[a]]
+    if not _iterate(joints, condensed.c, change, changed, g, v, enough):
+        return False
+    for a in range(n):
+        forces[jumps[a]] = v[a]
+    _subtract_jumps(changed, forces, x)
+    return True

@@ -20,9 +20,9 @@ from ssilang.kernel.base.compiled.apart import apart, later, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
-from ssilang.kernel.interface.factors.lu import LU, factorise, newton_matrix
+from ssilang.kernel.interface.factors.newton_matrix import newton_matrix
 from ssilang.kernel.interface.response import Joints, add_stiffness_forces
-from ssilang.kernel.solvers.dense import solve_factors_together
+from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
 UPDATES = 64  # between two times that Y is made anew: rounding does not grow
 PLAIN = 64  # jumps up to which Y is made by plain elimination
@@ -206,12 +206,13 @@ def make_anew(joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inve
 @seldom
 @compiled
 def make_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
-    """As `make_anew`, by factors that read large matrices less often."""
-    lu = LU(np.empty(Y.shape), np.empty(len(Y), np.int64))
-    if not factorise(joints, condensed, D, lu):
+    """As `make_anew`, by factors that read large matrices less often, in the precision of Y."""
+    A, order = np.empty(Y.shape, Y.dtype), np.empty(len(Y), np.int64)
+    newton_matrix(joints, condensed, D, A)
+    if not factorise_dense(A, order):
         return False
     copy_rows(condensed.S, Y)
-    solve_factors_together(lu.A, lu.exchanges, Y)
+    solve_factors_together(A, order, Y)
     return True
 
 

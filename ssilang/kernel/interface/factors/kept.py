@@ -1,9 +1,8 @@
 """What solves with Newton's matrix `1 + S (c K - R)`, and is kept while the tangents stay.
 
 Between changes of contact the tangents of successive turns and steps are the same numbers. Few
-jumps keep an inverse that points change one by one (`Inverse`); more jumps keep LU factors (`LU`);
-many jumps correct the solutions of these factors, not the factors: directly for few points that
-changed (`Changes`), else by iterations (`Krylov`).
+jumps keep an inverse that points change one by one (`Inverse`); more jumps keep that of the first
+tangents, and correct what it gives (`Changed`).
 """
 
 from __future__ import annotations
@@ -17,60 +16,50 @@ from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import tell_more
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, is_equal
+from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.interface.factors.changed import (
-    DONE,
-    MOST_CHANGED,
-    TOO_MANY,
-    Changes,
-    forget_changes,
-    solve_changed,
+    WORTH,
+    Changed,
+    correct_changes,
+    new_changed,
+    solve_base,
 )
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
     Inverse,
     apply_inverse,
     inverse_of,
+    make_by_blocks,
     update_inverse,
 )
-from ssilang.kernel.interface.factors.krylov import Krylov, new_krylov, pays, solve_iterated
-from ssilang.kernel.interface.factors.lu import LU, factorise
 from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.solvers.dense import solve_factors
 
 FEW = 160  # jumps up to which an inverse is kept
-LARGE = 300  # jumps from which factors are changed rather than made again
 FORCING = 1e-4  # residual of an iterated direction: the turns that it costs are few
 
 
 class Factors(NamedTuple):
     """The tangents (n_points, d, d) that are factorised (NaN: none yet), and by which record.
 
-    `lu` and `krylov` are empty beside an inverse, `inverse` elsewhere, `changes` of few jumps.
+    `changed` is empty beside an inverse, `inverse` elsewhere.
     """
 
     tangents: FloatArray
-    lu: LU
     inverse: Inverse
-    changes: Changes
-    krylov: Krylov
+    changed: Changed
 
 
-def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, large: int = LARGE) -> Factors:
-    """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet."""
+def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, single: bool = False) -> Factors:
+    """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet.
+
+    `single` is the precision of many jumps.
+    """
     own = q if q <= few else 0  # of an inverse
-    whole, changing = q - own, q if own == 0 and q >= large else 0
     tell_more("iterated" if own == 0 else "inverse" if own <= PLAIN else "blocks")
     return Factors(
         np.full((*shape, shape[1]), np.nan),
-        LU(np.zeros((whole, whole)), np.zeros(whole, np.int64)),
         inverse_of(np.zeros((own, own)), shape[1]),
-        Changes(
-            np.zeros((changing // MOST_CHANGED, changing)),
-            np.full(changing, -1, np.int64),
-            np.zeros(1, np.int64),
-        ),
-        new_krylov(shape, whole),
+        new_changed(q - own, np.float32 if single and q > own else np.float64),
     )
 
 
@@ -87,7 +76,7 @@ def solve_known(joints: Joints, condensed: Condensed, factors: Factors, x: Float
     if len(factors.inverse.Y):
         apply_inverse(joints, condensed, factors.tangents, factors.inverse, x)
     else:
-        solve_factors(factors.lu.A, factors.lu.exchanges, x)
+        solve_base(joints, condensed, factors.tangents, factors.changed, x)
 
 
 @apart
@@ -114,27 +103,19 @@ def solve_changing(
     joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray, x: FloatArray,
     enough: float,
 ) -> bool:  # fmt: skip
-    """`solve_tangent` of many jumps: by LU factors, changed or iterated on where that pays."""
-    known, lu, same = factors.tangents, factors.lu, True
-    for p in range(len(D)):
-        same = same and is_equal(D[p], known[p])
-    if not same and is_factorised(factors):
-        if len(factors.changes.row):
-            found = solve_changed(joints, condensed, D, known, lu, factors.changes, x)
-            if found != TOO_MANY:
-                return found == DONE
-        if pays(factors.krylov, D) and solve_iterated(
-            joints, condensed, D, known, lu, factors.krylov, x, enough
-        ):
+    """`solve_tangent` of many jumps: corrected, or by a new Y where that is cheaper."""
+    known, changed, asked = factors.tangents, factors.changed, np.empty(len(x))
+    if is_factorised(factors) and changed.spent[0] <= WORTH * len(x) ** 3:
+        copy_state(x, asked)
+        solve_base(joints, condensed, known, changed, x)
+        if correct_changes(joints, condensed, D, known, changed, x, enough):
             return True
-    if not same:
-        good = factorise(joints, condensed, D, lu)
-        forget_changes(factors.changes)
-        factors.krylov.spent[0] = 0
-        for p in range(len(D)):
-            copy_rows(D[p], known[p])
-        if not good:
-            known[0, 0, 0] = np.nan
-            return False
-    solve_known(joints, condensed, factors, x)
+        copy_state(asked, x)
+    good, changed.spent[0] = make_by_blocks(joints, condensed, D, changed.Y), 0.0
+    for p in range(len(D)):
+        copy_rows(D[p], known[p])
+    if not good:
+        known[0, 0, 0] = np.nan
+        return False
+    solve_base(joints, condensed, known, changed, x)
     return True

@@ -6,25 +6,13 @@ from references.iterations import KINDS, at_rest, compiled_newton, plain_newton,
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.factors.changed import DONE, forget_changes, solve_changed
-from ssilang.kernel.interface.factors.lu import factorise
-from ssilang.kernel.interface.newton import workspace
+from ssilang.kernel.interface.factors.changed import WORTH
+from ssilang.kernel.interface.factors.kept import solve_changing
 from ssilang.kernel.interface.response import accept, interface_stiffness
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
-    solve_factors,
     solve_factors_together,
 )
-
-
-@pytest.mark.parametrize("n", [9, 32, 33, 100])
-def test_factors_solve(n):
-    random = np.random.default_rng(0)
-    A, b = random.standard_normal((n, n)), random.standard_normal(n)
-    factors, x, pivots = A.copy(), b.copy(), np.zeros(n, dtype=np.int64)
-    assert factorise_dense(factors, pivots)
-    solve_factors(factors, pivots, x)
-    np.testing.assert_allclose(A @ x, b, atol=1e-11)
 
 
 def test_a_singular_matrix_has_no_factors():
@@ -52,53 +40,56 @@ def test_a_walk_of_steps_agrees(words, kind):
         now.delta[:] -= 0.1 * (now.delta - plain.y)
 
 
-def test_factors_that_changed_tangents_correct():
-    """Few points change at a time: Woodbury's formula gives the step of fresh factors."""
-    whole = soil_block(steps=2, size=(168, 4, 166), joint=FRICTION).interface
-    joints, q, random = whole.points, whole.size, np.random.default_rng(1)
-    root = random.standard_normal((q, q))
-    S = 1e-9 * (0.05 * root @ root.T / q + np.eye(q))
-    condensed = Condensed(S, np.zeros((0, 0)), 1.0)
-    now, work = at_rest(joints, q, whole.initial_state()), workspace(whole.B.shape[:2], q)
-    held = work.factors.changes.held
-    y0, corrected, fresh = np.tile([0.0, -1e-3], q // 2), 0, 0
-    for step in range(60):
-        turns = compiled_newton(joints, condensed, now, y0, work)
-        plain_turns, plain = plain_newton(joints, condensed, now, y0)
-        assert 0 < turns <= plain_turns + 1  # still Newton's steps
-        size = np.abs(plain.y).max()
-        np.testing.assert_allclose(work.trial.y, plain.y, atol=1e-11 * size)
-        corrected += held[0] > 0
-        fresh += held[0] == 0
-        y0 = np.tile([0.0, -1e-3], q // 2)
-        y0[2 * (step // 4 % (q // 2)) + 1] = 2e-3 if step % 4 < 2 else -1e-3  # one pair opens
-    assert corrected > 20
-    assert fresh >= 1
-
-
-def test_changed_tangents_of_no_symmetry_are_solved_with_exactly():
-    """One point, then three of which it is one, by factors of the tangents before."""
+@pytest.mark.parametrize("held", [False, True], ids=["", "stiffness held in excess"])
+@pytest.mark.parametrize(
+    ("kind", "digits"), [("LU", 1e-9), ("single LU", 1e-4)], ids=["double", "single"]
+)
+def test_changed_tangents_of_no_symmetry_are_solved_with(kind, digits, held):
+    """Some points, others, all, those of the start: by a Y that was made once, then made anew."""
     whole = soil_block(steps=2, size=(24, 4, 22), joint=FRICTION).interface
     joints, q, random = whole.points, whole.size, np.random.default_rng(1)
     root = random.standard_normal((q, q))
-    condensed = Condensed(1e-9 * (root @ root.T / q + np.eye(q)), np.zeros((0, 0)), 0.7)
-    factors = room(joints, q, "changed LU").factors
-    lu, changes = factors.lu, factors.changes
-    known = 1e8 * random.standard_normal((len(joints.weights), 2, 2))
-    assert factorise(joints, condensed, known, lu)
-    forget_changes(changes)
-    D, K = known.copy(), np.zeros((q, q))
-    for points in ([5], [3, 5, 9]):
-        D[points] = 1e8 * random.standard_normal((len(points), 2, 2))
+    R = 2e7 * np.eye(q) if held else np.zeros((0, 0))
+    condensed = Condensed(1e-9 * (root @ root.T / q + np.eye(q)), R, 0.7)
+    factors = room(joints, q, kind).factors
+    first = 3e8 * random.standard_normal((len(joints.weights), 2, 2))
+    K, made = np.zeros((q, q)), []
+    for points in ([], [5], [3, 5, 9], slice(None), []):
+        D = first.copy()
+        D[points] += 1e8 * random.standard_normal(D[points].shape)
         interface_stiffness(joints, D, K)
         b = random.standard_normal(q)
-        x = b.copy()
-        assert solve_changed(joints, condensed, D, known, lu, changes, x) == DONE
-        exact = np.linalg.solve(np.eye(q) + condensed.S @ (0.7 * K), b)
-        np.testing.assert_allclose(x, exact, atol=1e-9 * np.abs(exact).max())
+        x, whole_K = b.copy(), 0.7 * K - (R if held else 0.0)
+        assert solve_changing(joints, condensed, factors, D, x, 0.1 * digits)
+        exact = np.linalg.solve(np.eye(q) + condensed.S @ whole_K, b)
+        np.testing.assert_allclose(x, exact, atol=digits * np.abs(exact).max())
+        made.append(factors.tangents.copy())
+    assert all((first == D).all() for D in made)
+    factors.changed.spent[0] = WORTH * q**3 + 1.0  # long iterations have cost as much as a new Y
+    D = 2.0 * first
+    assert solve_changing(joints, condensed, factors, D, x, digits)
+    np.testing.assert_array_equal(factors.tangents, D)
+    assert factors.changed.spent[0] == 0.0
 
 
-@pytest.mark.parametrize("n", [33, 600])
+def test_what_takes_too_many_turns_gets_its_own_factors():
+    whole = soil_block(steps=2, size=(24, 4, 22), joint=FRICTION).interface
+    joints, q, random = whole.points, whole.size, np.random.default_rng(1)
+    root = random.standard_normal((q, q))
+    condensed = Condensed(1e-9 * (root @ root.T / q + np.eye(q)), np.zeros((0, 0)), 1.0)
+    factors, b = room(joints, q, "LU").factors, random.standard_normal(q)
+    changed = factors.changed._replace(V=np.zeros((3, q)))  # two turns
+    factors, x, K = factors._replace(changed=changed), b.copy(), np.zeros((q, q))
+    D = 1e9 * np.tile(np.eye(2), (len(joints.weights), 1, 1))
+    assert solve_changing(joints, condensed, factors, D, b.copy(), 1e-10)
+    D *= random.uniform(0.1, 10.0, (len(D), 1, 1))
+    assert solve_changing(joints, condensed, factors, D, x, 1e-10)
+    interface_stiffness(joints, D, K)
+    np.testing.assert_allclose(x + condensed.S @ (K @ x), b, atol=1e-9)
+    np.testing.assert_array_equal(factors.tangents, D)
+
+
+@pytest.mark.parametrize("n", [9, 32, 33, 100, 600])
 def test_many_right_sides_and_wide_blocks(n):
     random = np.random.default_rng(0)
     A, B = random.standard_normal((n, n)), random.standard_normal((n, 7))

@@ -25,6 +25,9 @@ from ssilang.kernel.stepping.problem.moving_supports import (
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
+    BOTH,
+    DOWN,
+    UP,
     Damping,
     Plan,
     Products,
@@ -83,23 +86,31 @@ class InterleavedLoop:
         root = effective.root
         if root is None:
             root = RootResponse(sp.csr_array((q, 0)), np.zeros((0, q)))
-        branches, trunk = _cut(factor, root.J.shape[1] > 0)
+        visits = _visits(factor, root.J.shape[1] > 0)
+        self._spans = factor.panels.first[visits[:, :2]]
         alpha, beta, rest = split_damping(self.C, self.M, self.K)
         self.plan = Plan(
-            factor.panels, branches, trunk, len(factor.panels.first) - 2 + (root.J.shape[1] == 0),
+            factor.panels, visits, len(factor.panels.first) - 2 + (root.J.shape[1] == 0),
             _rows(self.M), Damping(alpha, beta, _all_rows(rest)), self.C.nnz > 0, self.forces,
-            np.zeros((q, 0)), _all_rows(root.J), _all_rows(sp.csr_array(root.J.T)), root.Y,
+            *self._acting(self.forces), np.zeros((q, 0)), _all_rows(root.J),
+            _all_rows(sp.csr_array(root.J.T)), root.Y,
             effective.S, effective.R if effective.R.any() else np.zeros((0, 0)),
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
-        self.joints = joints_of(problem)
+        self.joints, joints = joints_of(problem), problem.interface
+        soft = joints is not None and joints.is_soft(effective.S)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
-        self.newton = workspace(motion.w.shape, q)
+        self.newton = workspace(motion.w.shape, q, single=soft)
         self._moved: tuple[FloatArray | None, sp.csr_array] = None, sp.csr_array((0, 0))
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
         self._gram = None if gram.nnz == n else sp.csc_array(gram)
+
+    def _acting(self, forces: FloatArray) -> tuple[IntArray, IntArray]:
+        """`first` and `acting` of the plan."""
+        found = [np.flatnonzero(forces[:, i:j].any(axis=1)) for i, j in self._spans]
+        return np.cumsum([0, *map(len, found)]), np.concatenate([np.zeros(0, np.int64), *found])
 
     def _reduced(self, A: sp.csr_array) -> sp.csr_array:
         return sp.csr_array(self.T.T @ A @ self.T)
@@ -170,7 +181,9 @@ class InterleavedLoop:
             forces = np.vstack([self.forces, columns.forces])
             lift = np.zeros((len(m.f), whole.shape[1]))
             lift[:, whole.shape[1] - columns.X.shape[1] :] = columns.lift
-            plan = plan._replace(forces=forces, lift=lift if lift.any() else lift[:, :0].copy())
+            first, acting = self._acting(forces)
+            plan = plan._replace(forces=forces, first=first, acting=acting)
+            plan = plan._replace(lift=lift if lift.any() else lift[:, :0].copy())
         Cv, Ca = self.C @ v, self.C @ a
         g = self.K @ u + Cv + self.J.T @ m.f - plan.forces.T @ whole[0]
         few = m._replace(u=u, v=v, a=a, reaction=np.zeros(0), contact=np.zeros(0))
@@ -293,8 +306,8 @@ def _all_rows(A: sp.csr_array) -> Sparse:
     return Sparse(A.indptr.astype(np.int64), A.indices.astype(np.int64), A.data, False)
 
 
-def _cut(factor: DissectedFactor, has_root: bool) -> tuple[IntArray, IntArray]:
-    """Branches of at most BRANCH numbers (first and last supernode), and the trunk."""
+def _visits(factor: DissectedFactor, has_root: bool) -> IntArray:
+    """`visits` of the plan: branches of at most `BRANCH` numbers, the others one by one."""
     at, parent = factor.panels.at, factor.tree.parent
     count = len(parent)
     lowest = np.arange(count)
@@ -304,12 +317,19 @@ def _cut(factor: DissectedFactor, has_root: bool) -> tuple[IntArray, IntArray]:
     whole = count - 1 if has_root else count
     size = at[1:] - at[lowest]
     light = size <= BRANCH
-    heads = [
+    heads = np.array([
         s for s in range(whole)
         if light[s] and (parent[s] < 0 or parent[s] >= whole or not light[parent[s]])
-    ]  # fmt: skip
+    ], np.int64)  # fmt: skip
     covered = np.zeros(count, bool)
     for s in heads:
         covered[lowest[s] : s + 1] = True
-    branches = np.array([(lowest[s], s + 1) for s in heads], np.int64).reshape(-1, 2)
-    return branches, np.flatnonzero(~covered[:whole]).astype(np.int64)
+    trunk, rising = np.flatnonzero(~covered[:whole]), np.flatnonzero(~covered)
+    count = [len(heads), len(trunk), len(rising)]
+    kind = np.repeat([BOTH, DOWN, UP], count)
+    begin = np.concatenate([lowest[heads], trunk, rising])
+    end = np.concatenate([heads, trunk, rising]) + 1
+    # the part of the tree below a supernode stands in a row: down before it, up after it
+    place = np.concatenate([lowest[heads], lowest[trunk], rising])
+    order = np.lexsort((-end, kind != DOWN, place))
+    return np.column_stack([begin, end, kind])[order].astype(np.int64)

@@ -19,7 +19,8 @@ among the loads F, and `lift` are the jumps that they make. The forward solve en
 interface, where its unknowns alone are iterated on; the backward solve starts from what they
 became. A branch of the elimination tree that fits in the processor's cache goes backward, takes
 its new velocities and right side, and goes forward for the next step before the next branch is
-read: the factor comes from memory once a step, not twice.
+read: the factor comes from memory once a step, not twice. Above the branches the tree is walked
+alike, so that a supernode goes forward as soon as all below it did.
 """
 
 from __future__ import annotations
@@ -50,6 +51,8 @@ from ssilang.kernel.stepping.state import (
 )
 from ssilang.kernel.stepping.verbs import advance, end_of_step, from_past
 
+BOTH, DOWN, UP = range(3)  # ways through a part: a branch goes down and up at once
+
 
 class Sparse(NamedTuple):
     """Rows of a sparse matrix; `diagonal` says that `data` is its diagonal alone."""
@@ -74,16 +77,17 @@ class Plan(NamedTuple):
     Attributes
     ----------
     L : Panels
-    branches : array (m, 2)
-        First and last supernode of branches that fit in the cache.
-    trunk : array (p,)
-        The other supernodes but the interface's, increasing.
+    visits : array (m, 3)
+        First and last supernode of a part, and what is done with it (`BOTH`, `DOWN`, `UP`), the
+        interface's last.
     root : int
         The interface's supernode, or the number of supernodes without interface.
     M : Sparse
     C : Damping
     damped : bool
     forces : array (k, n)
+    first, acting : arrays (m + 1,), (first[-1],)
+        Loads that act on the unknowns of each part.
     lift : array (q, k)
         Jumps under unit loads while all unknowns rest (no columns: none).
     Jr, JrT : Sparse (q, r), (r, q)
@@ -98,13 +102,14 @@ class Plan(NamedTuple):
     """
 
     L: Panels
-    branches: IntArray
-    trunk: IntArray
+    visits: IntArray
     root: int
     M: Sparse
     C: Damping
     damped: bool
     forces: FloatArray
+    first: IntArray
+    acting: IntArray
     lift: FloatArray
     Jr: Sparse
     JrT: Sparse
@@ -179,8 +184,9 @@ def _row(A: Sparse, i: int, x: FloatArray) -> float:
 @apart
 @compiled_fast
 def predict(
-    plan: Plan, products: Products, load_change: FloatArray, b: FloatArray, begin: int, end: int
-) -> None:
+    plan: Plan, products: Products, load_change: FloatArray, acting: IntArray, b: FloatArray,
+    begin: int, end: int,
+) -> None:  # fmt: skip
     """b of the next step on a range of unknowns; `load_change` (k,): increments of the factors."""
     n, g, Mv, Ma, Cv, Ca = (
         plan.newmark, products.g, products.Mv, products.Ma, products.Cv, products.Ca,
@@ -191,37 +197,40 @@ def predict(
     else:
         for i in range(begin, end):
             b[i] = from_past(n, Mv[i], Ma[i], 0.0, 0.0) - g[i]
-    for c in range(len(load_change)):
+    for c in acting:
         if load_change[c] != 0.0:
-            part = n.end * load_change[c]
-            for i in range(begin, end):
-                b[i] += part * plan.forces[c, i]
+            part, force, to = n.end * load_change[c], plan.forces[c, begin:end], b[begin:end]
+            for i in range(end - begin):
+                to[i] += part * force[i]
 
 
 @compiled_fast
-def _strain_forces(forces: FloatArray, sweep: Sweep, begin: int, end: int) -> None:
+def _strain_forces(
+    forces: FloatArray, acting: IntArray, sweep: Sweep, begin: int, end: int
+) -> None:
     """`dF - J^T df` into the sweep's room; `change`, the last term, becomes zero."""
     out, change = sweep.room, sweep.change
     for i in range(begin, end):
         out[i] = change[i]
         change[i] = 0.0
-    for c in range(len(sweep.load_change)):
-        if sweep.load_change[c] != 0.0:
-            for i in range(begin, end):
-                out[i] += sweep.load_change[c] * forces[c, i]
+    for c in acting:
+        part, force, to = sweep.load_change[c], forces[c, begin:end], out[begin:end]
+        if part != 0.0:
+            for i in range(end - begin):
+                to[i] += part * force[i]
 
 
 @apart
 @compiled_fast
 def advance_range(
-    plan: Plan, x: Motion, products: Products, sweep: Sweep, begin: int, end: int
+    plan: Plan, x: Motion, products: Products, sweep: Sweep, acting: IntArray, begin: int, end: int
 ) -> None:
     """Motion, products and out-of-balance forces after the increment, on a range of unknowns."""
     n, du, g, Mv, Ma = plan.newmark, sweep.du, products.g, products.Mv, products.Ma
     g_g, g_1, g_0 = -n.start / n.end, -n.inertia_end / n.end, -n.inertia_start / n.end
     kinetic, static, size = 0.0, 0.0, 0.0
     if plan.damped:
-        _strain_forces(plan.forces, sweep, begin, end)
+        _strain_forces(plan.forces, acting, sweep, begin, end)
     for i in range(begin, end):
         # the motion, and products with the mass
         move, Ma0, g0 = du[i], Ma[i], g[i]
@@ -251,13 +260,12 @@ def advance_range(
 
 
 @compiled_fast
-def add_work(forces: FloatArray, du: FloatArray, begin: int, end: int, work: FloatArray) -> None:
+def add_work(
+    forces: FloatArray, acting: IntArray, du: FloatArray, begin: int, end: int, work: FloatArray
+) -> None:
     """work += forces du on a range of unknowns."""
-    for c in range(forces.shape[0]):
-        total = 0.0
-        for i in range(begin, end):
-            total += forces[c, i] * du[i]
-        work[c] += total
+    for c in acting:
+        work[c] += dot(forces[c, begin:end], du[begin:end])
 
 
 @compiled
@@ -273,15 +281,15 @@ def begin_step(sweep: Sweep, factors: FloatArray, k: int, work: FloatArray) -> N
 
 
 @compiled
-def _trunk_forward(
-    L: Panels, trunk: IntArray, b: FloatArray, above: FloatArray, local: FloatArray
-) -> None:
-    """Forward solve of the trunk, with what the branches added to its rows."""
-    for s in trunk:
-        for i in range(L.first[s], L.first[s + 1]):
+def _rise(L: Panels, s0: int, s1: int, kind: int, sweep: Sweep) -> None:
+    """Forward solve of a part, with what those below added to its rows."""
+    b, above, beyond = sweep.b, sweep.above, L.first[s1]
+    if kind == UP:
+        for i in range(L.first[s0], L.first[s1]):
             b[i] += above[i]
             above[i] = 0.0
-        forward(L, s, s + 1, b, L.first[0], above, local)
+        beyond = L.first[0]
+    forward(L, s0, s1, b, beyond, above, sweep.local)
 
 
 @apart
@@ -350,10 +358,7 @@ def account(
 def _root(plan: Plan, sweep: Sweep) -> None:
     """Forward and backward solves of the root, under the joints' old forces."""
     L, s = plan.L, plan.root
-    for i in range(L.first[s], L.first[s + 1]):
-        sweep.b[i] += sweep.above[i]
-        sweep.above[i] = 0.0
-    forward(L, s, s + 1, sweep.b, L.first[0], sweep.above, sweep.local)
+    _rise(L, s, s + 1, UP, sweep)
     backward(L, s, s + 1, sweep.b, sweep.du, sweep.local)
 
 
@@ -367,50 +372,36 @@ def run_interleaved(
     The recorder's work (2, n_steps, k) is that of each load on the step's increment, and of the
     joints' forces on the jumps of `lift` at its end.
     """
-    L, n, steps, worst = plan.L, len(x.u), len(to.row), 1
-    b, du, above, local = sweep.b, sweep.du, sweep.above, sweep.local
-    for j in range(len(sweep.load_change)):
-        sweep.load_change[j] = factors[1, j] - factors[0, j]
-    start = L.first[0]  # 0, but not as a literal: that is a type of its own
-    predict(plan, products, sweep.load_change, b, start, n)
-    for j in range(len(plan.branches)):
-        s0, s1 = plan.branches[j]
-        forward(L, s0, s1, b, L.first[s1], above, local)
-    for k in range(steps):
-        # solve: up the trunk, Newton's method on the interface at the root, down the trunk
-        _trunk_forward(L, plan.trunk, b, above, local)
-        if len(x.f):
+    L, steps, worst, visits = plan.L, len(to.row), 1, plan.visits
+    b, du, local = sweep.b, sweep.du, sweep.local
+    for k in range(-1, steps):  # first what leads to the first step
+        # solve: Newton's method on the interface, which is the root
+        if k >= 0 and len(x.f):
             _root(plan, sweep)
             turns, residual = settle_interface(plan, joints, x, newton, sweep)
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-        for j in range(len(plan.trunk) - 1, -1, -1):
-            s = plan.trunk[j]
-            backward(L, s, s + 1, b, du, local)
         work = to.work[0, k]
         begin_step(sweep, factors, k, work)
-        # each branch: down, advance, predict, and up for the next step while it is near
-        for j in range(len(plan.branches)):
-            s0, s1 = plan.branches[j]
+        # each part: down, and once all below it are there: advance, predict, up for the next step
+        for j in range(len(visits)):
+            s0, s1, kind = visits[j]
             begin, end = L.first[s0], L.first[s1]
-            backward(L, s0, s1, b, du, local)
-            advance_range(plan, x, products, sweep, begin, end)
-            add_work(plan.forces, du, begin, end, work)
-            if k + 1 < steps:
-                predict(plan, products, sweep.next_load_change, b, begin, end)
-                forward(L, s0, s1, b, end, above, local)
-        # the trunk's and the root's own unknowns
-        for j in range(len(plan.trunk) + 1):
-            s = plan.trunk[j] if j < len(plan.trunk) else plan.root
-            if s < len(L.first) - 1:
-                begin, end = L.first[s], L.first[s + 1]
-                advance_range(plan, x, products, sweep, begin, end)
-                add_work(plan.forces, du, begin, end, work)
-                predict(plan, products, sweep.next_load_change, b, begin, end)
-        account(plan, joints, x, products, sweep, factors, to.work, k)
-        if not np.isfinite(sweep.sums[4]):
-            return k, -1, np.inf
+            acting = plan.acting[plan.first[j] : plan.first[j + 1]]
+            if k >= 0 and kind != UP:
+                backward(L, s0, s1, b, du, local)
+            if kind != DOWN:
+                if k >= 0:
+                    advance_range(plan, x, products, sweep, acting, begin, end)
+                    add_work(plan.forces, acting, du, begin, end, work)
+                predict(plan, products, sweep.next_load_change, acting, b, begin, end)
+                if s0 < plan.root and k + 1 < steps:
+                    _rise(L, s0, s1, kind, sweep)
         copy_state(sweep.next_load_change, sweep.load_change)
-        end_of_step(x, to, k)
+        if k >= 0:
+            account(plan, joints, x, products, sweep, factors, to.work, k)
+            if not np.isfinite(sweep.sums[4]):
+                return k, -1, np.inf
+            end_of_step(x, to, k)
     return steps, worst, 0.0
