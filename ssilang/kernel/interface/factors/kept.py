@@ -55,7 +55,8 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, single: bool = F
     `single` is the precision of many jumps.
     """
     own = q if q <= few else 0  # of an inverse
-    tell_more("iterated" if own == 0 else "inverse" if own <= PLAIN else "blocks")
+    if own:
+        tell_more("inverse" if own <= PLAIN else "blocks")
     return Factors(
         np.full((*shape, shape[1]), np.nan),
         inverse_of(np.zeros((own, own)), shape[1]),

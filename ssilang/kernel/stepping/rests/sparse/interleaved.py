@@ -99,7 +99,7 @@ class InterleavedLoop:
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
         self.joints, joints = joints_of(problem), problem.interface
-        soft = joints is not None and joints.is_soft(effective.S)
+        soft = joints is not None and joints.is_soft(effective.S) and not effective.R.any()
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
         self.newton = workspace(motion.w.shape, q, single=soft)
         self._moved: tuple[FloatArray | None, sp.csr_array] = None, sp.csr_array((0, 0))
