@@ -325,8 +325,7 @@ def _visits(factor: DissectedFactor, has_root: bool) -> IntArray:
     for s in heads:
         covered[lowest[s] : s + 1] = True
     trunk, rising = np.flatnonzero(~covered[:whole]), np.flatnonzero(~covered)
-    count = [len(heads), len(trunk), len(rising)]
-    kind = np.repeat([BOTH, DOWN, UP], count)
+    kind = np.repeat([BOTH, DOWN, UP], [len(heads), len(trunk), len(rising)])
     begin = np.concatenate([lowest[heads], trunk, rising])
     end = np.concatenate([heads, trunk, rising]) + 1
     # the part of the tree below a supernode stands in a row: down before it, up after it
