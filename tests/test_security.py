@@ -55,7 +55,10 @@ GROWING = (
 
 
 @pytest.mark.parametrize("content", ["&i;", "&x;"], ids=["two thousand million letters", "a file"])
-def test_xml_that_grows_is_refused(content: str, tmp_path: Path, capsys: Any) -> None:
+def test_xml_that_grows_is_refused(
+    content: str, tmp_path: Path, capsys: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "bomb.vtu").write_text(GROWING.replace("CONTENT", content))
     (tmp_path / "case.ssi").write_text("OPTI DIME 2 ; T = LIRE 'MESH' 'bomb.vtu' ;")
     assert main([str(tmp_path / "case.ssi")]) == 1

@@ -93,7 +93,7 @@ def test_a_checkpoint_of_other_parameters_is_refused(case, capsys):
 
 
 def test_a_checkpoint_of_another_version_is_refused(case, capsys, monkeypatch):
-    monkeypatch.setattr("ssilang.__version__", "9.9.9")
+    monkeypatch.setattr("ssilang.cli.run.__version__", "9.9.9")
     assert main([str(case), "--resume"]) == 1
     told = said(capsys)
     assert "written by ssilang 0.1.0, this is 9.9.9" in told

@@ -109,7 +109,7 @@ def test_an_edited_table_is_told(made, tmp_path):
     folder = shutil.copytree(made, tmp_path / "again")
     table, page = folder / "sweep.csv", folder / "report.html"
     assert main(["report", str(folder)]) == 0
-    assert "was edited" not in page.read_text("utf-8")
+    assert "is not what the run reported" not in page.read_text("utf-8")
     was = next(row["top"] for row in read_sweep(folder).rows if row["exit_code"] == "0")
     table.write_text(table.read_text("utf-8").replace(was, "9876.5", 1), "utf-8")
     assert main(["report", str(folder)]) == 0

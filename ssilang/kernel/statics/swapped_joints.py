@@ -29,7 +29,7 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 
 _SAME_PLACE = 1e-6
-_DRAWN = 1e-3  # of a joint's size: a gap that is more than a way to draw the joint
+_DRAWN = 5e-3  # of a joint's size: a gap that is more than a way to draw the joint
 AGAINST = -0.1
 """Cosine of the normal with the way from lower to upper body, below which sides are swapped."""
 

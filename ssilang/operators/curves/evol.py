@@ -396,7 +396,7 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
             )
         return fields, times, ""
     table: Table = operand.value
-    index = "DEPLACEMENTS" if _holds(table, "DEPLACEMENTS") else "DEPL"
+    index = "DEPLACEMENTS" if table.has("DEPLACEMENTS") else "DEPL"
     said = call.peek_word()
     if said is not None and _holds(table, said.rstrip()):
         index = str(call.word()).rstrip()
