@@ -411,6 +411,10 @@ MODELS = {
     ),
     "loads that begin late": (OSCILLATOR.format(loaded("0.5 1.", "3. 4."), ""), "D.load-begins"),
     "loads that end early": (OSCILLATOR.format(loaded("0. 0.5", "3. 4."), ""), "D.load-ends"),
+    "loads whose strong part comes later": (
+        OSCILLATOR.format(loaded("0. 5. 6. 7.", "0. 0.01 1. 0."), ""),
+        "D.load-ahead",
+    ),
     "loads of a later time": (
         OSCILLATOR.format(loaded("5. 6. 7.", "0. 1. 0."), ""),
         "D.load-outside",

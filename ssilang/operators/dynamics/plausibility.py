@@ -46,6 +46,7 @@ NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
+AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
@@ -234,6 +235,9 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         yield "operators.dynamics.load-begins", told | {"value": float(y[0])}
     if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
+    saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
+    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw:
+        yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
     if at_rest and np.abs(np.diff(before)).sum() > SWUNG * size:
         yield "operators.dynamics.load-before", told
