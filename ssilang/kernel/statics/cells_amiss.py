@@ -8,7 +8,6 @@ Element Analysis, the four-node element in pure bending).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain, combinations
 
@@ -25,22 +24,25 @@ _SAME = 1e-9  # of directions that are one
 _LONG = 2.0  # length over thickness of a cell beyond which a single layer is told
 _PLATE = 10.0  # thicknesses across which a single layer is a plate
 
+Solids = list[tuple[ElementMatrices, Zone, list[BoolArray]]]
 
-def _solids(matrix: Matrix) -> Iterator[tuple[ElementMatrices, Zone, list[BoolArray]]]:
+
+def bordered_solids(matrix: Matrix) -> Solids:
     """Blocks of cells of two or three dimensions; by face, which cells have it for themselves."""
     blocks = {id(b.raw_nodes): b for b in matrix.blocks if b.zone and not is_joint(b.zone)}.values()
     solids = [(b, b.zone) for b in blocks if b.zone and b.zone.cells.kind.dimension >= 2]
     keys = [[face_keys(b.nodes[:, list(x)]) for _, x in z.cells.kind.faces] for b, z in solids]
     every = np.concatenate([np.zeros(0, np.int64), *chain.from_iterable(keys)])
     known, times = np.unique(every, return_counts=True)
-    for (block, zone), own in zip(solids, keys, strict=True):
-        yield block, zone, [np.isin(k, known[times == 1]) for k in own]
+    alone = known[times == 1]
+    borders = [[np.isin(k, alone) for k in own] for own in keys]
+    return [(b, zone, border) for (b, zone), border in zip(solids, borders, strict=True)]
 
 
-def hanging_nodes(matrix: Matrix) -> IntArray:
+def hanging_nodes(matrix: Matrix, solids: Solids) -> IntArray:
     """Nodes (n,), in no condition, inside an edge of a cell that shares an end with their own."""
     links = [np.zeros((0, 2), np.int64)]
-    for block, zone, border in _solids(matrix):
+    for block, zone, border in solids:
         kind = zone.cells.kind
         for (name, local), alone in zip(kind.faces, border, strict=True):
             ring = np.array(local[: len(local) - (name in ("TRI7", "QUA9"))])
@@ -75,11 +77,11 @@ class Layer:
         return 1.0 + 0.5 * self.slender**2
 
 
-def bent_layer(matrix: Matrix) -> Layer | None:
+def bent_layer(matrix: Matrix, solids: Solids) -> Layer | None:
     """The most slender of single layers of linear cells, some thicknesses large; None without."""
     tied = np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)])
     found = []
-    for block, zone, border in _solids(matrix):
+    for block, zone, border in solids:
         points = matrix.table.coordinates[block.nodes]
         sides = [list(local) for _, local in zone.cells.kind.faces]
         loose = ~np.isin(block.nodes, tied).all(axis=1)

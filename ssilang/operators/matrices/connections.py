@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
-from ssilang.kernel.statics.cells_amiss import bent_layer, hanging_nodes
+from ssilang.kernel.statics.cells_amiss import Solids, bent_layer, bordered_solids, hanging_nodes
 from ssilang.kernel.statics.doubled import (
     beside_joints,
     bodies_apart,
@@ -63,11 +63,12 @@ def warn_connections(
     _warn_swapped_joints(tell, matrix, model, characteristics)
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
-    _warn_layers(tell, matrix)
+    solids = bordered_solids(matrix)
+    _warn_layers(tell, matrix, solids)
     zones = () if model is None else model.zones
     others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
-    found = {"operators.matrices.nodes-hang": hanging_nodes(matrix)}
+    found = {"operators.matrices.nodes-hang": hanging_nodes(matrix, solids)}
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
@@ -152,8 +153,8 @@ def _warn_footings(
             tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
 
 
-def _warn_layers(tell: Tell, matrix: Matrix) -> None:
-    if (layer := bent_layer(matrix)) is not None:
+def _warn_layers(tell: Tell, matrix: Matrix, solids: Solids) -> None:
+    if (layer := bent_layer(matrix, solids)) is not None:
         told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
         tell("operators.matrices.layer-bends", **told)
 
