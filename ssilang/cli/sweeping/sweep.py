@@ -32,7 +32,7 @@ from ssilang.cli.sweeping.table import (
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.checkpoint import digest_of_file
-from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named
+from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named, vertical
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -222,6 +222,8 @@ def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: Tex
         ("cli.same-motions", {"names": names}) for names in known.values() if len(names) > 1
     ]
     motions = {p.name: m for p in paths if (m := motion_in(p)) is not None}
+    if 0 < len(upward := vertical(motions)) < len(motions):
+        told.append(("cli.motions-vertical", {"names": upward}))
     in_si = _IN_SI.search(source.code) is not None
     if not in_si and (units := units_named(motions)):
         told.append(("cli.motions-of-other-units", {"units": [*map(" ".join, units.items())]}))

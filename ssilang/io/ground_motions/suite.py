@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -31,6 +32,18 @@ def units_named(motions: Mapping[str, GroundMotion]) -> dict[str, str]:
     """Unit of each motion that names one, by its name; none where all name the same."""
     named = {n: plain_unit(m.unit) for n, m in motions.items() if m.has_unit}
     return named if len(set(named.values())) > 1 else {}
+
+
+_UPWARDS = re.compile(
+    r"(?<![A-Z])(UP|UD|DOWN|DWN|VERT|VERTICAL|HNZ|HGZ|HLZ)$|[-_](V|Z)$", re.IGNORECASE
+)
+"""How the name of a file, or what it says of itself, ends of a component along the vertical."""
+
+
+def vertical(motions: Mapping[str, GroundMotion]) -> list[str]:
+    """Names of the motions along the vertical."""
+    ends = {n: (n.rpartition(".")[0] or n, m.event) for n, m in motions.items()}
+    return [n for n, said in ends.items() if any(_UPWARDS.search(s.strip()) for s in said)]
 
 
 def peaks_apart(motions: Mapping[str, GroundMotion], in_si: bool) -> dict[str, float]:

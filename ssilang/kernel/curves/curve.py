@@ -26,6 +26,8 @@ class CurvePart:
     abscissa_words: tuple[str, ...] = ()  # abscissas given as words, standing at 1, 2, 3 ...
     # SI units of both axes where they are certain; what is made from a curve has none
     units: tuple[str, str] = field(default=("", ""), init=False)
+    # accelerations relative to a ground that shakes, until something else is made of them
+    relative: bool = field(default=False, init=False)
 
     def measured(self, abscissa: str, ordinate: str = "") -> CurvePart:
         """The same curve with the SI units of its axes ('s', 'm/s'), '' where that is unknown."""

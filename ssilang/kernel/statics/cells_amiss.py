@@ -9,7 +9,7 @@ Element Analysis, the four-node element in pure bending).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import chain, combinations
+from itertools import chain, combinations, permutations
 
 import numpy as np
 
@@ -18,10 +18,13 @@ from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.queries.select import cells_containing
 from ssilang.kernel.statics.doubled import face_keys
 
 _SAME = 1e-9  # of directions that are one
 _LONG = 2.0  # length over thickness of a cell beyond which a single layer is told
+_LOOKED_AT = 64  # cells of a part where others may be
 _PLATE = 10.0  # thicknesses across which a single layer is a plate
 
 Solids = list[tuple[ElementMatrices, Zone, list[BoolArray]]]
@@ -61,6 +64,26 @@ def hanging_nodes(matrix: Matrix, solids: Solids) -> IntArray:
     inner = b[together + (length[together] > length[together + 1])]
     tied = [r.nodes for r in matrix.relations]
     return np.setdiff1d(inner, np.concatenate([inner[:0], *tied]))
+
+
+def overlapping_cells(matrix: Matrix, solids: Solids) -> IntArray:
+    """First node (n,) of cells whose middle lies inside a cell of another part; some of them."""
+    bodies = [
+        (block, zone.cells, matrix.table.coordinates[block.nodes])
+        for block, zone, _ in solids
+        if zone.cells.kind.dimension == zone.mode.dimension
+    ]
+    found = [0] * 0
+    for (block, _, x), (_, cells, y) in permutations(bodies, 2):
+        low, high, middles = y.min(axis=1), y.max(axis=1), x.mean(axis=1)
+        there = ((middles >= low.min(axis=0)) & (middles <= high.max(axis=0))).all(axis=1)
+        inner = np.flatnonzero(there)
+        for i in inner[:: 1 + len(inner) // _LOOKED_AT].tolist():
+            near = ((low <= middles[i]) & (high >= middles[i])).all(axis=1)
+            some = CellBlock.make(cells.nodes, cells.cell_type, cells.connectivity[near])
+            if near.any() and cells_containing(some, middles[i]).any():
+                found.append(int(block.nodes[i, 0]))
+    return np.array(found, np.int64)
 
 
 @dataclass(frozen=True)

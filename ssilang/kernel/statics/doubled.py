@@ -78,6 +78,29 @@ def springs_apart(matrix: Matrix, used: IntArray) -> IntArray:
     return np.flatnonzero(alone & ~joined & cells)
 
 
+def idle_nodes(blocks: Iterable[ElementMatrices], matrix: Matrix) -> IntArray:
+    """First node (n,) of each block that acts on what conditions of one term hold alone.
+
+    Parameters
+    ----------
+    matrix : Matrix
+        That has the conditions.
+    """
+    held: dict[str, IntArray] = {}
+    for r in matrix.relations:
+        alone = r.row_start[:-1][(np.diff(r.row_start) == 1) & (r.sense == 0)]
+        nodes, names = r.nodes[alone], np.array(r.unknowns)[alone]
+        for name in np.unique(names):
+            held[name] = np.append(held.get(name, nodes[:0]), nodes[names == name])
+    found = []
+    for block in blocks if held else ():
+        acts = np.diagonal(block.values, axis1=1, axis2=2) != 0.0
+        rows = zip(block.unknowns, block.nodes[:, block.local].T, acts.T, strict=True)
+        if acts.any() and all(np.isin(n[a], held.get(u, n[:0])).all() for u, n, a in rows):
+            found.append(block.nodes[0, 0])
+    return np.array(found, np.int64)
+
+
 def held_nowhere(matrix: Matrix) -> set[str]:
     """Unknowns that conditions of one term hold, and no element, of a model, nor other one has."""
     known = {u for b in matrix.blocks for u in b.unknowns}

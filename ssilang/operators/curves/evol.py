@@ -297,7 +297,12 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
             legend = f"{name} {called[node]}"
             colour = colours[len(parts) % len(colours)]
             made = CurvePart(times, values, "TEMP", name, legend, colour)
-            parts.append(made.measured("s", _unit_in_time(results, title, name)))
+            made = made.measured("s", _unit_in_time(results, title, name))
+            parts.append(made)
+            if title == "ACCE" and isinstance(fields, RecordedFields):
+                from ssilang.kernel.waves.shaken import is_shaken
+
+                object.__setattr__(made, "relative", is_shaken(fields.track.problem, name))
     return Curve(tuple(parts), workspace(call.session).title)
 
 

@@ -44,10 +44,12 @@ def one_part(call: Call, curve: Curve) -> CurvePart:
 
 
 def warn_of_motions(call: Call, *curves: Curve) -> None:
-    """Warn of velocities or displacements where accelerations are read."""
+    """Warn of velocities, displacements or relative motions where accelerations are read."""
     names = {p.ordinate_name.strip().upper() for c in curves for p in c.parts}
     for name in sorted(names & {"VITE", "DEPL"}):
         call.warn("operators.curves.no-accelerations", name=name)
+    if any(p.relative for c in curves for p in c.parts):
+        call.warn("operators.curves.accelerations-relative")
 
 
 def warn_of_steps(call: Call, curve: Curve, lowest: float) -> None:

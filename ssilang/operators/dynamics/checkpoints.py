@@ -372,7 +372,9 @@ def kept_calculation(
         raise entries.error("operators.dynamics.not-kept", index=index, reason=reason)
     steps, minutes = asked.get("PAS"), asked.get("MINUTES")
     if steps is not None and not asked.has("MINUTES"):
-        minutes = np.inf
+        minutes, count = np.inf, len(problem.times) - 1
+        if steps > count:
+            entries.warn("operators.dynamics.checkpoints-beyond-end", every=steps, count=count)
     output = run_output(entries.call.session)
     if output.checkpoints is None:
         entries.warn("operators.dynamics.nothing-kept")

@@ -9,16 +9,16 @@ import numpy as np
 
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import joint_zones
+from ssilang.kernel.interface.interface import is_macro, joint_zones
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
+from ssilang.kernel.statics.doubled import idle_nodes
 from ssilang.kernel.stepping.problem.bodies import loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
-    AXES,
     STRANGE,
     Bodies,
     against_supports,
@@ -29,9 +29,11 @@ from ssilang.kernel.stepping.problem.plausibility import (
     stiffness_contrast,
     swings,
 )
+from ssilang.kernel.waves.shaken import AXES
 from ssilang.operators.dynamics.reports import conserved
 from ssilang.operators.dynamics.shaking import warn_of_shaking
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
+from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -130,13 +132,10 @@ def _masses_alone(problem: Problem, _: Inputs) -> Told:
 
 
 def _on_supports(problem: Problem, inputs: Inputs) -> Told:
-    loads, dashpots = on_supports(problem)
-    if inputs.load is not None and len(loads):
-        names = [part.name for part in inputs.load.parts for _ in nodal_terms(part)]
-    for name in dict.fromkeys(names[k] for k in loads):
+    parts = () if inputs.load is None else inputs.load.parts
+    names = [part.name for part in parts for _ in nodal_terms(part)]
+    for name in dict.fromkeys(names[k] for k in on_supports(problem)):
         yield "operators.dynamics.load-on-supports", {"name": name}
-    if dashpots:
-        yield "operators.dynamics.dashpots-on-supports", {}
 
 
 def _loose(problem: Problem, _: Inputs) -> Told:
@@ -149,13 +148,14 @@ def _loose(problem: Problem, _: Inputs) -> Told:
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     loose = list(bodies.loose())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
-        yield "operators.dynamics.turns-away", {}
+        joints = () if problem.interface is None else problem.interface.joints
+        yield "operators.dynamics.turns-away", {"macro": any(is_macro(j.zone) for j in joints)}
     for found in loose:
         told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
         if found.pressed:
             yield "operators.dynamics.nothing-presses", told
         else:
-            yield "operators.dynamics.slides-away", told
+            yield "operators.dynamics.slides-away", told | {"joints": problem.interface is not None}
 
 
 def _swings(problem: Problem, _: Inputs) -> Told:
@@ -295,7 +295,12 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
             warn_repeated(*place, matrix, kind, inputs.stiffness)
-    for block in () if inputs.damping is None else inputs.damping.blocks:
+    damping = () if inputs.damping is None else inputs.damping.blocks
+    dashpots = [b for b in damping if b.kind == "AMORTISSEMENT"]
+    for node in idle_nodes(dashpots, inputs.stiffness)[:1].tolist():
+        told = {"node": inputs.stiffness.table.told(node)}
+        entries.warn("operators.dynamics.dashpots-on-supports", **told)
+    for block in damping:
         diagonal = np.diagonal(block.values, axis1=1, axis2=2)
         drives = diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0)
         if drives and block.kind != "AMORTISSEMENT":  # absorbing layers have parts of either sign
@@ -305,13 +310,17 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:
-    """Warn of a motion that nothing starts: no load, no first displacement or velocity."""
+    """Warn of a motion that nothing starts, and of one that starts again where another ended."""
     loading = problem.loading
     acting = loading.at(problem.times).any(axis=0)
     moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
     given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
     if not given and problem.contact is None and not entries.flag("CHARMECA"):
         entries.warn("operators.dynamics.nothing-moves")
+    energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
+    before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None
+    if isinstance(before, ListReel) and first == before.values[-1] and not problem.v.any():
+        entries.warn("operators.dynamics.begins-again", first=first)
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:

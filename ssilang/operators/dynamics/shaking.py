@@ -7,16 +7,29 @@ their imposed values are those of a translation.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.io.ground_motions.record import G
+from ssilang.kernel.base.arrays import BoolArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.plausibility import AXES
+from ssilang.kernel.waves.shaken import (
+    AXES,
+    SAME,
+    accelerations,
+    axes_of,
+    changing,
+    longest_cell,
+    shares,
+    strong_frequency,
+    translations,
+)
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -26,12 +39,11 @@ if TYPE_CHECKING:
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
-GRAVITY = 9.81  # m/s2
-GRAVITIES = (GRAVITY, 1e3 * GRAVITY)  # in metres or millimetres
+GRAVITIES = (G, 1e3 * G)  # in metres or millimetres
 STRONG = 3.0  # g; more than the ground of any earthquake but one
 WEIGHT = (0.05, 3.0)  # g; what pulls down
-SAME = 1e-6  # of a force, that is rounding
-LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made for a look
+MANY = 3  # nodes, or instants: fewer say nothing of a rule
+PART, WHOLE = 0.2, 0.8  # of what moves along another axis, at a node and in all: less is forgotten
 LEVELS = 3  # heights of a side; a base has one
 NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
 """What a curve is of, by the first letters of the name of its ordinates."""
@@ -39,7 +51,7 @@ NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP":
 
 def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
     """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
-    axes = [a for a in AXES if a in problem.numbering.unknowns]
+    axes = axes_of(problem)
     found = [] if not axes else [*_Entering(problem, inputs, axes).told(entries)]
     if (joints := problem.interface) is not None:
         found += [*_bridged(problem, joints, inputs), *_held_footings(problem, joints)]
@@ -47,27 +59,16 @@ def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
         entries.warn(code, **told)
 
 
-def _shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:
-    """What makes each of `wholes` (n, k) of `parts` (n, d): (d, k), nought where nothing does."""
-    shares = np.linalg.lstsq(parts, wholes, rcond=None)[0]
-    off = np.abs(parts @ shares - wholes).max(axis=0, initial=0.0)
-    return np.where(off > SAME * np.abs(wholes).max(axis=0, initial=0.0), 0.0, shares)
-
-
 class _Entering:
     """Motions that enter: accelerations (d, k) of the loads and of the base, nought for others."""
 
     def __init__(self, problem: Problem, inputs: Inputs, axes: list[str]) -> None:
         self.problem, self.inputs, self.axes = problem, inputs, axes
-        numbering, loading, T = problem.numbering, problem.loading, problem.constraints.T
-        along = [numbering.codes == numbering.code(a) for a in axes]
-        self.along = np.column_stack(along).astype(float)
+        loading = problem.loading
+        self.along, self.loads = translations(problem), accelerations(problem)
         self.factors = np.abs(loading.at(problem.times)).max(axis=0)
-        self.changing = np.ptp(loading.at(problem.times), axis=0) > 0.0
-        self.loads = np.zeros((len(axes), loading.forces.shape[1]))
-        if loading.forces.size < LARGE:
-            self.loads = _shares(T.T @ (problem.M @ self.along), T.T @ loading.forces)
-        self.base = _shares(problem.constraints.C @ self.along, loading.imposed * self.changing)
+        self.changing = changing(problem)
+        self.base = shares(problem.constraints.C @ self.along, loading.imposed * self.changing)
         self.shaken = np.abs(self.loads * self.changing).sum(axis=1)
 
     def told(self, entries: Entries) -> Told:
@@ -78,17 +79,17 @@ class _Entering:
         T, moved = self.problem.constraints.T, self.along @ self.base[:, self.base.any(axis=0)]
         braked, pulled = T.T @ (self.problem.C @ moved), T.T @ (self.problem.M @ moved)
         if any(
-            _shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
+            shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
-        yield from self._sides()
+        yield from chain(self._sides(), self._masses_one_way(), self._long_cells())
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load
         terms = [(p, t) for p in load.parts for t in nodal_terms(p)] if load else []
         sizes = np.linalg.norm(self.loads, axis=0) * self.factors
         units = [s for s in sizes[~self.changing] if min(abs(s / g - 1) for g in GRAVITIES) < 0.01]
-        g = GRAVITY / system.length if system else units[0] if units else np.inf
+        g = G / system.length if system else units[0] if units else np.inf
         begun = self.problem.contact or self.problem.u.any() or self.problem.v.any()
         for k, (part, _) in enumerate(terms):
             curve = part.time.parts[0] if part.time is not None else None
@@ -110,6 +111,42 @@ class _Entering:
             }.items():
                 if holds:
                     yield code, told
+
+    def _masses_one_way(self) -> Told:
+        """Masses that move along some axes, and do not weigh, or shake, along others."""
+        problem, free = self.problem, abs(self.problem.constraints.T).sum(axis=1) > ROUNDING
+        nodes, at = np.unique(problem.numbering.nodes, return_inverse=True)
+        by_node = sp.csr_array((np.ones(len(at)), (at, np.arange(len(at)))))
+        mass = np.asarray(by_node @ (self.along * (problem.M @ self.along)))
+        moves = np.asarray(by_node @ (self.along * free[:, None])) > 0.0
+        total = mass.sum(axis=0)
+        for axis, name in enumerate(self.axes):
+            forces = np.asarray(by_node @ (self.along[:, axis, None] * problem.loading.forces))
+            laden = [(f[f != 0.0], mass[f != 0.0, axis]) for f in forces.T]
+            by_mass = any(len(f) >= MANY and shares(m[:, None], f[:, None]).any() for f, m in laden)
+            less = moves[:, axis] & (mass[:, axis] < PART * mass.max(axis=1))
+            if by_mass and total[axis] < WHOLE * total.max() and less.any():
+                node = problem.numbering.table.told(int(nodes[less.argmax()]))
+                told = {"count": int(less.sum()), "node": node, "axis": name}
+                told["other"] = self.axes[int(mass[less.argmax()].argmax())]
+                yield "operators.dynamics.masses-one-way", told
+
+    def _long_cells(self) -> Told:
+        """Cells with too few of them in a wavelength of what shakes, the worst of each load."""
+        load, mass = self.inputs.load, self.inputs.mass
+        terms = [p for p in load.parts for _ in nodal_terms(p)] if load and mass else []
+        for part, along in zip(terms, (self.loads * self.changing).T, strict=False):
+            if not part.time or not along.any() or len(part.time.parts[0].abscissas) < MANY:
+                continue
+            curve = part.time.parts[0]
+            frequency = strong_frequency(curve.abscissas, curve.ordinates)
+            axis = self.axes[int(np.abs(along).argmax())]
+            assert mass is not None
+            if frequency and (found := longest_cell(self.inputs.stiffness, mass, axis, frequency)):
+                told = vars(found) | {"node": mass.table.told(found.node), "frequency": frequency}
+                told["wanted"] = found.speed / frequency / found.usual
+                yield "operators.dynamics.cells-too-long", {"name": part.name, **told}
+                return
 
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""

@@ -80,7 +80,13 @@ def _of_node_fields(
     if not others:
         if not names:
             raise call.error("operators.fields.field-empty", value)
-        return _of_arrays(call, [value.components[n].values for n in names], absolute, largest)
+        arrays = {n: value.components[n].values for n in names}
+        found = _of_arrays(call, [*arrays.values()], absolute, largest)
+        if listed is None and arrays.pop("LX", None) is not None and arrays:
+            moved = _of_arrays(call, [*arrays.values()], absolute, largest)
+            if moved != found:
+                call.warn("operators.fields.extreme-of-multipliers", value, found=found, rest=moved)
+        return found
     run = np.maximum if largest else np.minimum
     made = node_algebra.applied(value, np.abs) if absolute else value
     for other in others:

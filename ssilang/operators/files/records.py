@@ -8,7 +8,7 @@ import numpy as np
 
 from ssilang.io.ground_motions.cosmos import read_cosmos
 from ssilang.io.ground_motions.databases import read_esm, read_peer
-from ssilang.io.ground_motions.record import GroundMotion
+from ssilang.io.ground_motions.record import G, GroundMotion
 from ssilang.io.ground_motions.titled import read_titled
 from ssilang.operators.files.outputs import file_to_read
 from ssilang.operators.files.reading import LIRE
@@ -111,7 +111,7 @@ def _curve(
 _SLOW, _GAP, _STRONG = 0.2, 10.0, 50.0
 """Longest step of a record (s), longest over the median step, largest acceleration (m/s2)."""
 _ROUNDED = 2e-3  # g is 9.80665, 9.81 or 9.8
-_FACTORS = (9.81, 0.01, 0.001)
+_FACTORS = (G, 0.01, 0.001)
 """What makes m/s2 of other units; a factor of 1 leaves a record as it is."""
 
 

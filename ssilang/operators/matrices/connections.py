@@ -9,12 +9,19 @@ import numpy as np
 
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
-from ssilang.kernel.statics.cells_amiss import Solids, bent_layer, bordered_solids, hanging_nodes
+from ssilang.kernel.statics.cells_amiss import (
+    Solids,
+    bent_layer,
+    bordered_solids,
+    hanging_nodes,
+    overlapping_cells,
+)
 from ssilang.kernel.statics.doubled import (
     beside_joints,
     bodies_apart,
     doubled_supports,
     held_nowhere,
+    idle_nodes,
     repeated_cells,
     springs_apart,
 )
@@ -68,7 +75,12 @@ def warn_connections(
     zones = () if model is None else model.zones
     others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
-    found = {"operators.matrices.nodes-hang": hanging_nodes(matrix, solids)}
+    springs = [b for b in matrix.blocks if not b.zone and b.raw_nodes.shape[1] == 1]
+    found = {
+        "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
+        "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
+        "operators.matrices.springs-held": idle_nodes(springs, matrix),
+    }
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):

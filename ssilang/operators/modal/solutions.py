@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements import families
 from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
-from ssilang.operators.modal.basis import shapes_in
+from ssilang.operators.modal.basis import Shape, shapes_in
 from ssilang.operators.modal.matrices import modal_stiffness
 from ssilang.operators.modal.modes import Solution, directions
 from ssilang.operators.prelude import *
@@ -41,10 +42,28 @@ def seis(
         if not isinstance(number, int | float):
             raise call.error("operators.modal.mode-no-generalised-displacements", table)
         values[shape.mark.node] = -factor * float(number)
+    _tell_left_out(call, shapes, direction)
     nodes = np.array(sorted(values))
     part = NodeValues(nodes, np.array([values[int(n)] for n in nodes]))
     field = NodeField(shapes[0].mark.nodes, {"FALF": part}, "DISCRET")
     return Load((LoadPart("MECA", field, curve),))
+
+
+HALF = 0.5  # of the mass that moves; with less the answer is that of the rest
+
+
+def _tell_left_out(call: Call, shapes: Sequence[Shape], direction: str) -> None:
+    """Warn where modes leave out more of the mass that no support holds than they have."""
+    axis, held = _AXES.index(direction) + 1, 0.0
+    for entry in (s.entry for s in shapes):
+        along, masses = (entry.get(Mot(n)) for n in ("DEPLACEMENTS_GENERALISES", "MASSES_MOBILES"))
+        if not isinstance(masses, Table) or not isinstance(along, Table):
+            return
+        moved, mass, whole = along.get(axis), entry.get(Mot("MASSE_GENERALISEE")), masses.get(axis)
+        held += float(moved) ** 2 / float(mass) / (float(whole) or np.inf)  # type: ignore[arg-type]
+    if held < HALF:
+        told = {"share": 100.0 * held, "rest": 100.0 - 100.0 * held, "axis": direction}
+        call.warn("operators.modal.mass-left-out", **told)
 
 
 @operator("SIGS", family="modal", full_name="SIGSOL")

@@ -24,8 +24,8 @@ from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translat
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces, closed_stiffness
 from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.waves.shaken import AXES
 
-AXES = ("UX", "UY", "UZ")
 MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS, DENSE = 5000, 400  # free motions up to which a solve costs little beside the steps
 SUNK = 0.1  # of a body's size, that its joints give way
@@ -271,16 +271,13 @@ def masses_alone(problem: Problem) -> IntArray:
     return np.setdiff1d(found, nodes[rows[dashpots.row[joined]]])
 
 
-def on_supports(problem: Problem) -> tuple[IntArray, bool]:
-    """Loads that change, all on what supports hold, and whether all dashpots are there."""
+def on_supports(problem: Problem) -> IntArray:
+    """Loads that change, all on what supports hold."""
     T, forces = problem.constraints.T, problem.loading.forces
     sizes = np.abs(forces).max(axis=0, initial=0.0)
     left = np.abs(T.T @ forces).max(axis=0, initial=0.0)
-    damping = np.abs(problem.C.diagonal()).max(initial=0.0)
-    moving = problem.C @ (T @ (1.0 + np.cos(np.arange(T.shape[1]))))
-    idle = damping > 0.0 and np.abs(T.T @ moving).max(initial=0.0) <= ROUNDING * damping
     changes = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
-    return np.flatnonzero(changes & (sizes > 0.0) & (left <= ROUNDING * sizes)), bool(idle)
+    return np.flatnonzero(changes & (sizes > 0.0) & (left <= ROUNDING * sizes))
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.

@@ -1,0 +1,140 @@
+"""Which loads shake a problem, and which of its cells are too long for what they bring.
+
+A load shakes where it is the mass times an acceleration of the whole: what moves is relative to
+the ground then.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE
+
+if TYPE_CHECKING:
+    from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+    from ssilang.kernel.stepping.problem.problem import Problem
+
+AXES = ("UX", "UY", "UZ")
+SAME = 1e-6  # of a force, that is rounding
+LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made for a look
+STRONG = 0.9  # of the energy of the ground's velocity: what lies below carries the motion
+FEWER = 0.625  # of the usual cells of a wavelength: five linear ones, where each costs a tenth
+LOOKED_AT = 2000  # cells of a block
+
+
+def axes_of(problem: Problem) -> list[str]:
+    """Displacements that the problem knows."""
+    return [a for a in AXES if a in problem.numbering.unknowns]
+
+
+def translations(problem: Problem) -> FloatArray:
+    """Motions (n, d) of the whole along its axes."""
+    numbering = problem.numbering
+    return np.column_stack([numbering.codes == numbering.code(a) for a in axes_of(problem)]) * 1.0
+
+
+def shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:
+    """What makes each of `wholes` (n, k) of `parts` (n, d): (d, k), nought where nothing does."""
+    found = np.linalg.lstsq(parts, wholes, rcond=None)[0]
+    off = np.abs(parts @ found - wholes).max(axis=0, initial=0.0)
+    return np.where(off > SAME * np.abs(wholes).max(axis=0, initial=0.0), 0.0, found)
+
+
+def changing(problem: Problem) -> BoolArray:
+    """Which loads (k,) change."""
+    return np.asarray(np.ptp(problem.loading.at(problem.times), axis=0) > 0.0)
+
+
+def accelerations(problem: Problem) -> FloatArray:
+    """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others."""
+    forces, T, along = problem.loading.forces, problem.constraints.T, translations(problem)
+    if forces.size >= LARGE or not along.size:
+        return np.zeros((along.shape[1], forces.shape[1]))
+    return shares(T.T @ (problem.M @ along), T.T @ forces)
+
+
+def is_shaken(problem: Problem, name: str) -> bool:
+    """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
+    axes = axes_of(problem)
+    return name in axes and bool(
+        (accelerations(problem) * changing(problem))[axes.index(name)].any()
+    )
+
+
+def strong_frequency(times: FloatArray, values: FloatArray) -> float:
+    """Frequency (Hz) below which `STRONG` of the energy of a motion's velocities lies.
+
+    Parameters
+    ----------
+    values : array (n,)
+        Accelerations at `times` (n,), which need not be evenly apart.
+    """
+    even = np.linspace(times[0], times[-1], len(times))
+    frequencies = np.fft.rfftfreq(len(even), even[1] - even[0])[1:]
+    spectrum = np.abs(np.fft.rfft(np.interp(even, times, values)))[1:]
+    energy = np.cumsum((spectrum / frequencies) ** 2)
+    return float(frequencies[np.searchsorted(energy, STRONG * energy[-1])]) if energy[-1] else 0.0
+
+
+@dataclass(frozen=True)
+class Long:
+    """The cell with the fewest of its kind in a wavelength that goes up.
+
+    Attributes
+    ----------
+    node : int
+    height, speed : float
+        Of the cell, of shear waves in it.
+    cells, usual : float
+        That a wavelength has, and should have.
+    """
+
+    node: int
+    height: float
+    speed: float
+    cells: float
+    usual: int
+
+
+def longest_cell(stiffness: Matrix, mass: Matrix, axis: str, frequency: float) -> Long | None:
+    """The cell that is longest for shear waves of a frequency (Hz), None where all are short.
+
+    Their speed is that of the cell's matrices: `s K s / t M t` of a shear s of one and a
+    translation t.
+    """
+    heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
+    found: list[Long] = []
+    for block in stiffness.blocks:
+        if block.zone is None or is_joint(block.zone) or id(block.raw_nodes) not in heavy:
+            continue
+        kind = CELL_TYPES[block.zone.cells.cell_type]
+        if axis in block.unknowns and len({*block.unknowns}) == kind.dimension > 1:
+            found += _longest(block, heavy[id(block.raw_nodes)], axis, frequency)
+    worst = min(found, key=lambda c: c.cells / c.usual, default=None)
+    return None if worst is None or worst.cells >= FEWER * worst.usual else worst
+
+
+def _longest(
+    block: ElementMatrices, heavy: ElementMatrices, axis: str, frequency: float
+) -> list[Long]:
+    assert block.zone is not None
+    kind = CELL_TYPES[block.zone.cells.cell_type]
+    some = slice(None, None, 1 + len(block.values) // LOOKED_AT)
+    up = block.table.coordinates[block.nodes[some], kind.dimension - 1]
+    moved = np.array([u == axis for u in block.unknowns]) * 1.0
+    shear = (up - up.mean(axis=1, keepdims=True))[:, block.local] * moved
+    stiff = np.einsum("ni,nij,nj->n", shear, block.values[some], shear)
+    whole = np.einsum("i,nij,j->n", moved, heavy.values[some], moved)
+    speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
+    height, usual = np.ptp(up, axis=1), ELEMENTS_A_WAVE[kind.degree]
+    cells = np.where((speed > 0.0) & (height > 0.0), speed / frequency, np.inf)
+    cells /= np.where(height > 0.0, height, 1.0)
+    i = int(cells.argmin())
+    place = int(block.nodes[some][i, 0])
+    return [Long(place, float(height[i]), float(speed[i]), float(cells[i]), usual)]
