@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
@@ -18,9 +20,15 @@ from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
-from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
+from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
+from ssilang.kernel.stepping.problem.plausibility import solved
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.bulk import Bulk, State
+    from ssilang.kernel.stepping.problem.problem import Problem
 
 Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]
 """Criterion (m,) from parameters, stresses (m, 6), internal variables (m, k)."""
@@ -70,6 +78,38 @@ CRITERIA: dict[str, Criterion] = {
     "RH_COULOMB": _rounded_coulomb,
 }
 """By the word after PLASTIQUE."""
+
+
+FRICTIONAL = ("DRUCKER_PARFAIT", "DRUCKER_PRAGER", "RH_COULOMB")
+"""Laws that bear by pressure."""
+FAR, MOST, MANY = 5.0, 0.5, 0.1
+"""Times what points bear without pressure; shares of points that yield, and go so far."""
+
+
+def unconfined(problem: Problem, bulk: Bulk, state: State) -> tuple[str, float, float] | None:
+    """Points that forces of an elastic first step take beyond what they bear without pressure.
+
+    Returns
+    -------
+    law, share of its points, what they bear; None of bodies that have stresses, or few such points.
+    """
+    loading, T = problem.loading, problem.constraints.T
+    names, factors = [_law(z.zone) for z in bulk.zones], loading.at(problem.times[1:2])[0]
+    driven = (loading.imposed @ factors).any() or any(s.stress.any() for s in state)
+    if {*names}.isdisjoint(FRICTIONAL) or driven:
+        return None
+    tangent = bulk.respond(state, np.zeros(problem.numbering.size), problem.times[0]).tangent
+    stiffness = sp.csr_array(closed_stiffness(problem) + T.T @ tangent @ T)
+    moved = T @ solved(stiffness, T.T @ (loading.forces @ factors)[:, None])[:, 0]
+    for name, z, places, old in zip(names, bulk.zones, bulk.places, state, strict=True):
+        if name in FRICTIONAL and type(z) is PlasticPoints:
+            stress = np.einsum("mij,mj->mi", z.parameters.moduli, z.strains(moved[places]))
+            above = CRITERIA[name](z.parameters, stress, old.variables)
+            limit = -CRITERIA[name](z.parameters, old.stress, old.variables)
+            share = float((above > 0.0).mean())
+            if share > MOST and (above > FAR * limit).mean() > MANY:
+                return name, share, float(limit.max())
+    return None
 
 
 def _law(zone: Zone) -> str:

@@ -96,6 +96,17 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 
+def warn_of_confinement(entries: Entries, problem: Problem, bulk: Bulk, state: State) -> None:
+    """Warn of ground of friction that has no stress, and gets none before the loads."""
+    from ssilang.kernel.plasticity.bulk import Bulk
+    from ssilang.kernel.statics.yielding import unconfined
+
+    if type(bulk) is Bulk and (found := unconfined(problem, bulk, state)) is not None:
+        law, share, strength = found
+        told = {"law": law, "share": 100.0 * share, "strength": strength}
+        entries.warn("operators.statics.no-confinement", **told)
+
+
 def warn_of_strains(entries: Entries, displacement: NodeField | None) -> None:
     """Tell, once, of solids that strain beyond what their law holds for, by the table below."""
     finite = finite_zones(entries)

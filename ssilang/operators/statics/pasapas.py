@@ -36,6 +36,7 @@ from ssilang.operators.statics.bodies import (
     finite_bodies,
     finite_zones,
     plastic_bodies,
+    warn_of_confinement,
     warn_of_strains,
 )
 from ssilang.operators.statics.pasapas_charmeca import loaded_bodies, pressure_law, procedure_law
@@ -177,6 +178,8 @@ def _stretch(
             if path:
                 history = follow(entries, _path_run(problem, inputs, bodies, observers))
             elif made is not None:
+                if not dynamic:
+                    warn_of_confinement(work, problem, *made)
                 full = work.flag("NEWTON_COMPLET")
                 history = run_bulk(problem, *made, observers, line, dynamic, keeper, full)
             elif dynamic:

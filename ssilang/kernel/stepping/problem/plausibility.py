@@ -198,7 +198,7 @@ def swings(problem: Problem) -> list[Swing]:
     if not largest or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return []
     # held by next to nothing: a load that moves a part of what is free is seen, too
-    motions = _solved(K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest), forces)
+    motions = solved(K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest), forces)
     free = np.abs(motions).max(axis=0) * largest * WEAK > np.abs(forces).max(axis=0)
     free |= (motions * (K @ motions)).sum(axis=0) < WEAK * (K.diagonal() @ motions**2)
     found = []
@@ -216,7 +216,8 @@ def swings(problem: Problem) -> list[Swing]:
     return found
 
 
-def _solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
+def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
+    """Motions (n, k) under forces (n, k)."""
     if K.shape[0] <= DENSE:
         return np.asarray(np.linalg.solve(K.toarray(), forces), float)
     return SuperLUFactor(sp.csr_array(K), positive=False).solve(forces)
