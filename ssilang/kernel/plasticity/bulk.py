@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -147,6 +147,19 @@ class Bulk:
             for z in self.zones
         )
 
+    def entered(self, before: Bulk, state: State, time: float) -> State:
+        """A state of the same zones `before` they had these parameters: elastic strains stay."""
+        made = []
+        for i, (own, old, known) in enumerate(zip(self.zones, before.zones, state, strict=True)):
+            if i in before.free:
+                known = replace(known, free=own.spread(before.free[i](time)))
+            if own is not old:
+                change = (own.parameters.moduli - old.parameters.moduli) @ old.parameters.compliance
+                more = np.einsum("mij,mj->mi", change, known.stress)
+                known = replace(known, stress=known.stress + more)
+            made.append(known)
+        return tuple(made)
+
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent after a step `du` (n,) of displacement that ends at a time."""
         return self._answered(state, du, time, False)
@@ -172,6 +185,32 @@ class Bulk:
         beyond = tuple(f.beyond for f in found)
         answer = Answer(force, tangent, states, work, beyond=beyond, make_terms=terms)
         return answer
+
+    def predicted(self, state: State, time: float) -> Answer | None:
+        """The elastic answer to the strains without stress of a step, None where there are none.
+
+        Newton's method that set out from what they make of bodies that stay would meet the flow of
+        bodies that only expand.
+        """
+        force, parts = self.force(state), []
+        for i, free in self.free.items():
+            zone, freed = self.zones[i], self.zones[i].spread(free(time)) - state[i].free
+            if freed.any():
+                D, h = zone.parameters.moduli, np.array(zone.held, dtype=int)
+                D = D - D[:, :, h] @ np.linalg.solve(D[:, h[:, None], h], D[:, h])
+                pressed = zone.forces(np.einsum("mij,mj->mi", D, freed))
+                force -= np.bincount(self.places[i].ravel(), pressed.ravel(), self.size)
+                parts.append((i, D))
+
+        def terms() -> FloatArray:
+            data, elastic = self.terms.blank(), dict(parts)
+            for i, zone in enumerate(self.zones):
+                D = elastic[i] if i in elastic else zone.parameters.moduli
+                self.terms.add(data, i, zone.stiffness(D))
+            return data
+
+        answer = Answer(force, lambda: self.terms.matrix(answer.terms), state, 0.0, make_terms=terms)
+        return answer if parts else None
 
     def _respond(
         self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray, whole: bool
