@@ -137,15 +137,7 @@ class Bulk:
 
     def unloaded(self) -> State:
         """The state of virgin material."""
-        return tuple(
-            PointState(
-                np.zeros((z.count, 6)),
-                np.zeros((z.count, 6)),
-                np.zeros((z.count, 6)),
-                np.zeros((z.count, len(z.law.variables))),
-            )
-            for z in self.zones
-        )
+        return tuple(map(_virgin, self.zones))
 
     def entered(self, before: Bulk, state: State, time: float) -> State:
         """A state of the same zones `before` they had these parameters: elastic strains stay."""
@@ -192,25 +184,28 @@ class Bulk:
         Newton's method that set out from what they make of bodies that stay would meet the flow of
         bodies that only expand.
         """
-        force, parts = self.force(state), []
-        for i, free in self.free.items():
-            zone, freed = self.zones[i], self.zones[i].spread(free(time)) - state[i].free
-            if freed.any():
-                D, h = zone.parameters.moduli, np.array(zone.held, dtype=int)
-                D = D - D[:, :, h] @ np.linalg.solve(D[:, h[:, None], h], D[:, h])
-                pressed = zone.forces(np.einsum("mij,mj->mi", D, freed))
-                force -= np.bincount(self.places[i].ravel(), pressed.ravel(), self.size)
-                parts.append((i, D))
+        force, moduli, strained = self.force(state), [], False
+        for i, zone in enumerate(self.zones):
+            D, h = zone.parameters.moduli, np.array(zone.held, dtype=int)
+            D = D - D[:, :, h] @ np.linalg.solve(D[:, h[:, None], h], D[:, h])
+            moduli.append(D)
+            if i in self.free:
+                freed = zone.spread(self.free[i](time)) - state[i].free
+                pressed = zone.forces(np.einsum("mij,mj->mi", D, freed)).ravel()
+                force -= np.bincount(self.places[i].ravel(), pressed, self.size)
+                strained = strained or bool(freed.any())
 
         def terms() -> FloatArray:
-            data, elastic = self.terms.blank(), dict(parts)
-            for i, zone in enumerate(self.zones):
-                D = elastic[i] if i in elastic else zone.parameters.moduli
+            data = self.terms.blank()
+            for i, (zone, D) in enumerate(zip(self.zones, moduli, strict=True)):
                 self.terms.add(data, i, zone.stiffness(D))
             return data
 
-        answer = Answer(force, lambda: self.terms.matrix(answer.terms), state, 0.0, make_terms=terms)
-        return answer if parts else None
+        def tangent() -> sp.csr_array:
+            return self.terms.matrix(answer.terms)
+
+        answer = Answer(force, tangent, state, 0.0, make_terms=terms)
+        return answer if strained else None
 
     def _respond(
         self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray, whole: bool
@@ -317,6 +312,11 @@ class Bulk:
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""
         return np.zeros(self.size)
+
+
+def _virgin(zone: PlasticPoints) -> PointState:
+    nothing = np.zeros((zone.count, 6))
+    return PointState(nothing, nothing, nothing, np.zeros((zone.count, len(zone.law.variables))))
 
 
 def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> ZonePass | None:

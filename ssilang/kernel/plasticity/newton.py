@@ -102,8 +102,8 @@ class BulkSolver(FullNewtonSolver):
             if outcome.turns > 0:
                 return outcome
         held = self.constraints.particular(dd)
-        still = type(self.bulk) is not Bulk
-        elastic = None if still else self.bulk.predicted(self.state, self.time)
+        free = type(self.bulk) is Bulk and self.bulk.free
+        elastic = self.bulk.predicted(self.state, self.time) if free else None
         for answer in (None,) if elastic is None else (elastic, None):
             known = answer is None and not held.any()
             start = (held, None) if known else self._predicted(motion, r, held, gap, answer)

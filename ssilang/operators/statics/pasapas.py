@@ -99,10 +99,14 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
                 _say_model(entries, work, stage, number)
                 if ends:
                     break
-                start, times, saved = _onward(entries, work, times, saved, stage.steps, state, before)
+                start, times, saved = _onward(
+                    entries, work, times, saved, stage.steps, state, before
+                )
             except ChangedCalculation as change:
                 state = entries.get("ESTIMATION")
-                start, times, saved = _onward(entries, work, times, saved, change.step, state, before)
+                start, times, saved = _onward(
+                    entries, work, times, saved, change.step, state, before
+                )
                 times, saved = _other_times(entries, times, saved)
     except StopCalculation:
         pass

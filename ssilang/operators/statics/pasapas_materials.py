@@ -126,5 +126,7 @@ def offsets_of(
 
 def _covered(zone: Zone, material: CellField) -> bool:
     """Whether all cells of a zone have characteristics."""
-    rows = [rows for _, rows in zone_field(zone, material).parts]
-    return any(r is None for r in rows) or bool(rows and (np.max(rows, axis=0) >= 0).all())
+    known = np.zeros(len(zone.cells), bool)
+    for _, rows in zone_field(zone, material).parts:
+        known |= True if rows is None else rows >= 0
+    return bool(known.all())

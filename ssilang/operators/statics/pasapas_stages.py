@@ -61,11 +61,11 @@ def stage_of(work: Entries, times: FloatArray) -> Stage:
     while steps < len(times) - 1 and _same(first, _at(work, parts, float(times[steps + 1]))):
         steps += 1
     table = working_table(work.table)
+    staged = Entries(work.call, table, work.procedure)
     for word, values in first.items():
         table.set(Mot(STAGED[word][0]), _joined(work, word, values))
     rest = tuple(p for p in every if p not in parts)
-    material = table.get("CARACTERISTIQUES")
-    varying = Varying(table.get("MODELE"), material, rest)
+    varying = Varying(staged.get("MODELE"), staged.get("CARACTERISTIQUES"), rest)
     fields, n = varying.fields(float(times[1])), 1
     while n < steps and same_fields(fields, varying.fields(float(times[n + 1]))):
         n += 1
@@ -76,7 +76,7 @@ def stage_of(work: Entries, times: FloatArray) -> Stage:
     table.set(Mot("CARACTERISTIQUES"), varying.at(fields))
     acting = [p for p in varying.acting if not parts or _acts(p, times[: n + 1])]
     table.set(Mot("CHARGEMENT"), Load((*acting, *reference)))
-    return Stage(Entries(work.call, table, work.procedure), n)
+    return Stage(staged, n)
 
 
 def _acts(part: LoadPart, times: FloatArray) -> bool:
