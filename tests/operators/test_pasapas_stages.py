@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 LAYERS = """
 OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
@@ -100,7 +101,7 @@ def test_supports_that_come_hold_what_has_moved(tmp_path):
     assert stress(table, 5) == pytest.approx([-1000.0, -1000.0], rel=1e-9)
 
 
-def test_characteristics_in_time_act_on_what_is_added(tmp_path):
+def test_characteristics_in_time_keep_elastic_strains(tmp_path):
     text = (
         LAYERS
         + """
@@ -109,9 +110,74 @@ def test_characteristics_in_time_act_on_what_is_added(tmp_path):
     TT . 2 = 1.5 ; TT . 3 = 9. ; TM . 3 = TM . 2 ;
     T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MATE' TT TM) ;
     PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 5) 'UY' P1 ;
+    V = EXTR (T . 'DEPLACEMENTS' . 1) 'UY' P1 ;
     """
     )
-    assert run(text, tmp_path)("U") == pytest.approx(-1.5e-3, rel=1e-9)
+    find = run(text, tmp_path)
+    assert find("V") == pytest.approx(-1e-3, rel=1e-9)
+    assert find("U") == pytest.approx(-2000.0 / 2e6, rel=1e-9)
+
+
+WARM = """{mesh} M1 = MODE S 'MECANIQUE' {law} ;
+EY = EVOL 'MANU' 'T' (PROG 0. 100.) 'YOUN' (PROG 2.E11 1.E11) ;
+EA = NUAG 'COMP' 'T' 0. 100. 'COMP' 'ALPH' 1.E-5 2.E-5 ;
+ES = EVOL 'MANU' 'T' (PROG 0. 100.) 'SIGY' (PROG 1.E8 5.E7) ;
+MA = MATE M1 'YOUN' EY 'NU' 0. 'ALPH' EA 'TREF' 20. 'TALP' 10. {more} ;
+E1 = EVOL 'MANU' (PROG 0. 1. 2. 3. 4.) (PROG 20. 60. 100. 60. 20.) ; E2 = E1 ** 0 ;
+T = TABL ; T . 'MODELE' = M1 ; T . 'CARACTERISTIQUES' = MA ; T . 'BLOCAGES_MECANIQUES' = {held} ;
+T . 'CHARGEMENT' = (CHAR 'T' (MANU 'CHPO' S 'T' 1.) E1) ET (CHAR 'MECA' {force} E2) ;
+T . 'TEMPS_CALCULES' = PROG 0. 1. 2. 3. 4. ; PASAPAS T ;
+"""
+PLANE = "OPTI DIME 2 MODE PLAN CONT ELEM {e} ; O = 0. 0. ; "
+BARS = PLANE.format(e="SEG2") + "L = 2. 0. ; S = DROI 2 O L ; "
+QUADS = PLANE.format(e="QUA4") + "K = DROI 1 O (0. 1.) ; S = K TRAN 2 (2. 0.) ; L = COTE 3 S ; "
+SPACE = "OPTI DIME 3 ELEM {e} ; O = 0. 0. 0. ; K = DROI 1 O (0. 1. 0.) ; "
+BRICKS = SPACE.format(e="CUB8") + (
+    "K = K TRAN 1 (0. 0. 1.) ; S = K VOLU TRAN 2 (2. 0. 0.) ; L = FACE 2 S ; "
+)
+SHELLS = SPACE.format(e="TRI3") + "S = K TRAN 2 (2. 0. 0.) ; L = COTE 3 S ; "
+HELD = {BARS: "(BLOQ 'UX' O) ET (BLOQ 'UY' S)", QUADS: "(BLOQ 'UX' K) ET (BLOQ 'UY' O)",
+        BRICKS: "(BLOQ 'UX' K) ET (BLOQ 'UY' O) ET (BLOQ 'UZ' (O ET (K POIN 'PROC' (0. 1. 0.))))",
+        SHELLS: "(BLOQ 'UX' K) ET (BLOQ 'UY' O) ET (BLOQ 'UZ' 'ROTA' S)"}  # fmt: skip
+
+
+@together(
+    "mesh, element, more, size",
+    [
+        (BARS, "BARR", "'SECT' 0.5", 0.5),
+        (BARS, "POUT", "'SECT' 0.5 'INRZ' 0.1 'DZ' 0.1", 0.5),
+        (QUADS, "", "'DIM3' 0.5", 1.0),
+        (BRICKS, "", "", 1.0),
+        (SHELLS, "DKT", "'EPAI' 0.5", 0.5),
+    ],
+)
+@pytest.mark.parametrize("plastic", [False, True])
+@pytest.mark.parametrize("stuck", [False, True])
+def test_bars_whose_characteristics_depend_on_temperature(
+    mesh, element, more, size, plastic, stuck, tmp_path
+):
+    """Pulled by 30 MPa, or held at both ends: stresses are E(T) (strain - thermal - plastic)."""
+    law = f"'ELASTIQUE' {PLASTIC[11:] if plastic else ''} {element}"
+    held = HELD[mesh] + " ET (BLOQ 'UX' L)" * stuck
+    flat = mesh in (BARS, QUADS)
+    force = f"(FORC ({'1.5E7 0.' if flat else '1.5E7 0. 0.' if size < 1 else '3.E7 0. 0.'}) L)"
+    said = {"mesh": mesh, "law": law, "held": held, "force": force}
+    find = ran(WARM.format(more=more + " 'SIGY' ES" * plastic, **said),
+               output_directory=tmp_path).session.root.find  # fmt: skip
+    left, wanted, found = 0.0, [], []
+    for i, t in enumerate([60.0, 100.0, 60.0, 20.0], start=1):
+        young, alpha, limit = 2e11 - 1e9 * t, 1e-5 + 1e-7 * t, 1e8 - 5e5 * t
+        free = alpha * (t - 10.0) - 1.2e-5 * 10.0
+        sigma = -young * (free + left) if stuck else 3e7
+        if plastic and abs(sigma) > limit:
+            sigma = np.sign(sigma) * limit
+            left = -free - sigma / young
+        stresses = find("T").get("CONTRAINTES").get(i).blocks[0].components
+        u = find("T").get("DEPLACEMENTS").get(i).components["UX"].values.max()
+        along = sum(v.mean() for n, v in stresses.items() if n in ("EFFX", "SMXX", "N11", "N22"))
+        found += [along / size, 1e9 * u * (not stuck)]
+        wanted += [sigma, 2e9 * (sigma / young + free) * (not stuck)]
+    np.testing.assert_allclose(found, wanted, rtol=1e-8, atol=1.0)
 
 
 def test_a_load_of_models_that_holds_fields_is_refused():

@@ -85,7 +85,7 @@ def family_of(zone: Zone) -> ElementFamily:
     return family
 
 
-def _moduli(zone: Zone, material: ZoneField, support: Support) -> FloatArray:
+def moduli_of(zone: Zone, material: ZoneField, support: Support) -> FloatArray:
     """Moduli from a field of Hooke matrices if there is one, else from parameters."""
     given = moduli_from_field(zone, material, support)
     return family_of(zone).moduli(zone, material, support) if given is None else given
@@ -109,7 +109,7 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
     whole = family.whole_matrices(zone, parameters, "RIGIDITE")
     if whole is not None:
         return element_matrices(zone, whole[1], whole[0], "RIGIDITE")
-    moduli = _moduli(zone, parameters, "RIGIDITE")
+    moduli = moduli_of(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)
     made = element_matrices(zone, family.layout(zone), values, "RIGIDITE")
     return replace(made, viscous="VISQ" in parameters)
@@ -194,7 +194,7 @@ def strain(
 def stress(zone: Zone, material: CellField, displacement: NodeField) -> CellFieldBlock:
     """Elastic stresses (section forces for bars and beams) at the points of 'STRESSES'."""
     family, parameters = family_of(zone), zone_field(zone, material)
-    moduli = _moduli(zone, parameters, "STRESSES")
+    moduli = moduli_of(zone, parameters, "STRESSES")
     values = family.stress_values(zone, displacement, moduli, parameters)
     return cell_block(zone, family.stress_names(zone), values)
 
@@ -202,7 +202,7 @@ def stress(zone: Zone, material: CellField, displacement: NodeField) -> CellFiel
 def elastic_stress(zone: Zone, material: CellField, strains: CellField) -> CellFieldBlock:
     """Stresses of given strains."""
     family, parameters = family_of(zone), zone_field(zone, material)
-    moduli = _moduli(zone, parameters, "STRESSES")
+    moduli = moduli_of(zone, parameters, "STRESSES")
     values = apply_moduli(moduli, components_of(zone, strains, family.strain_names(zone)))
     return cell_block(zone, family.stress_names(zone), values)
 
@@ -226,7 +226,7 @@ def compliance_of(zone: Zone, parameters: ZoneField) -> FloatArray:
     family = family_of(zone)
     if isinstance(family, Solid) and "MAHO" not in parameters:
         return solid_compliance(zone, parameters, "STRESSES")
-    return inverted(zone, _moduli(zone, parameters, "STRESSES"))
+    return inverted(zone, moduli_of(zone, parameters, "STRESSES"))
 
 
 def internal_forces(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -137,15 +137,20 @@ class Bulk:
 
     def unloaded(self) -> State:
         """The state of virgin material."""
-        return tuple(
-            PointState(
-                np.zeros((z.count, 6)),
-                np.zeros((z.count, 6)),
-                np.zeros((z.count, 6)),
-                np.zeros((z.count, len(z.law.variables))),
-            )
-            for z in self.zones
-        )
+        return tuple(map(_virgin, self.zones))
+
+    def entered(self, before: Bulk, state: State, time: float) -> State:
+        """A state of the same zones `before` they had these parameters: elastic strains stay."""
+        made = []
+        for i, (own, old, known) in enumerate(zip(self.zones, before.zones, state, strict=True)):
+            if i in before.free:
+                known = replace(known, free=own.spread(before.free[i](time)))
+            if own is not old:
+                change = (own.parameters.moduli - old.parameters.moduli) @ old.parameters.compliance
+                more = np.einsum("mij,mj->mi", change, known.stress)
+                known = replace(known, stress=known.stress + more)
+            made.append(known)
+        return tuple(made)
 
     def respond(self, state: State, du: FloatArray, time: float) -> Answer:
         """Forces and tangent after a step `du` (n,) of displacement that ends at a time."""
@@ -172,6 +177,35 @@ class Bulk:
         beyond = tuple(f.beyond for f in found)
         answer = Answer(force, tangent, states, work, beyond=beyond, make_terms=terms)
         return answer
+
+    def predicted(self, state: State, time: float) -> Answer | None:
+        """The elastic answer to the strains without stress of a step, None where there are none.
+
+        Newton's method that set out from what they make of bodies that stay would meet the flow of
+        bodies that only expand.
+        """
+        force, moduli, strained = self.force(state), [], False
+        for i, zone in enumerate(self.zones):
+            D, h = zone.parameters.moduli, np.array(zone.held, dtype=int)
+            D = D - D[:, :, h] @ np.linalg.solve(D[:, h[:, None], h], D[:, h])
+            moduli.append(D)
+            if i in self.free:
+                freed = zone.spread(self.free[i](time)) - state[i].free
+                pressed = zone.forces(np.einsum("mij,mj->mi", D, freed)).ravel()
+                force -= np.bincount(self.places[i].ravel(), pressed, self.size)
+                strained = strained or bool(freed.any())
+
+        def terms() -> FloatArray:
+            data = self.terms.blank()
+            for i, (zone, D) in enumerate(zip(self.zones, moduli, strict=True)):
+                self.terms.add(data, i, zone.stiffness(D))
+            return data
+
+        def tangent() -> sp.csr_array:
+            return self.terms.matrix(answer.terms)
+
+        answer = Answer(force, tangent, state, 0.0, make_terms=terms)
+        return answer if strained else None
 
     def _respond(
         self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray, whole: bool
@@ -278,6 +312,11 @@ class Bulk:
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""
         return np.zeros(self.size)
+
+
+def _virgin(zone: PlasticPoints) -> PointState:
+    nothing = np.zeros((zone.count, 6))
+    return PointState(nothing, nothing, nothing, np.zeros((zone.count, len(zone.law.variables))))
 
 
 def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> ZonePass | None:

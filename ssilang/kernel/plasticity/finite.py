@@ -19,7 +19,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.families import _moduli, family_of, integration_weights
+from ssilang.kernel.elements.families import family_of, integration_weights, moduli_of
 from ssilang.kernel.elements.family import cell_block, per_cell
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor
 from ssilang.kernel.elements.solids.kinematics import harmonic
@@ -98,7 +98,7 @@ def finite_plane_shell(zone: Zone, material: CellField, points: int) -> FinitePl
     operator = family.strain_operator(zone, parameters, "STRESSES", whole)
     carried = np.swapaxes(beam_frame(zone, parameters).rotation(zone), 1, 2) @ CARRIED
     strains = np.einsum("cspm,cmi->cspi", operator.matrix, carried)
-    D = per_cell(_moduli(zone, parameters, "STRESSES"), whole)
+    D = per_cell(moduli_of(zone, parameters, "STRESSES"), whole)
     D = np.broadcast_to(D, (len(strains), points, *D.shape[2:]))
     seen = np.einsum("cpst,ctpi->cspi", D, strains)
     held = np.moveaxis(strains * operator.weights[:, None, :, None], 3, 1)
@@ -290,7 +290,7 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
         return finite_plane_shell(zone, material, weights.shape[1])
     if is_facet_shell(zone):
         return finite_plate(zone, material, weights.shape[1])
-    moduli = _moduli(zone, parameters, "STRESSES")
+    moduli = moduli_of(zone, parameters, "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))
         ends = zone.cells.nodes.coordinates[zone.cells.connectivity][..., :d]

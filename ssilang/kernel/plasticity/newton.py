@@ -102,18 +102,31 @@ class BulkSolver(FullNewtonSolver):
             if outcome.turns > 0:
                 return outcome
         held = self.constraints.particular(dd)
-        start, pushed = self._predicted(motion, r, held, gap) if held.any() else (held, None)
-        return self._newton(motion, r, start, gap, pushed)
+        free = type(self.bulk) is Bulk and self.bulk.free
+        elastic = self.bulk.predicted(self.state, self.time) if free else None
+        for answer in (None,) if elastic is None else (elastic, None):
+            known = answer is None and not held.any()
+            start = (held, None) if known else self._predicted(motion, r, held, gap, answer)
+            outcome = self._newton(motion, r, start[0], gap, start[1])
+            if outcome.turns > 0:
+                break
+        return outcome
 
     def _predicted(
-        self, motion: Motion, r: FloatArray, held: FloatArray, gap: FloatArray
+        self,
+        motion: Motion,
+        r: FloatArray,
+        held: FloatArray,
+        gap: FloatArray,
+        answer: Answer | None = None,
     ) -> tuple[FloatArray, FloatArray | None]:
         """Increment (n,) that moves the supports by `held` with the tangents of the start.
 
         Support displacements on bodies that stay behind would strain what lies next to the
         supports far beyond what equilibrium does, and Newton's method would set out from there.
+        `answer`, where given, is that of the bodies.
         """
-        now = self._trial(motion, r, np.zeros_like(held), motion.contact.copy())
+        now = self._trial(motion, r, np.zeros_like(held), motion.contact.copy(), answer)
         try:
             step, pushed = self._corrected(motion, now, gap, held)
         except SingularFactorError:
@@ -191,10 +204,11 @@ class BulkSolver(FullNewtonSolver):
         return found
 
     def _trial(
-        self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray
-    ) -> BulkTrial:
+        self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray,
+        answer: Answer | None = None,
+    ) -> BulkTrial:  # fmt: skip
         joints = new_trial(motion.w.shape, len(motion.f))
-        answer = self.bulk.respond(self.state, du, self.time)
+        answer = answer or self.bulk.respond(self.state, du, self.time)
         K, force = self._joints(motion, du, joints)
         linear = self.A @ du
         free = r - linear - force - self.share * (answer.force - self.force)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.elements.families import elastic_stress, family_of
@@ -95,62 +96,50 @@ def split_strains(
     if load is None or not any(p.name.strip() in FREE for p in load.parts):
         return load, []
     kept = [p for p in load.parts if p.name.strip() not in FREE]
-    stresses: list[ThermalStress] = []
-    for zone, material in zones:
-        if not is_joint(zone):
-            stresses += _thermal_stresses(load, zone, material)
-        stresses += _stresses_of_given(load, zone, material)
+    stresses = [
+        ThermalStress(zone, _restrained(zone, material, strain), curve)
+        for zone, material in zones
+        for strain, curve in free_terms(load, zone, material)
+    ]
     parts = [_force(s, _of(zones, s.zone)) for s in stresses]
     return Load((*kept, *parts)), stresses
 
 
-def _terms(load: Load, name: str) -> list[tuple[object, TimeCurve]]:
-    return [t for p in load.parts if p.name.strip() == name for t in terms_of(p)]
+def free_terms(
+    load: Load | None, zone: Zone, material: CellField
+) -> list[tuple[FloatArray, TimeCurve]]:
+    """Strains (n_cells, n_strains, n_points) without stress, each with its curve in time.
 
-
-def _thermal_stresses(load: Load, zone: Zone, material: CellField) -> list[ThermalStress]:
-    """Those of the reference temperature, and of each field's difference from it."""
-    terms = _terms(load, "T")
-    if not terms:
-        return []
-    reference = _restrained(zone, material, None)
-    stresses = [ThermalStress(zone, reference, (np.zeros(1), np.ones(1)))]
-    for field, curve in terms:
+    Those of T = 0, what each field of temperatures changes them by, and given ones (DEFI).
+    """
+    found: list[tuple[FloatArray, TimeCurve]] = []
+    warm = [] if is_joint(zone) else _terms(load, "T")
+    if warm:
+        nodes = np.unique(zone.cells.connectivity)
+        cold = NodeField(zone.cells.nodes, {"T": NodeValues(nodes, np.zeros(len(nodes)))})
+        reference = thermal_strain(zone, material, cold)
+        found.append((reference, (np.zeros(1), np.ones(1))))
+    for field, curve in warm:
         if not isinstance(field, NodeField | CellField):
             raise FieldError("kernel.statics.load-needs-field-temperatures")
-        whole = _restrained(zone, material, field)
-        change = {k: v - reference.components[k] for k, v in whole.components.items()}
-        block = CellFieldBlock(whole.cells, change, whole.support, whole.element, whole.constituent)
-        stresses.append(ThermalStress(zone, block, curve))
-    return stresses
+        found.append((thermal_strain(zone, material, field) - reference, curve))
+    given = [(f, c) for f, c in _terms(load, "DEFI") if isinstance(f, CellField)]  # checked before
+    return [*found, *((given_strain(zone, field), curve) for field, curve in given)]
 
 
-def _stresses_of_given(load: Load, zone: Zone, material: CellField) -> list[ThermalStress]:
-    names = family_of(zone).strain_names(zone)
-    stresses = []
-    for field, curve in _terms(load, "DEFI"):
-        if isinstance(field, CellField):  # checked before
-            strain = cell_block(zone, names, given_strain(zone, field))
-            block = elastic_stress(zone, material, CellField((strain,), "DEFORMATIONS"))
-            stresses.append(ThermalStress(zone, block, curve))
-    return stresses
+def _terms(load: Load | None, name: str) -> list[tuple[object, TimeCurve]]:
+    parts = () if load is None else load.parts
+    return [t for p in parts if p.name.strip() == name for t in terms_of(p)]
+
+
+def _restrained(zone: Zone, material: CellField, strain: FloatArray) -> CellFieldBlock:
+    """Stress of a strain that is held back."""
+    block = cell_block(zone, family_of(zone).strain_names(zone), strain)
+    return elastic_stress(zone, material, CellField((block,), "DEFORMATIONS"))
 
 
 def _of(zones: list[tuple[Zone, CellField]], zone: Zone) -> CellField:
     return next(material for z, material in zones if z is zone)
-
-
-def _restrained(
-    zone: Zone, material: CellField, field: NodeField | CellField | None
-) -> CellFieldBlock:
-    """Stress D ALPH (T - TALP); of T = 0 without a field."""
-    if field is None:
-        nodes = np.unique(zone.cells.connectivity)
-        zero = {"T": NodeValues(nodes, np.zeros(len(nodes)))}
-        field = NodeField(zone.cells.nodes, zero)
-    names = family_of(zone).strain_names(zone)
-    strain = cell_block(zone, names, thermal_strain(zone, material, field))
-    return elastic_stress(zone, material, CellField((strain,), "DEFORMATIONS"))
 
 
 def _force(stress: ThermalStress, material: CellField) -> LoadPart:

@@ -290,22 +290,24 @@ _TITLES: dict[str, tuple[str, Support]] = {
 }
 
 
+_NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
+    "DEPLACEM": lambda zone: tuple(dict.fromkeys(family_of(zone).layout(zone).unknowns)),
+    "FORCES": lambda zone: tuple(dict.fromkeys(family_of(zone).layout(zone).duals)),
+    "TEMPERAT": lambda zone: ("T",),
+    "GRADIENT": lambda zone: names_of_gradient(zone),
+    "CONTRAIN": lambda zone: family_of(zone).stress_names(zone),
+    "DEFORMAT": lambda zone: family_of(zone).strain_names(zone),
+    "DEFINELA": lambda zone: family_of(zone).strain_names(zone),
+    "PRINCIPA": lambda zone: PRINCIPAL,
+    "MATERIAU": lambda zone: material_names(zone).all,
+    "CARACTER": lambda zone: geometric_names(zone).all,
+    "VARINTER": lambda zone: variable_names(zone) or ("EPSE",),
+}
+"""Names of components in a zone, by the word for a kind of field."""
+
+
 def _names(zone: Zone, what: str) -> tuple[str, ...]:
-    family = family_of(zone)
-    tables: dict[str, Callable[[], tuple[str, ...]]] = {
-        "DEPLACEM": lambda: tuple(dict.fromkeys(family.layout(zone).unknowns)),
-        "FORCES": lambda: tuple(dict.fromkeys(family.layout(zone).duals)),
-        "TEMPERAT": lambda: ("T",),
-        "GRADIENT": lambda: names_of_gradient(zone),
-        "CONTRAIN": lambda: family.stress_names(zone),
-        "DEFORMAT": lambda: family.strain_names(zone),
-        "DEFINELA": lambda: family.strain_names(zone),
-        "PRINCIPA": lambda: PRINCIPAL,
-        "MATERIAU": lambda: material_names(zone).all,
-        "CARACTER": lambda: geometric_names(zone).all,
-        "VARINTER": lambda: variable_names(zone) or ("EPSE",),
-    }
-    return tables[what]() if what in tables else ("SCAL",)
+    return _NAMES[what](zone) if what in _NAMES else ("SCAL",)
 
 
 @operator(

@@ -37,7 +37,7 @@ def _varying(field: CellField) -> ListMots:
     )
 
 
-def _depended_on(field: CellField) -> ListMots:
+def depended_on(field: CellField) -> ListMots:
     """Names of the abscissas of curves, and of the columns of clouds but the last."""
     held = [v for b in field.blocks for a in b.components.values() if a.dtype == object
             for v in {id(x): x for x in a.ravel()}.values()]  # fmt: skip
@@ -69,7 +69,7 @@ _OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
     ),
     "CONS": lambda field, what: ListMots([b.constituent for b in _restricted(field, what)]),
     "COVA": lambda field, what: _varying(field),
-    "DEVA": lambda field, what: _depended_on(field),
+    "DEVA": lambda field, what: depended_on(field),
     "NBZO": lambda field, what: len({id(b.cells) for b in field.blocks}),
 }
 

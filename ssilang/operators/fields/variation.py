@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.curves.algebra import interpolated
+from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_field import Support
@@ -47,9 +49,9 @@ def vari(
 ) -> CellField:
     """Evaluate a law in cells."""
     part = one_part(call, curve)
-    placed = _placed(model, field, cast(Support, support))
-    name = argument_name(cell_algebra.component_names(placed), part)
-    one = cell_algebra.extracted(placed, [name], ["SCAL"])
+    at_points = placed(model, field, cast(Support, support))
+    name = argument_name(cell_algebra.component_names(at_points), part)
+    one = cell_algebra.extracted(at_points, [name], ["SCAL"])
     made = cell_algebra.applied(one, lambda v: interpolated(part.abscissas, part.ordinates, v))
     return CellField(made.blocks, "SCALAIRE")
 
@@ -69,7 +71,8 @@ def vari_at_nodes(
     return node_algebra.rebuilt(field, {name or "SCAL": NodeValues(given.nodes, values)})
 
 
-def _placed(model: Model, field: NodeField | CellField, support: Support) -> CellField:
+def placed(model: Model, field: NodeField | CellField, support: Support) -> CellField:
+    """A field at the points of a support of a model's cells."""
     if isinstance(field, NodeField):
         return cells_of_nodal(model, field, support)
     return moved(model, field, support, None)
@@ -83,36 +86,91 @@ def vari_of_parameters(
     support: str = _SUPPORT,
     title: str | None = Opt("MOT", en="sub-type of the result"),
 ) -> CellField:
-    """Parameters given by curves as numbers."""
+    """Parameters given by curves and clouds as numbers."""
     at = cast(Support, support)
-    fields = _placed(model, given, at)
-    blocks = [_evaluated(block, fields, at) for block in laws.blocks]
-    return CellField(tuple(blocks), laws.title if title is None else title.rstrip())
+    made = evaluated(laws, placed(model, given, at), at)
+    return CellField(made.blocks, laws.title if title is None else title.rstrip())
+
+
+def evaluated(laws: CellField, fields: CellField, support: Support) -> CellField:
+    """Parameters as numbers where their laws are functions of some fields at the same points.
+
+    A law is a curve over a component of the fields, or a cloud: columns of such components, then
+    numbers, curves over one more component, or curves that are the parameter themselves (ECRO).
+    Between rows of a cloud values are linear, beyond its ends constant.
+    """
+    return CellField(tuple(_evaluated(b, fields, support) for b in laws.blocks), laws.title)
 
 
 def _evaluated(block: CellFieldBlock, fields: CellField, support: Support) -> CellFieldBlock:
     if not any(v.dtype == object for v in block.components.values()):
         return block
-    given = next((b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)), None)
-    if given is None:
+    given = [b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)]
+    if not given:
         raise FieldError("operators.fields.parameters-and-fields-apart")
-    made: dict[str, NDArray[Any]] = {}
-    for name, values in block.components.items():
-        made[name] = _numbers(name, values, given) if values.dtype == object else values
-    return CellFieldBlock(block.cells, made, support, given.element, block.constituent)
+    known = {n: np.asarray(v, dtype=float) for b in given for n, v in b.components.items()}
+    made = {
+        name: _values(values, known) if values.dtype == object else values
+        for name, values in block.components.items()
+    }
+    return CellFieldBlock(block.cells, made, support, given[0].element, block.constituent)
 
 
-def _numbers(name: str, laws: NDArray[Any], given: CellFieldBlock) -> NDArray[Any]:
-    """Values (n_cells, n_points) of laws (n_cells, 1) at those of the fields."""
-    n_cells, n_points = len(given.cells), max(v.shape[1] for v in given.components.values())
-    column = np.broadcast_to(laws[:, :1], (n_cells, 1))[:, 0]
-    found = np.empty((n_cells, n_points))
-    for law in {id(v): v for v in column}.values():
-        if not isinstance(law, Curve):
-            return laws
-        part = law.parts[0]
-        x = given.components[argument_name(list(given.components), part)]
-        rows = np.array([v is law for v in column])
-        values = interpolated(part.abscissas, part.ordinates, np.asarray(x, dtype=float))
-        found[rows] = np.broadcast_to(values, (n_cells, n_points))[rows]
-    return found
+def _values(laws: NDArray[Any], known: dict[str, FloatArray]) -> NDArray[Any]:
+    """Values (n_cells, n_points) of laws (n_cells, 1); the laws where nothing known says them."""
+    shape = np.broadcast_shapes(laws[:, :1].shape, *(v.shape for v in known.values()))
+    column = np.broadcast_to(laws[:, :1], (shape[0], 1))[:, 0]
+    found = {id(law): (law, _of_law(law, known, shape)) for law in column}
+    if all(values.dtype == object and values.flat[0] is law for law, values in found.values()):
+        return laws
+    kind = np.result_type(*(values.dtype for _, values in found.values()))
+    made = np.empty(shape, dtype=kind)
+    for law, values in found.values():
+        rows = np.array([one is law for one in column])
+        made[rows] = values[rows]
+    return made
+
+
+def _of_law(law: Any, known: dict[str, FloatArray], shape: tuple[int, ...]) -> NDArray[Any]:
+    if isinstance(law, Cloud) and next(iter(law.columns)) in known:
+        first, *rest = law.columns
+        levels, place = np.unique(law.numbers(first), return_inverse=True)
+        cuts = (law.rows(np.flatnonzero(place == i).tolist()) for i in range(len(levels)))
+        inner = [c.columns[rest[0]][0] if len(rest) == 1 else
+                 Cloud({n: c.columns[n] for n in rest}) for c in cuts]  # fmt: skip
+        x = np.broadcast_to(known[first], shape)
+        return _between(levels, [_of_law(one, known, shape) for one in inner], x)
+    part = law.parts[0] if isinstance(law, Curve) else None
+    if part is not None and part.abscissa_name.strip() in known:
+        x = known[part.abscissa_name.strip()]
+        return np.broadcast_to(interpolated(part.abscissas, part.ordinates, x), shape)
+    made = np.empty(shape, dtype=float if isinstance(law, int | float) else object)
+    made.fill(law)
+    return made
+
+
+def _between(levels: FloatArray, values: list[NDArray[Any]], x: FloatArray) -> NDArray[Any]:
+    """Values (n_cells, n_points) at x, linear between those at levels; curves go point by point."""
+    k = np.clip(np.searchsorted(levels, x, side="right") - 1, 0, max(len(levels) - 2, 0))
+    upper = np.minimum(k + 1, len(levels) - 1)
+    width = levels[upper] - levels[k]
+    share = np.clip((x - levels[k]) / np.where(width > 0, width, 1.0), 0.0, 1.0)
+    stacked = np.stack(values)
+    low, high = (np.take_along_axis(stacked, i[None], 0)[0] for i in (k, upper))
+    if stacked.dtype != object:
+        return low + share * (high - low)
+    made, kept = np.empty(x.shape, dtype=object), {}
+    for place, part in np.ndenumerate(share):
+        key = (id(low[place]), id(high[place]), part)
+        if key not in kept:
+            kept[key] = _mixed(low[place], high[place], part)
+        made[place] = kept[key]
+    return made
+
+
+def _mixed(first: Curve, second: Curve, share: float) -> Curve:
+    """A curve between two, at the abscissas of both."""
+    a, b = first.parts[0], second.parts[0]
+    x = np.union1d(a.abscissas, b.abscissas)
+    low, high = (np.interp(x, part.abscissas, part.ordinates) for part in (a, b))
+    return Curve((replace(a, abscissas=x, ordinates=low + share * (high - low)),), first.title)

@@ -51,27 +51,23 @@ _CENTRE = arg("centre", "POINT", en="centre")
 _ON_AXIS = arg("on_axis", "POINT", en="second point of the axis")
 
 
+_NAMES = (
+    choice("sense", tuple(_SENSE), en="the unknowns stay at or above the value, or at or below"),
+    key("groups", ("DEPL", "ROTA"), repeated=True, en="all displacements, all rotations"),
+    key(
+        "direction",
+        "DIRECTION",
+        arg("vector", "POINT", "CHPOINT", usual=NOT_ZERO),
+        en="along a vector, or a field of vectors",
+    ),
+)
+_ABOUT = "along or across the line from a centre (2D) or an axis (3D)"
+_UNKNOWNS = many("unknowns", "MOT", "LISTMOTS", kind="component", en="unknowns")
+
+
 def _held(*centre: Argument) -> tuple[Entry, ...]:
     """What BLOQ and APPU read to know unknowns and directions; points of RADI and ORTHO."""
-    return (
-        choice(
-            "sense", tuple(_SENSE), en="the unknowns stay at or above the value, or at or below"
-        ),
-        key("groups", ("DEPL", "ROTA"), repeated=True, en="all displacements, all rotations"),
-        key(
-            "direction",
-            "DIRECTION",
-            arg("vector", "POINT", "CHPOINT", usual=NOT_ZERO),
-            en="along a vector, or a field of vectors",
-        ),
-        key(
-            "polar",
-            ("RADIAL", "ORTHO"),
-            *centre,
-            en="along or across the line from a centre (2D) or an axis (3D)",
-        ),
-        many("unknowns", "MOT", "LISTMOTS", kind="component", en="unknowns"),
-    )
+    return (*_NAMES, key("polar", ("RADIAL", "ORTHO"), *centre, en=_ABOUT), _UNKNOWNS)
 
 
 _SUPPORT = arg("support", "MAILLAGE", "POINT", en="nodes")
@@ -241,20 +237,23 @@ def depi_of_table(call: Call, table: Table = Arg("TABLE", en="table LIAISONS_STA
 # --- planes of symmetry ----------------------------------------------------------------------
 
 
+_GROUPS = key("groups", ("DEPL", "ROTA"), repeated=True, en="displacements, rotations")
+_NEAR_PLANE = (
+    arg("mesh", "MAILLAGE", "POINT", en="nodes"),
+    opt(
+        "tolerance",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        en="distance up to which a node counts, else a tenth of the density",
+        unit="m",
+    ),
+)
+
+
 def _plane(points: int) -> tuple[Entry, ...]:
     """What SYMT and ANTI read: points of a line or plane, then nodes."""
-    return (
-        key("groups", ("DEPL", "ROTA"), repeated=True, en="displacements, rotations"),
-        *(arg(f"p{i + 1}", "POINT", en="point of the symmetry") for i in range(points)),
-        arg("mesh", "MAILLAGE", "POINT", en="nodes"),
-        opt(
-            "tolerance",
-            "FLOTTANT",
-            range=NOT_NEGATIVE,
-            en="distance up to which a node counts, else a tenth of the density",
-            unit="m",
-        ),
-    )
+    named = (arg(f"p{i + 1}", "POINT", en="point of the symmetry") for i in range(points))
+    return (_GROUPS, *named, *_NEAR_PLANE)
 
 
 def _mirror(

@@ -77,16 +77,8 @@ class Sampled:
         if not self.fields:
             return Table.numbered([ListReel(column.copy()) for column in motion.T])
         node = np.array([self.point.node])
-        return ListChpo(
-            [
-                NodeField(
-                    self.point.nodes,
-                    {n: NodeValues(node, row[i : i + 1]) for i, n in enumerate(self.names)},
-                    "DIFFUS",
-                )
-                for row in motion.copy()
-            ]
-        )
+        rows = (dict(zip(self.names, row[:, None], strict=True)) for row in motion.copy())
+        return ListChpo([NodeField.of(self.point.nodes, node, row, "DIFFUS") for row in rows])
 
     def _forces(self, given: ListChpo | Table, count: tuple[int, ...]) -> FloatArray:
         if isinstance(given, Table):

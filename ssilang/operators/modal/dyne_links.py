@@ -465,6 +465,13 @@ def _read_one(
     return ReadLink(t.table, (made,), tuple(named))
 
 
+_FUNCTIONS = {
+    ("COS", False): law.COSINE, ("SIN", False): law.SINE,
+    ("COS", True): law.COSINE_OF_TIME, ("SIN", True): law.SINE_OF_TIME,
+}  # fmt: skip
+"""Kinds of couplings by FONCTION, and whether it has a frequency."""
+
+
 def _coupling(t: LinkTable, basis: Basis) -> ReadLink:
     """COUPLAGE_DEPLACEMENT and COUPLAGE_VITESSE: a force on a mode from the motion of another."""
     to, of = (basis.unit(t.call, t.point(p), p) for p in ("SUPPORT", "ORIGINE"))
@@ -479,10 +486,7 @@ def _coupling(t: LinkTable, basis: Basis) -> ReadLink:
         word = str(t.need("FONCTION"))
         timed = t.table.has(Mot("FREQUENCE"))
         numbers[law.FREQUENCY] = t.real("FREQUENCE", 0.0)
-        kind = {
-            ("COS", False): law.COSINE, ("SIN", False): law.SINE,
-            ("COS", True): law.COSINE_OF_TIME, ("SIN", True): law.SINE_OF_TIME,
-        }[word, timed]  # fmt: skip
+        kind = _FUNCTIONS[word, timed]
     return ReadLink(t.table, (Link(kind, to, of, numbers),), tuple(named))
 
 

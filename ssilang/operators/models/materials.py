@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.zone_fields import INSTEAD, zone_field
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.interface.elements import is_joint
@@ -30,6 +31,7 @@ Values = dict[str, Value]
 _VALUES = (
     "FLOTTANT",
     "EVOLUTIO",
+    "NUAGE",
     "MCHAML",
     "POINT",
     "CHPOINT",
@@ -243,7 +245,7 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
         return _field_values(call, zone, name, value)
     if isinstance(value, NodeField) and name not in SHAPES:
         raise call.error("operators.models.parameter-is-no-nodal-field", value, name=name)
-    if isinstance(value, Point | Curve | NodeField):
+    if isinstance(value, Point | Curve | Cloud | NodeField):
         if isinstance(value, Point) and name not in ("VECT", "CGRA"):
             raise call.error("operators.models.parameter-is-a-number", value, name=name)
         return _one_object(value, n)
@@ -369,13 +371,25 @@ def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> Non
     table, support = values.pop("TRAC")
     if "ECRO" in values:
         raise MaterialError("operators.models.hardening-given-twice")
-    given = values["YOUN"][0] if "YOUN" in values else np.empty((0, 0))
-    if given.dtype == object or not given.size or (given != given.flat[0]).any():
-        raise MaterialError("operators.models.trac-needs-one-youn")
-    if not all(isinstance(v, Curve) for v in table.flat):
-        raise MaterialError("operators.models.trac-is-a-curve")
-    made = {id(v): hardening_of(v, float(given.flat[0])) for v in table.flat}
+    young = values["YOUN"][0] if "YOUN" in values else np.empty((0, 0))
+    law = young.flat[0] if young.size and all(v == young.flat[0] for v in young.flat) else None
+    made = {id(v): _hardening(v, law) for v in table.flat}
     curves = np.empty(table.shape, dtype=object)
     for place, curve in np.ndenumerate(table):
         curves[place] = made[id(curve)]
     values["ECRO"] = curves, support
+
+
+def _hardening(tension: Any, young: Any) -> Any:
+    """ECRO of a curve TRAC; of a cloud of them over one field, row by row with YOUN there."""
+    if isinstance(tension, Cloud) and len(tension.columns) == 2:
+        (field, levels), (_, curves) = tension.columns.items()
+        over = isinstance(young, Curve) and young.parts[0].abscissa_name.strip() == field
+        rows = [_hardening(c, young.at(float(x)) if over else young)
+                for x, c in zip(tension.numbers(field), curves, strict=True)]  # fmt: skip
+        return Cloud({field: levels, "ECRO": tuple(rows)})
+    if not isinstance(tension, Curve):
+        raise MaterialError("operators.models.trac-is-a-curve")
+    if not isinstance(young, float):
+        raise MaterialError("operators.models.trac-needs-one-youn")
+    return hardening_of(tension, young)

@@ -51,7 +51,13 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         first = float(problem.times[0])
         given = None if start is None else _given(bulk, start)
         if given is not None:
-            return bulk, tuple(replace(s, time=first) for s in given)
+            before = getattr(start, "before", None) or entries
+            old, strained = before.get("CARACTERISTIQUES"), bulk
+            if old is not material:
+                strained = bulk_of(zones, old, problem.numbering)
+                free = free_strains(before.get("CHARGEMENT"), zones, old)
+                strained = replace(strained, free=free)
+            return bulk, tuple(replace(s, time=first) for s in bulk.entered(strained, given, first))
         blank = tuple(replace(s, time=first) for s in bulk.unloaded())
         if inputs.displacement is None:
             return bulk, blank

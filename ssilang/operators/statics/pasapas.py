@@ -45,8 +45,8 @@ from ssilang.operators.statics.pasapas_contact import (
     linear_blocks,
     offset_load,
     sides_of,
-    stress_offsets,
 )
+from ssilang.operators.statics.pasapas_materials import offsets_of
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
 from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
 from ssilang.operators.statics.pasapas_steering import (
@@ -85,9 +85,11 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
         work = Entries(call, working_table(entries.table), "PASAPAS")
         tell_parts(work.table)
         entries.table.set(Mot("WTABLE"), work.table)
+    start = replace(start, before=stage_of(work, times[[0, 0]]).entries)
     try:
         while len(times) > 1:
             stage = stage_of(work, times)
+            before = Entries(call, working_table(stage.entries.table), "PASAPAS")
             part = slice(0, stage.steps + 1)
             number = start.index if start.reached is None else _last_number(entries)
             try:
@@ -98,10 +100,14 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
                 _say_model(entries, work, stage, number)
                 if ends:
                     break
-                start, times, saved = _onward(entries, work, times, saved, stage.steps, state)
+                start, times, saved = _onward(
+                    entries, work, times, saved, stage.steps, state, before
+                )
             except ChangedCalculation as change:
                 state = entries.get("ESTIMATION")
-                start, times, saved = _onward(entries, work, times, saved, change.step, state)
+                start, times, saved = _onward(
+                    entries, work, times, saved, change.step, state, before
+                )
                 times, saved = _other_times(entries, times, saved)
     except StopCalculation:
         pass
@@ -220,12 +226,13 @@ def _onward(
     saved: NDArray[np.bool_],
     step: int,
     state: Table,
+    before: Entries,
 ) -> tuple[Start, FloatArray, NDArray[np.bool_]]:
     """Where it goes on from a state reached at a step: start, times, which are saved."""
     rest, kept = times[step:], saved[step:].copy()
     kept[0] = False  # it stands in the tables already if it was to be kept
     reached = Entries(entries.call, state, "PASAPAS", "TAB1.ESTIMATION")
-    return Start(_last_number(entries), float(rest[0]), work, reached), rest, kept
+    return Start(_last_number(entries), float(rest[0]), work, reached, before), rest, kept
 
 
 def _other_times(
@@ -264,7 +271,7 @@ def _last_number(entries: Entries) -> int:
 
 def _say_model(entries: Entries, work: Entries, stage: Stage, first: int) -> None:
     """Table MODELES: the model of each result from number `first` on, where it changes."""
-    if stage.entries is work:
+    if stage.entries.get("MODELE") is work.get("MODELE"):
         return
     models = entries.table.get("MODELES")
     models = models if isinstance(models, Table) else Table()
@@ -287,13 +294,15 @@ def _say_last(entries: Entries, number: int) -> None:
 class Start:
     """Where a calculation begins: number of the result it goes on from, time, initial state.
 
-    `reached`, where given, holds that state itself, by the words of the results.
+    `reached`, where given, holds that state itself, by the words of the results, and `before` what
+    led to it.
     """
 
     index: int
     time: float | None
     entries: Entries
     reached: Entries | None = None
+    before: Entries | None = None
 
     def of(self, word: str) -> Any:
         """The result of this number, None if there is none."""
@@ -368,7 +377,11 @@ def _inputs(
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")
     if isinstance(given, CellField) and solids:
-        stresses.offsets = stress_offsets(solids, stresses, given, displacement, float(times[0]))
+        old = entries if start.before is None else start.before
+        before = [(z, old.get("CARACTERISTIQUES")) for z, _ in solids]
+        loads = (forces, old.get("CHARGEMENT"))
+        now = float(times[0])
+        stresses.offsets = offsets_of(solids, before, loads, given, displacement, now)
         parts = offset_load(stresses.offsets, solids)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)

@@ -20,6 +20,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.kinematics import element_sides
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at
+from ssilang.operators.statics.pasapas_materials import Varying, same_fields
 from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.statics.pasapas_steering import working_table
 from ssilang.operators.tables.entries import Entries
@@ -53,20 +54,29 @@ class Stage:
 def stage_of(work: Entries, times: FloatArray) -> Stage:
     """The first stage of times[1:], times[0] being where it starts."""
     load: Load | None = work.get("CHARGEMENT")
-    parts = [] if load is None else [p for p in load.parts if p.name.strip() in STAGED]
-    if load is None or not parts:
-        return Stage(work, len(times) - 1)
+    every = () if load is None else load.parts
+    parts = [p for p in every if p.name.strip() in STAGED]
     first = _at(work, parts, float(times[1]))
     steps = 1
     while steps < len(times) - 1 and _same(first, _at(work, parts, float(times[steps + 1]))):
         steps += 1
     table = working_table(work.table)
+    staged = Entries(work.call, table, work.procedure)
     for word, values in first.items():
         table.set(Mot(STAGED[word][0]), _joined(work, word, values))
-    rest = [p for p in load.parts if p.name.strip() not in STAGED]
-    acting = tuple(p for p in rest if _acts(p, times[: steps + 1]))
-    table.set(Mot("CHARGEMENT"), Load(acting))
-    return Stage(Entries(work.call, table, work.procedure), steps)
+    rest = tuple(p for p in every if p not in parts)
+    varying = Varying(staged.get("MODELE"), staged.get("CARACTERISTIQUES"), rest)
+    fields, n = varying.fields(float(times[1])), 1
+    while n < steps and same_fields(fields, varying.fields(float(times[n + 1]))):
+        n += 1
+    warm = any(p.name.strip() == "T" for p in rest)
+    reference = varying.reference() if warm else ()
+    if not (parts or fields or reference):
+        return Stage(work, steps)
+    table.set(Mot("CARACTERISTIQUES"), varying.at(fields))
+    acting = [p for p in varying.acting if not parts or _acts(p, times[: n + 1])]
+    table.set(Mot("CHARGEMENT"), Load((*acting, *reference)))
+    return Stage(staged, n)
 
 
 def _acts(part: LoadPart, times: FloatArray) -> bool:

@@ -206,18 +206,21 @@ def _reac(matrix: Matrix, solution: NodeField | Table) -> NodeField | Table:
     return solution
 
 
+_REACTIONS = {
+    "DEFORMEE_MODALE": "REACTION_MODALE",
+    "DEFORMEE": "REACTION",
+    "DEPLACEMENT": "REACTION",
+}
+"""Of a shape's index, that under which its reaction is put."""
+
+
 def _shapes(table: Table) -> list[tuple[Table, NodeField, str]]:
     """Sub-tables that hold a shape: entry, shape, index under which its reaction is put."""
-    indices = {
-        "DEFORMEE_MODALE": "REACTION_MODALE",
-        "DEFORMEE": "REACTION",
-        "DEPLACEMENT": "REACTION",
-    }
     found = []
     for _, entry in table.items():
         if not isinstance(entry, Table):
             continue
-        for name, reaction in indices.items():
+        for name, reaction in _REACTIONS.items():
             shape = entry.get(name)
             if isinstance(shape, NodeField):
                 found.append((entry, shape, reaction))

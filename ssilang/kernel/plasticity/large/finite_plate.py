@@ -14,7 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.families import _moduli, family_of, stiffness
+from ssilang.kernel.elements.families import family_of, moduli_of, stiffness
 from ssilang.kernel.elements.family import per_cell
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -146,7 +146,7 @@ def finite_plate(zone: Zone, material: CellField, points: int) -> FinitePlate:
     back = np.swapaxes(T, 1, 2)
     operator = family.strain_operator(zone, parameters, "STRESSES", whole)
     strains = np.einsum("cspm,cmi->cspi", operator.matrix, back)
-    D = per_cell(_moduli(zone, parameters, "STRESSES"), whole)
+    D = per_cell(moduli_of(zone, parameters, "STRESSES"), whole)
     D = np.broadcast_to(D, (len(strains), points, *D.shape[2:]))
     seen = np.einsum("cpst,ctpi->cspi", D, strains)
     held = np.moveaxis(strains * operator.weights[:, None, :, None], 3, 1)

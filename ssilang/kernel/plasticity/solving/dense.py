@@ -17,7 +17,7 @@ from ssilang.kernel.interface.response import (
     interface_stiffness,
     new_trial,
 )
-from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.plasticity.newton import RIGID, BulkSolver, BulkTrial
 from ssilang.kernel.plasticity.solving.positive import Pattern
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -51,9 +51,11 @@ class DenseSolver(BulkSolver):
         self._J, self._JT, self._VJ = J, J @ self._T, self._Vt @ J.T
 
     def _trial(
-        self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray
-    ) -> BulkTrial:
-        answer, at_play = self.bulk.respond_whole(self.state, du, self.time), self._at_play
+        self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray,
+        answer: Answer | None = None,
+    ) -> BulkTrial:  # fmt: skip
+        answer = answer or self.bulk.respond_whole(self.state, du, self.time)
+        at_play = self._at_play
         at_play[0], at_play[2], at_play[3] = r, answer.force, self.force
         linear = np.dot(self._dense, du, out=at_play[1])
         free = r - linear - self.share * (answer.force - self.force)
