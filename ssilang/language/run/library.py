@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
@@ -19,8 +19,9 @@ from ssilang.resources import resource
 _SUFFIXES = (".ssi", ".procedur", ".dgibi")
 
 
+@cache
 def standard_procedures() -> dict[str, Path]:
-    """Name to file of the standard library's procedures."""
+    """Name to file of the standard library's procedures; looked for once a process."""
     return {p.stem.upper(): p for p in sorted(resource("stdlib").glob("*.ssi"))}
 
 
