@@ -23,14 +23,11 @@ if TYPE_CHECKING:
     from ssilang.io.recording import Recording
 
 
+_ENDS = (arg("low", "FLOTTANT", range=ANY_NUMBER), arg("high", "FLOTTANT", range=ANY_NUMBER))
+
+
 def _bounds(name: str, word: str, en: str) -> Any:
-    return key(
-        name,
-        word,
-        arg("low", "FLOTTANT", range=ANY_NUMBER),
-        arg("high", "FLOTTANT", range=ANY_NUMBER),
-        en=en,
-    )
+    return key(name, word, *_ENDS, en=en)
 
 
 def _title_place(name: str, word: str) -> Select:

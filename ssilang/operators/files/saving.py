@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field
 from typing import Any
@@ -206,15 +207,19 @@ def _is_reached(value: Any, reached: set[int]) -> bool:
     return bool(parts) and all(id(part) in reached for part in parts)
 
 
+_SETTINGS: dict[str, Callable[[Workspace], Any]] = {
+    "DIME": lambda ws: ws.dimension,
+    "MODE": lambda ws: ws.mode.name,
+    "ELEM": lambda ws: ws.element,
+    "TITR": lambda ws: ws.title,
+    "INCO": lambda ws: ws.options.get("INCO", {}),
+    "UNIT": lambda ws: str(ws.options.get("UNIT", "")),
+}
+"""Settings that a file keeps."""
+
+
 def _settings(ws: Workspace) -> dict[str, Any]:
-    return {
-        "DIME": ws.dimension,
-        "MODE": ws.mode.name,
-        "ELEM": ws.element,
-        "TITR": ws.title,
-        "INCO": ws.options.get("INCO", {}),
-        "UNIT": str(ws.options.get("UNIT", "")),
-    }
+    return {word: of(ws) for word, of in _SETTINGS.items()}
 
 
 # ---- REST
@@ -255,20 +260,21 @@ def _restore_units(call: Call, name: str, saved: str) -> None:
         call.warn("operators.files.other-units", name=name, saved=saved, present=ws.units.name)
 
 
+_RULES: dict[str, Callable[[Any], bool]] = {
+    "DIME": lambda said: type(said) is int and said in range(4),
+    "ELEM": lambda said: said == "" or (isinstance(said, str) and said in CELL_TYPES),
+    "MODE": lambda said: isinstance(said, str),
+    "TITR": lambda said: isinstance(said, str),
+    "UNIT": lambda said: said in ("", *SYSTEMS),
+    "INCO": lambda said: isinstance(said, dict) and all(isinstance(v, str) for v in said.values()),
+}
+"""What settings of a file hold."""
+
+
 def check_settings(archive: Archive, name: str) -> None:
     """Refuse settings that no session has; a file need not have them all."""
-    saved = archive.settings
-    element, added = saved.get("ELEM", ""), saved.get("INCO", {})
-    rules = {
-        "DIME": type(saved.get("DIME", 0)) is int and saved.get("DIME", 0) in range(4),
-        "ELEM": element == "" or (isinstance(element, str) and element in CELL_TYPES),
-        "MODE": isinstance(saved.get("MODE", ""), str),
-        "TITR": isinstance(saved.get("TITR", ""), str),
-        "UNIT": saved.get("UNIT", "") in ("", *SYSTEMS),
-        "INCO": isinstance(added, dict) and all(isinstance(v, str) for v in added.values()),
-    }
-    for word, holds in rules.items():
-        if not holds:
+    for word, holds in _RULES.items():
+        if word in archive.settings and not holds(archive.settings[word]):
             raise InputError("io.damaged-object", name=name, kind="OPTI", part=word)
 
 

@@ -35,6 +35,12 @@ _SETTINGS = {
 }
 
 
+_OF_STEPS = (
+    key("ratio", "GEOM", _RATIO, en="ratio of steps"),
+    key("count", "NPAS", _COUNT, en="number of steps"),
+)
+
+
 def _items(kind: str) -> tuple[Entry, ...]:
     """What `_read_items` reads."""
     return (
@@ -46,8 +52,7 @@ def _items(kind: str) -> tuple[Entry, ...]:
             "steps", "PAS", _STEP[kind], repeated=True,
             en="from the item before to the one behind by steps",
         ),
-        key("ratio", "GEOM", _RATIO, en="ratio of steps"),
-        key("count", "NPAS", _COUNT, en="number of steps"),
+        *_OF_STEPS,
     )  # fmt: skip
 
 

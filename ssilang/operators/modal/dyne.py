@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -327,20 +326,23 @@ def _add_links(
                 table.set(read.table, made)
 
 
+_MOTION = {
+    "DEPLACEMENT": "q",
+    "VITESSE": "v",
+    "DEPLACEMENT_1/2": "q_before",
+    "ACCELERATION_1/2": "before",
+}
+"""Fields from which DYNE goes on, and where the last step has them."""
+
+
 def _restart(run: ModalRun, system: System) -> Table:
     last = run.last
     assert last.before is not None
     assert last.q_before is not None
     assert last.links is not None
-    entries: dict[str, Any] = {
-        "TEMPS": float(last.time),
-        "DEPLACEMENT": system.field(last.q),
-        "VITESSE": system.field(last.v),
-        "DEPLACEMENT_1/2": system.field(last.q_before),
-        "ACCELERATION_1/2": system.field(last.before),
-        "LIAISONS": ListReel(last.links.ravel()),
-    }
-    return Table.of(entries, "REPRISE")
+    entries = {word: system.field(getattr(last, name)) for word, name in _MOTION.items()}
+    rest = {"TEMPS": float(last.time), "LIAISONS": ListReel(last.links.ravel())}
+    return Table.of(entries | rest, "REPRISE")
 
 
 _FORM = operator(

@@ -240,16 +240,19 @@ def _spring(t: LinkTable) -> tuple[dict[int, float], FloatArray | None]:
     return numbers, points
 
 
+_RUBBING = {
+    law.SLIDE: "COEFFICIENT_GLISSEMENT",
+    law.STICK: "COEFFICIENT_ADHERENCE",
+    law.TANGENT: "RAIDEUR_TANGENTIELLE",
+    law.TANGENT_DAMP: "AMORTISSEMENT_TANGENTIEL",
+}
+"""Numbers of friction, and their entries."""
+
+
 def _friction(t: LinkTable) -> dict[int, float]:
     if not t.kind.endswith(("_FROTTEMENT", "_MOBILE")):
         return {}
-    numbers = {
-        law.FRICTION: 1.0,
-        law.SLIDE: t.real("COEFFICIENT_GLISSEMENT"),
-        law.STICK: t.real("COEFFICIENT_ADHERENCE"),
-        law.TANGENT: t.real("RAIDEUR_TANGENTIELLE"),
-        law.TANGENT_DAMP: t.real("AMORTISSEMENT_TANGENTIEL"),
-    }
+    numbers = {law.FRICTION: 1.0} | {place: t.real(name) for place, name in _RUBBING.items()}
     drive = t.table.get(Mot("VITESSE_ENTRAINEMENT"))
     if isinstance(drive, Point):
         numbers |= _vector(law.DX, t.vector("VITESSE_ENTRAINEMENT"))

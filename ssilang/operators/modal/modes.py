@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -175,17 +175,21 @@ def _real_entry(mode: Mode, signed: bool) -> dict[str, Any]:
     }
 
 
+_COMPLEX: dict[str, Callable[[ComplexMode], Any]] = {
+    "FREQUENCE_REELLE": lambda mode: mode.frequency.real,
+    "MASSE_GENERALISEE_REELLE": lambda mode: mode.mass.real,
+    "DEFORMEE_MODALE_REELLE": lambda mode: mode.real,
+    "DEPLACEMENTS_GENERALISES_REELS": lambda mode: directions([a.real for a in mode.along]),
+    "FREQUENCE_IMAGINAIRE": lambda mode: mode.frequency.imag,
+    "MASSE_GENERALISEE_IMAGINAIRE": lambda mode: mode.mass.imag,
+    "DEFORMEE_MODALE_IMAGINAIRE": lambda mode: mode.imaginary,
+    "DEPLACEMENTS_GENERALISES_IMAGINAIRES": lambda mode: directions([a.imag for a in mode.along]),
+}
+"""What the table of a complex mode says of it."""
+
+
 def _complex_entry(mode: ComplexMode) -> dict[str, Any]:
-    return {
-        "FREQUENCE_REELLE": mode.frequency.real,
-        "MASSE_GENERALISEE_REELLE": mode.mass.real,
-        "DEFORMEE_MODALE_REELLE": mode.real,
-        "DEPLACEMENTS_GENERALISES_REELS": directions([a.real for a in mode.along]),
-        "FREQUENCE_IMAGINAIRE": mode.frequency.imag,
-        "MASSE_GENERALISEE_IMAGINAIRE": mode.mass.imag,
-        "DEFORMEE_MODALE_IMAGINAIRE": mode.imaginary,
-        "DEPLACEMENTS_GENERALISES_IMAGINAIRES": directions([a.imag for a in mode.along]),
-    }
+    return {name: of(mode) for name, of in _COMPLEX.items()}
 
 
 def modal_table(

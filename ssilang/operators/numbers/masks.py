@@ -32,25 +32,17 @@ _EXISTE = {"EXISTE": [opt("component", "MOT", en="component", kind="component")]
 """What is asked of fields in cells alone."""
 
 
+_COUNTED = flag("counted", "SOMM", en="number of ones")
+
+
 def _test_of(kind: str, *limits: str) -> tuple[Entry, ...]:
     """The relation, with what the values are compared with."""
     limit = arg("limit", *limits, en="value to compare with", range=CARRIED)
-    return (
-        select(
-            "test",
-            {
-                **{word: [limit] for word in _TESTS},
-                "COMPRIS": [
-                    arg("low", *limits, en="lower bound", range=CARRIED),
-                    arg("high", *limits, en="upper bound", range=CARRIED),
-                ],
-                **(_EXISTE if kind == "MCHAML" else {}),
-            },
-            optional=False,
-            en="relation",
-        ),
-        flag("counted", "SOMM", en="number of ones"),
-    )
+    low = arg("low", *limits, en="lower bound", range=CARRIED)
+    high = arg("high", *limits, en="upper bound", range=CARRIED)
+    words = {**{word: [limit] for word in _TESTS}, "COMPRIS": [low, high]}
+    words |= _EXISTE if kind == "MCHAML" else {}
+    return select("test", words, optional=False, en="relation"), _COUNTED
 
 
 def _masked(value: Any, test: Chosen, counted: bool) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,14 @@ def _poisson(
     return ListEnti(session_generator(call, skip).poisson(mean, count))
 
 
+_DRAWN: dict[str, Callable[[np.random.Generator, float, float, int], FloatArray]] = {
+    "GAUS": lambda generator, mean, width, n: generator.normal(mean, width, n),
+    "UNIF": lambda generator, mean, width, n: generator.uniform(mean - width, mean + width, n),
+    "EXPO": lambda generator, mean, width, n: generator.exponential(width, n),
+}
+"""Numbers (n,) by their law: of a mean, and a deviation or half width."""
+
+
 @BRUI.form(gives="LISTREEL|EVOLUTIO|CHPOINT")
 def _continuous(
     call: Call,
@@ -58,11 +67,7 @@ def _continuous(
         raise call.error("operators.numbers.negative-count", where, where=where)
     nodes = where.sorted_node_ids if hasattr(where, "sorted_node_ids") else None
     count = where if isinstance(where, int) else len(where if nodes is None else nodes)
-    values = {
-        "GAUS": lambda: generator.normal(mean, width, count),
-        "UNIF": lambda: generator.uniform(mean - width, mean + width, count),
-        "EXPO": lambda: generator.exponential(width, count),
-    }[law]()
+    values = _DRAWN[law](generator, mean, width, count)
     if isinstance(where, int):
         return ListReel(values)
     if nodes is not None:
