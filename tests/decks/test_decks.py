@@ -87,7 +87,11 @@ SMALLER = {
     "published/nafems_contact.ssi": [("0.5 1.) ;", "1.) ;")],
     "published/rocking_wall.ssi": [("'PAS' 2.5E-5 3.6", "'PAS' 1.E-4 3.6")],
     "published/shaken_slider.ssi": [("'PAS' 2.5E-5 12.", "'PAS' 1.E-4 12.")],
-    "seismic/reactor.ssi": [("DUREE = 5.", "DUREE = 1.2")],
+    "seismic/reactor.ssi": [
+        ("DUREE = 5.", "DUREE = 1.2"),
+        ("NO0 = 5 ; NZ1 = 2 ; NZ2 = 4 ; NW0 = 5 ;", "NO0 = 4 ; NZ1 = 2 ; NZ2 = 3 ; NW0 = 4 ;"),
+        ("REPE BA 12 ;", "REPE BA 8 ;"),
+    ],
     "seismic/isolated_block.ssi": [("DUREE = 16.", "DUREE = 8.")],
     "seismic/oblique_waves.ssi": [
         ("DUREE = 1.4", "DUREE = 0.9"),
