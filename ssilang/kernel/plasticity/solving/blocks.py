@@ -63,7 +63,7 @@ def cells_of(points: PlasticPoints, places: NDArray[np.int32]) -> Cells:
         np.concatenate([[0], np.cumsum(counts)]).astype(np.int64),
         row.astype(np.int64),
         np.ascontiguousarray(points.weights).ravel(),
-        np.asfortranarray(places),  # as numbering gives them: one kind of code
+        np.ascontiguousarray(places),  # as those of one cell are: one kind of code
         np.array(points.components, np.int64),
     )
 
@@ -85,7 +85,7 @@ def some_cells(cells: Cells, which: IntArray) -> Cells:
     block, at = np.divmod(which, lanes // p)
     terms = cells.terms.reshape(blocks, t, lanes // p, p)[block, :, at]
     weights = cells.weights.reshape(n_cells, p)[which].ravel()
-    places = np.asfortranarray(cells.places[which])
+    places = cells.places[which]
     return cells._replace(terms=_in_blocks(terms), weights=weights, places=places)
 
 
