@@ -77,6 +77,9 @@ def test_tables_of_results_are_made_as_far_as_they_are_asked_for(oscillator):
     with pytest.raises(KeyError, match="no index 'DEPO'"):
         table[6]["DEPO"]
     assert 52 not in table
+    held = ssilang.run("OPTI DIME 2 ; T = TABL ; T . (0 0) = 1. ; T . 'B' = 2. ; T . 3 = 4. ;")["T"]
+    with pytest.raises(KeyError, match="there are 'B' and 3"):  # points are no words to try
+        held["C"]
 
 
 @pytest.mark.parametrize("touched", [False, True])

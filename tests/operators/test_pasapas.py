@@ -274,6 +274,8 @@ def test_load_on_a_body_without_support_is_refused(tmp_path):
     text = LOOSE.replace("F = FORC (1000. 0.) R", "F = FORC (0. 10.) (P2 ET P3)") + "PASAPAS T ;"
     result = failed(text, folder=tmp_path)
     assert "free motion" in result.message
+    ended = result.session.root.find("T")
+    assert (ended.get("CONV"), ended.get("ERREUR")) == (False, True)
 
 
 def test_fields_in_cells_come_in_the_order_of_the_models_zones(found):

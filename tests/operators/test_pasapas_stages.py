@@ -91,10 +91,10 @@ def test_supports_that_come_hold_what_has_moved(tmp_path):
     text = (
         LAYERS
         + """
-    TM . 0 = BLOQ 'UX' P1 ; TM . 1 = BLOQ 'UY' L1 ;
+    TM . 0 = BLOQ 'UX' P1 ; TM . 1 = BLOQ 'UY' L1 ; HELD = CHAR 'BLOM' (BLOQ 'UX' P1) ;
     T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET
       (CHAR 'DIMP' (DEPI (TM . 1) -1.E-3) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.))) ET
-      (CHAR 'BLOM' TT TM) ; PASAPAS T ;
+      (CHAR 'BLOM' TT TM) ET HELD ; PASAPAS T ;
     """
     )
     table = run(text, tmp_path)("T")

@@ -520,6 +520,7 @@ SENSIBLE_MODELS = {
 
 PERIOD = math.pi / 10.0  # of the oscillator: 20 rad/s
 DATA: dict[str, dict[str, object]] = {
+    "joints of another stiffness": {"off": 0.01},
     "steps of seconds": {"value": 1.0, "most": 0.2},
     "a record with a part missing": {"value": 4.98, "most": 0.01},
     "an earthquake of tens of g": {"value": 60.0 * 9.81, "most": 50.0},

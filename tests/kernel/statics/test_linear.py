@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.sparse import csr_array
 
 from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
@@ -22,6 +23,7 @@ from ssilang.kernel.statics.linear import (
     product,
     reactions,
     solve,
+    stabilised,
 )
 
 SADDLE = SolveOptions(eliminate=False)
@@ -258,6 +260,9 @@ def test_stabilised_solution_of_an_indefinite_matrix_is_positive():
     assert (u[0] > 0.0).all()
     plain = vectors(matrix, *solve(matrix, [load(matrix, [1.0, 1.0])]))[0]
     np.testing.assert_allclose(plain, [1.0, -1.0])
+    bordered = np.array([[1.0, 0, 1], [0, -1, 0], [1, 0, 0]])  # the row of a multiplier stays
+    added = stabilised(csr_array(bordered), 2).toarray() - bordered
+    np.testing.assert_allclose(added, np.diag([10.0, 10.0, 0.0]))
 
 
 def test_reused_values_of_conditions_come_from_the_field():

@@ -372,6 +372,8 @@ def test_two_lines_are_stitched_without_gap(n, m):
     assert areas.sum() == pytest.approx(3 * (1 + 1.3) / 2)
     near = max(np.linalg.norm(x[:, i] - x[:, j], axis=1).max() for i, j in ((0, 1), (1, 2), (2, 0)))
     assert near < 2.0 or m == 1  # no way along the whole strip
+    ends = polyline(nodes, a[[0, -1]], False), polyline(nodes, b[[0, -1]], False)
+    assert set(stitch(*ends).single_block().connectivity[0]) == {a[0], a[-1], b[0]}  # the shorter
     with pytest.raises(MeshError, match="same"):
         stitch(polyline(nodes, a[:2], False), polyline(nodes, a[:2], False))
 

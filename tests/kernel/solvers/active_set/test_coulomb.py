@@ -157,6 +157,9 @@ def test_body_held_by_friction_alone():
             ConvergenceError, check=lambda e: e.code == "kernel.solvers.no-state-contact-friction"
         ):
             solve_coulomb(in_units(pushed, force, length))
+    bound = replace(held(2, 1, 9.0, np.random.default_rng(3)), q=np.r_[-9.0, -8.0, 0, 0, 0, 0])
+    swept = coulomb._Solver(bound).sweep(np.zeros(4))  # all touches and sticks: equations alone
+    np.testing.assert_allclose(bound.W[:4] @ swept, -bound.q[:4], atol=1e-8)
     solver = coulomb._Solver(problem)
     for forces, off in (([10.0, -2.0], 0), ([12.0, -2.0], 2), ([10.0, -1.0], 1)):
         x = np.concatenate([forces, -problem.W[:2] @ forces])  # in place, whatever the balance

@@ -205,7 +205,16 @@ def test_memory_that_is_not_there_is_not_taken(monkeypatch):
         client._memory(1 << 16)
 
 
-def test_ranks_share_the_memory_of_their_machine():
+def test_ranks_share_the_memory_of_their_machine(monkeypatch):
+    files = {
+        "/proc/meminfo": ["MemTotal: 9 kB", "MemAvailable: 5 kB"],
+    }
+    files |= {"/proc/self/cgroup": ["0::/job"], "/sys/fs/cgroup/job/memory.max": ["9000"]}
+    files |= {"/sys/fs/cgroup/job/memory.current": ["10"]}
+    monkeypatch.setattr(server, "lines_of", lambda path: files.get(path, []))
+    assert server.free_bytes() == 5 * 1024
+    files["/proc/meminfo"][1] = "MemAvailable: 9 kB"
+    assert server.free_bytes() == 8990
     told = [("one", 6e9, 1e9), ("other", 4.5e9, 2e9), ("one", 5e9, 4e9)]
     comm = SimpleNamespace(
         gather=lambda mine, root: told, allgather=lambda mine: [row[:2] for row in told]

@@ -57,3 +57,5 @@ def test_what_touches_is_pushed_apart_or_opens(seed):
     found = initial_energies(pressed, v, joint_state(pressed))
     stored = u[at] @ u[at] + 7.0 * (np.minimum(signed @ u[at], 0.0) ** 2).sum()
     np.testing.assert_allclose(found, [0.5 * masses @ v[at] ** 2, 0.5 * stored, 0, 0, 0, 0])
+    rigid = replace(pressed, contact_options=ContactOptions("LAGRANGE", 7.0))
+    assert initial_energies(rigid, v, joint_state(rigid))[1] == pytest.approx(0.5 * u[at] @ u[at])
