@@ -182,8 +182,10 @@ class Bulk:
         """The elastic answer to the strains without stress of a step, None where there are none.
 
         Newton's method that set out from what they make of bodies that stay would meet the flow of
-        bodies that only expand.
+        bodies that only expand. None beside sections of fibres, too: no one law is theirs.
         """
+        if any("SECTION" in zone.zone.behaviour for zone in self.zones):
+            return None
         force, moduli, strained = self.force(state), [], False
         for i, zone in enumerate(self.zones):
             D, h = zone.parameters.moduli, np.array(zone.held, dtype=int)

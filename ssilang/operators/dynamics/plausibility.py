@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
     Bodies,
+    Swing,
     against_supports,
     contact_resolution,
     masses_alone,
@@ -138,7 +140,13 @@ def _on_supports(problem: Problem, inputs: Inputs) -> Told:
         yield "operators.dynamics.load-on-supports", {"name": name}
 
 
-def _loose(problem: Problem, _: Inputs) -> Told:
+def _motions(problem: Problem, _: Inputs) -> Told:
+    asked = cache(partial(swings, problem))  # takes a factorisation
+    yield from _loose(problem, asked)
+    yield from _swings(problem, asked)
+
+
+def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
@@ -147,7 +155,7 @@ def _loose(problem: Problem, _: Inputs) -> Told:
         told = {"node": problem.numbering.table.told(sunk.node), "axis": sunk.axis}
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     loose = list(bodies.loose())
-    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
+    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in asked()):
         joints = () if problem.interface is None else problem.interface.joints
         yield "operators.dynamics.turns-away", {"macro": any(is_macro(j.zone) for j in joints)}
     for found in loose:
@@ -158,8 +166,8 @@ def _loose(problem: Problem, _: Inputs) -> Told:
             yield "operators.dynamics.slides-away", told | {"joints": problem.interface is not None}
 
 
-def _swings(problem: Problem, _: Inputs) -> Told:
-    dt, found = float(np.diff(problem.times).max()), swings(problem)
+def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
+    dt, found = float(np.diff(problem.times).max()), asked()
     period = min((s.period for s in found if s.sudden), default=dt)
     ratio = max((s.damping for s in found), default=0.0)
     if dt > period:
@@ -176,7 +184,7 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _joints_of_others, _on_supports, _viscosity_unread,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
-OF_STIFFNESS = (_masses_alone, _loose, _swings)
+OF_STIFFNESS = (_masses_alone, _motions)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 
