@@ -220,7 +220,7 @@ def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
     """Motions (n, k) under forces (n, k)."""
     if K.shape[0] <= DENSE:
         return np.asarray(np.linalg.solve(K.toarray(), forces), float)
-    return SuperLUFactor(sp.csr_array(K), positive=False).solve(forces)
+    return SuperLUFactor(sp.csr_array(K), positive=True).solve(forces)
 
 
 def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
