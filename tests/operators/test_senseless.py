@@ -185,6 +185,21 @@ PASAPAS = (
     "T . 'CHARGEMENT' = {0} ; PASAPAS T ;"
 )
 
+SHAKEN = "F = CHAR (M * (MANU 'CHPO' S 1 'UX' -1.)) EV ;"
+PULLED = "F = CHAR (M * (MANU 'CHPO' S 1 'UY' -9.81)) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.)) ;"
+FLOOR = (
+    " X = EVOL 'TEMP' (DYNAMIC T) 'ACCE' 'UX' (H POIN 1) ; "
+    "{0} Y = SPO X 'AMOR' 0.05 'FREQ' (PROG 5.) 'ACCE' ;"
+)
+HALF = "T . 'TEMPS_CALCULES' = PROG 0. PAS 0.01 0.5 ;"
+AGAIN = "T . 'TEMPS_CALCULES' = PROG 0.5 PAS 0.01 1. ; {0} DYNAMIC T ;"
+SEIS = "V = VIBR 'SIMU' {0} 1 K M ; C = SEIS (EVOL 'MANU' 'TEMP' LT 'ACCE' LT) V 1. 'UX' ;"
+LOAD = "CHAR 'MECA' (FORC (300. 0.) H) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.))"
+SAND = PASAPAS.replace("{0}", LOAD).replace(
+    "T = TABL",
+    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'RH_COULOMB' ; "
+    "A = MATE MO 'YOUN' 1.E7 'NU' 0. 'COHE' {0} 'PHI' 0.5 ; T = TABL",
+)
 MATRICES = "operators.matrices."
 PART = (
     SQUARE.replace("DROI 2", "DROI 4") + "G = B PLUS (0. 0.) ; Q = TRAN 1 G (0 -1) ; "
@@ -310,9 +325,48 @@ MODELS = {
         "D.load-on-supports",
     ),
     "dashpots on what is held": (
-        BODY.format(HELD + "C = AMOR MO B A ;", "T . 'AMOR' = C ;"),
+        BODY.format(HELD + "C = (AMOR MO B A) ET (0.1 * M) ;", "T . 'AMOR' = C ;"),
         "D.dashpots-on-supports",
     ),
+    "springs on what is held": (
+        SQUARE + HELD + "U = RESO (K ET (APPU 'UX' 1.E6 B)) (FORC (1. 0.) H) ;",
+        "operators.matrices.springs-held",
+    ),
+    "masses of one way, and a weight": (
+        BODY.format(HELD + "M = M ET (MASS 'UX' 1.E5 H) ;" + PULLED, ""),
+        "D.masses-one-way",
+    ),
+    "cells longer than waves": (
+        BODY.replace("(0 1)", "(0 40)").format(HELD + SHAKEN, ""),
+        "D.cells-too-long",
+    ),
+    "a block in ground that was left": (
+        SQUARE + "Q = TRAN 1 (DROI 1 (0.1 0.1) (0.9 0.1)) (0 0.8) ; N = MODE Q 'MECANIQUE' ; "
+        "U = RESO (K ET (RIGI N (MATE N 'YOUN' 1. 'NU' 0.)) ET (BLOQ 'DEPL' (B ET Q))) "
+        "(FORC (1. 0.) H) ;",
+        "operators.matrices.cells-overlap",
+    ),
+    "the spectrum of a floor, relative to the ground": (
+        BODY.format(HELD + SHAKEN, "") + FLOOR.format(""),
+        "operators.curves.accelerations-relative",
+    ),
+    "a calculation called again to go on": (
+        OSCILLATOR.format("", HALF) + AGAIN.format(""),
+        "D.begins-again",
+    ),
+    "modes that leave most of the mass out": (
+        SQUARE + HELD + SEIS.format(900.0),
+        "operators.modal.mass-left-out",
+    ),
+    "checkpoints beyond the end": (
+        OSCILLATOR.format("", "T . 'REPRISE' = TABL ; T . 'REPRISE' . 'PAS' = 101 ;"),
+        "D.checkpoints-beyond-end",
+    ),
+    "forces of supports among displacements": (
+        SQUARE + HELD + "U = RESO K (FORC (1. 0.) H) ; X = MAXI (ABS U) ;",
+        "operators.fields.extreme-of-multipliers",
+    ),
+    "friction that nothing presses": (SAND.format(10.0), "operators.statics.no-confinement"),
     "dashpots inside the body": (
         SQUARE + "L = DROI 2 (0 0.5) (1 0.5) ; ELIM 1.E-3 (S ET L) ; C = AMOR MO L A ;",
         "operators.matrices.border-inside",
@@ -481,6 +535,23 @@ MODELS = {
 """Models, loads and steps."""
 
 SENSIBLE_MODELS = {
+    "springs under a body held at its base": SQUARE
+    + HELD
+    + "U = RESO (K ET (APPU 'UX' 1.E6 S)) (FORC (1. 0.) H) ; X = MAXI U 'SANS' (MOTS 'LX') ;",
+    "dashpots beside a base that is held": BODY.format(
+        HELD + "C = (AMOR MO H A) ET (0.1 * M) ;", "T . 'AMOR' = C ;"
+    ),
+    "masses of all ways, and their weight": BODY.format(
+        HELD + "M = M ET (MASS 'DEPL' 1.E5 H) ;" + PULLED,
+        "T . 'DEPL' = RESO K (M * (MANU 'CHPO' S 1 'UY' -9.81)) ;",
+    ),
+    "cells of waves": BODY.format(HELD + SHAKEN, "") + FLOOR.format("X = X + EV ;"),
+    "a calculation that goes on": OSCILLATOR.replace(" DYNAMIC T", " R = DYNAMIC T").format(
+        "", HALF
+    )
+    + AGAIN.format("N = DIME R ; T . 'DEPL' = R . N . 'DEPL' ; T . 'VITE' = R . N . 'VITE' ;"),
+    "the first mode of a body": SQUARE + HELD + SEIS.format(1.0),
+    "ground with cohesion": SAND.format(1.0e5),
     "a weight that leans, held by a condition": OSCILLATOR.format(
         "Q = 0. 0. ; K = K ET (RIGI 'UX' -4. Q) ET (RELA 'UX' P - 'UX' Q) ;", ""
     ),

@@ -10,8 +10,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Zone
@@ -55,7 +56,8 @@ def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSup
     stiff = np.zeros(len(matrix.table), dtype=bool)  # flags: no sorting of a body's nodes
     for block in matrix.blocks:
         stiff[block.nodes] = True
-    loose = _held_alone(matrix)
+    terms = terms_of(matrix)
+    loose = np.setdiff1d(terms.nodes[terms.alone], terms.nodes[~terms.alone])
     loose = loose[~stiff[loose]]
     if used is not None:
         loose = np.setdiff1d(loose, used)
@@ -86,30 +88,24 @@ def idle_nodes(blocks: Iterable[ElementMatrices], matrix: Matrix) -> IntArray:
     matrix : Matrix
         That has the conditions.
     """
-    held: dict[str, IntArray] = {}
-    for r in matrix.relations:
-        alone = r.row_start[:-1][(np.diff(r.row_start) == 1) & (r.sense == 0)]
-        nodes, names = r.nodes[alone], np.array(r.unknowns)[alone]
-        for name in np.unique(names):
-            held[name] = np.append(held.get(name, nodes[:0]), nodes[names == name])
+    terms = terms_of(matrix)
+    held = terms.alone & (terms.sense == 0)
+    at = {n: terms.nodes[held & (terms.names == n)] for n in np.unique(terms.names[held]).tolist()}
     found = []
-    for block in blocks if held else ():
+    for block in blocks if at else ():
         acts = np.diagonal(block.values, axis1=1, axis2=2) != 0.0
         rows = zip(block.unknowns, block.nodes[:, block.local].T, acts.T, strict=True)
-        if acts.any() and all(np.isin(n[a], held.get(u, n[:0])).all() for u, n, a in rows):
+        if acts.any() and all(np.isin(n[a], at.get(u, n[:0])).all() for u, n, a in rows):
             found.append(block.nodes[0, 0])
     return np.array(found, np.int64)
 
 
 def held_nowhere(matrix: Matrix) -> set[str]:
     """Unknowns that conditions of one term hold, and no element, of a model, nor other one has."""
-    known = {u for b in matrix.blocks for u in b.unknowns}
-    alone: set[str] = set()
-    for r in matrix.relations:
-        several = np.repeat(np.diff(r.row_start) > 1, np.diff(r.row_start))
-        known |= set(np.array(r.unknowns)[several])
-        alone |= set(np.array(r.unknowns)[~several])
-    return alone - known if matrix.blocks and all(b.zone for b in matrix.blocks) else set()
+    terms = terms_of(matrix)
+    known = {u for b in matrix.blocks for u in b.unknowns} | {*terms.names[~terms.alone].tolist()}
+    modelled = matrix.blocks and all(b.zone for b in matrix.blocks)
+    return {*terms.names[terms.alone].tolist()} - known if modelled else set()
 
 
 def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntArray, IntArray]:
@@ -126,15 +122,32 @@ def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntAr
     return nodes[found], others[at[found]]
 
 
-def _held_alone(matrix: Matrix) -> IntArray:
-    """Nodes in conditions of one term, and in no condition of several."""
-    alone, tied = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
-    for relations in matrix.relations:
-        terms = np.diff(relations.row_start)
-        single = np.repeat(terms == 1, terms)
-        alone.append(relations.nodes[single])
-        tied.append(relations.nodes[~single])
-    return np.setdiff1d(np.concatenate(alone), np.concatenate(tied))
+@dataclass(frozen=True)
+class Terms:
+    """Terms of all conditions of a matrix (n,): node, unknown, whether it stands alone, sense."""
+
+    nodes: IntArray
+    names: NDArray[np.str_]
+    alone: BoolArray
+    sense: NDArray[np.int8]
+
+
+def terms_of(matrix: Matrix) -> Terms:
+    """The terms of a matrix' conditions."""
+    nodes, names, alone, sense = (
+        [np.zeros(0, int)],
+        [""][:0],
+        [np.zeros(0, int)],
+        [np.zeros(0, int)],
+    )
+    for r in matrix.relations:
+        count = np.diff(r.row_start)
+        nodes.append(r.nodes)
+        names += r.unknowns
+        alone.append(np.repeat(count == 1, count))
+        sense.append(np.repeat(r.sense, count))
+    joined = (np.concatenate(x) for x in (nodes, alone, sense))
+    return Terms(next(joined), np.array(names, np.str_), next(joined) > 0, next(joined))
 
 
 SAME = 1e-9

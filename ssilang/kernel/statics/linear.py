@@ -371,14 +371,10 @@ def _taken(load: NodeField, numbering: Numbering) -> None:
     if lost:
         strange = np.setdiff1d(load.node_ids, numbering.nodes)
         above, below = lying_on(load.table, strange, np.unique(numbering.nodes))
-        raise KernelError(
-            "kernel.statics.matrix-no-unknown-force",
-            lost=lost[:4],
-            more=max(len(lost) - 4, 0),
-            above=load.table.told(above[0]) if len(above) else None,
-            below=load.table.told(below[0]) if len(above) else None,
-            n_above=len(above),
-        )
+        told = {"lost": lost[:4], "more": len(lost[4:]), "n_above": len(above)}
+        first = [load.table.told(n[0]) if len(above) else None for n in (above, below)]
+        code = "kernel.statics.matrix-no-unknown-force"
+        raise KernelError(code, above=first[0], below=first[1], **told)
 
 
 def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
@@ -414,13 +410,9 @@ def _require_multipliers(rows: ConstraintRows, numbering: Numbering, solution: N
     if not len(missing) or not solution.components:
         return
     held = rows.C[[int(missing[0])]].indices
-    raise KernelError(
-        "kernel.statics.solution-without-multipliers",
-        missing=len(missing),
-        n_rows=len(rows.multipliers),
-        others=len(there),
-        at=[numbering.label(int(i)) for i in held[:1]],
-    )
+    told = {"missing": len(missing), "n_rows": len(rows.multipliers), "others": len(there)}
+    at = [numbering.label(int(i)) for i in held[:1]]
+    raise KernelError("kernel.statics.solution-without-multipliers", at=at, **told)
 
 
 def product(matrix: Matrix, field_: NodeField) -> NodeField:

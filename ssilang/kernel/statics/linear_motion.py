@@ -77,15 +77,10 @@ def singular(
     """
     count, motions = motions.shape[1], motions[:, :_LOOKED_AT]
     span = np.linalg.qr(motions)[0]
-    free = _most_moved(numbering, span)
-    return SingularMatrixError(
-        code,
-        count=count,
-        motions=named_motions(numbering, motions, bodies),
-        free=free,
-        more=count - len(free),
-        apart=0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies),
-    )
+    free, named = _most_moved(numbering, span), named_motions(numbering, motions, bodies)
+    apart = 0 if bodies is None else _nodes_on_other_bodies(numbering, span, bodies)
+    told = {"count": count, "free": free, "more": count - len(free), "apart": apart}
+    return SingularMatrixError(code, motions=named, **told)
 
 
 def _nodes_on_other_bodies(numbering: Numbering, span: FloatArray, bodies: IntArray) -> int:
@@ -130,12 +125,8 @@ def _describe_body(
         names += _turns(rigid, local, pure, centre, extent)
     if not several:
         return Sentence("kernel.statics.motions", motions=names) if names else None
-    return Sentence(
-        "kernel.statics.motions-of-body",
-        n_nodes=len(nodes),
-        place=_place(centre, extent),
-        motions=names,
-    )
+    told = {"n_nodes": len(nodes), "place": _place(centre, extent), "motions": names}
+    return Sentence("kernel.statics.motions-of-body", **told)
 
 
 def _inside(vector: FloatArray, basis: FloatArray) -> bool:

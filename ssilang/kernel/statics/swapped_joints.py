@@ -27,6 +27,7 @@ from ssilang.kernel.interface.interface import is_macro, joint_zones
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.statics.doubled import terms_of
 
 _SAME_PLACE = 1e-6
 _DRAWN = 5e-3  # of a joint's size: a gap that is more than a way to draw the joint
@@ -179,8 +180,8 @@ def hinges(matrix: Matrix, joints: Iterable[Zone] = ()) -> Hinge | None:
     joints : zones
         Joints whose law stands beside the matrix: they hold the rotations of their nodes.
     """
-    solids = [b for b in matrix.blocks if _is_solid(b)]
-    slender = [b for b in matrix.blocks if _is_slender(b)]
+    solids = [b for b in matrix.blocks if _dimension(b) >= 2 and not _turns(b)]
+    slender = [b for b in matrix.blocks if _dimension(b) in (1, 2) and _turns(b)]
     if not solids or not slender:
         return None
     n = len(matrix.table)
@@ -213,15 +214,13 @@ def _not_held(
         for column, name in zip(block.local, block.unknowns, strict=True):
             if name in held and id(block) not in own:
                 held[name][block.nodes[:, column]] = True
-    for relations in matrix.relations:
-        for node, name in zip(relations.nodes, relations.unknowns, strict=True):
-            if name in held:
-                held[name][node] = True
-    for zone in joints:
-        for name in ROTATIONS:
-            held[name][matrix.table.resolve(zone.cells.raw)] = True
-    there = {u for b in slender for u in b.unknowns if u in held}
-    loose = {name: found[~held[name][found]] for name in ROTATIONS if name in there}
+    terms = terms_of(matrix)
+    for name, there in held.items():
+        there[terms.nodes[terms.names == name]] = True
+        for zone in joints:
+            there[matrix.table.resolve(zone.cells.raw)] = True
+    known = {u for b in slender for u in b.unknowns}
+    loose = {name: found[~there[found]] for name, there in held.items() if name in known}
     nodes = np.unique(np.concatenate(list(loose.values()))) if loose else found[:0]
     if not len(nodes):
         return None
@@ -229,24 +228,10 @@ def _not_held(
 
 
 def _dimension(block: ElementMatrices) -> int:
-    return 0 if block.zone is None else block.zone.cells.kind.dimension
+    """Of its cells, 0 of joints and matrices without cells."""
+    cells = block.zone is not None and not is_joint(block.zone)
+    return block.zone.cells.kind.dimension if cells and block.zone is not None else 0
 
 
-def _is_solid(block: ElementMatrices) -> bool:
-    zone = block.zone
-    return (
-        zone is not None
-        and not is_joint(zone)
-        and zone.cells.kind.dimension >= 2
-        and not any(u in ROTATIONS for u in block.unknowns)
-    )
-
-
-def _is_slender(block: ElementMatrices) -> bool:
-    zone = block.zone
-    return (
-        zone is not None
-        and not is_joint(zone)
-        and zone.cells.kind.dimension in (1, 2)
-        and any(u in ROTATIONS for u in block.unknowns)
-    )
+def _turns(block: ElementMatrices) -> bool:
+    return any(u in ROTATIONS for u in block.unknowns)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,18 +18,6 @@ from ssilang.kernel.mesh.mesh import Mesh
 ELEMENTS_A_WAVE = {1: 8, 2: 4}
 
 
-@dataclass(frozen=True)
-class Coarse:
-    """The worst element: its middle, its longest side, the longest that the frequency allows."""
-
-    place: FloatArray
-    length: float
-    wanted: float
-    shear: float
-    count: int
-    elements: int
-
-
 def highest_frequency(times: FloatArray, acceleration: FloatArray, share: float = 0.05) -> float:
     """Frequency above which the spectrum of velocity stays below a share of its peak (Hz).
 
@@ -43,24 +31,6 @@ def highest_frequency(times: FloatArray, acceleration: FloatArray, share: float 
     spectrum = rows.max(axis=0) / frequencies
     above = np.flatnonzero(spectrum > share * spectrum.max(initial=0.0))
     return float(frequencies[above[-1]]) if len(above) else 0.0
-
-
-def coarse_elements(model: Model, material: CellField, frequency: float) -> Coarse | None:
-    """The element longest against its shortest wave, None if all are short enough."""
-    worst: Coarse | None = None
-    total = 0
-    for zone in model.zones:
-        lengths = longest_sides(zone)
-        shear = shear_speed(zone, material)
-        elements = ELEMENTS_A_WAVE[CELL_TYPES[zone.cells.cell_type].degree]
-        wanted = shear / (elements * frequency)
-        ratio = lengths / wanted
-        total += int((ratio > 1 + 1e-9).sum())
-        i = int(np.argmax(ratio))
-        if ratio[i] > 1 + 1e-9 and (worst is None or ratio[i] > worst.length / worst.wanted):
-            place = zone.cells.coordinates[i].mean(axis=0)
-            worst = Coarse(place, lengths[i], wanted[i], shear[i], 0, elements)
-    return None if worst is None else replace(worst, count=total)
 
 
 def longest_sides(zone: Zone) -> FloatArray:
@@ -85,12 +55,6 @@ def _edges(kind: CellType) -> set[tuple[int, int]]:
         for i, j in zip(contour, contour[1:] + contour[:1], strict=True)
         if i != j
     }
-
-
-def shear_speed(zone: Zone, material: CellField) -> FloatArray:
-    """Speed of shear waves of each cell (m/s), from YOUN, NU and RHO."""
-    young, poisson, density = _moduli(zone, material)
-    return np.sqrt(young / (2 * (1 + poisson)) / density)
 
 
 def pressure_speed(zone: Zone, material: CellField) -> FloatArray:

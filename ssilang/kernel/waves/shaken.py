@@ -13,11 +13,10 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.mesh.cells import CELL_TYPES
-from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE
+from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
-    from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+    from ssilang.kernel.matrices.matrix import Matrix
     from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -84,57 +83,55 @@ def strong_frequency(times: FloatArray, values: FloatArray) -> float:
 
 @dataclass(frozen=True)
 class Long:
-    """The cell with the fewest of its kind in a wavelength that goes up.
+    """The cell with the fewest of its size in a wavelength of shear.
 
     Attributes
     ----------
     node : int
-    height, speed : float
+    length, speed : float
         Of the cell, of shear waves in it.
-    cells, usual : float
-        That a wavelength has, and should have.
+    wanted, cells, usual : float
+        Length of a cell of which a wavelength has the usual number; numbers that it has, is usual.
     """
 
     node: int
-    height: float
+    length: float
     speed: float
+    wanted: float
     cells: float
     usual: int
 
 
-def longest_cell(stiffness: Matrix, mass: Matrix, axis: str, frequency: float) -> Long | None:
-    """The cell that is longest for shear waves of a frequency (Hz), None where all are short.
+def longest_cell(
+    stiffness: Matrix, mass: Matrix, axis: str, frequency: float, upwards: bool = True
+) -> Long | None:
+    """The cell that is longest for shear waves of a frequency (Hz), None without cells.
 
     Their speed is that of the cell's matrices: `s K s / t M t` of a shear s of one and a
-    translation t.
+    translation t. The length is that of waves that go `upwards`, else the longest side.
     """
     heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
     found: list[Long] = []
     for block in stiffness.blocks:
-        if block.zone is None or is_joint(block.zone) or id(block.raw_nodes) not in heavy:
+        zone = block.zone
+        if zone is None or is_joint(zone) or id(block.raw_nodes) not in heavy:
             continue
-        kind = CELL_TYPES[block.zone.cells.cell_type]
+        kind = zone.cells.kind
         if axis in block.unknowns and len({*block.unknowns}) == kind.dimension > 1:
-            found += _longest(block, heavy[id(block.raw_nodes)], axis, frequency)
-    worst = min(found, key=lambda c: c.cells / c.usual, default=None)
-    return None if worst is None or worst.cells >= FEWER * worst.usual else worst
-
-
-def _longest(
-    block: ElementMatrices, heavy: ElementMatrices, axis: str, frequency: float
-) -> list[Long]:
-    assert block.zone is not None
-    kind = CELL_TYPES[block.zone.cells.cell_type]
-    some = slice(None, None, 1 + len(block.values) // LOOKED_AT)
-    up = block.table.coordinates[block.nodes[some], kind.dimension - 1]
-    moved = np.array([u == axis for u in block.unknowns]) * 1.0
-    shear = (up - up.mean(axis=1, keepdims=True))[:, block.local] * moved
-    stiff = np.einsum("ni,nij,nj->n", shear, block.values[some], shear)
-    whole = np.einsum("i,nij,j->n", moved, heavy.values[some], moved)
-    speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
-    height, usual = np.ptp(up, axis=1), ELEMENTS_A_WAVE[kind.degree]
-    cells = np.where((speed > 0.0) & (height > 0.0), speed / frequency, np.inf)
-    cells /= np.where(height > 0.0, height, 1.0)
-    i = int(cells.argmin())
-    place = int(block.nodes[some][i, 0])
-    return [Long(place, float(height[i]), float(speed[i]), float(cells[i]), usual)]
+            some = slice(None, None, 1 + len(block.values) // LOOKED_AT)
+            up = block.table.coordinates[block.nodes[some], kind.dimension - 1]
+            moved = np.array([u == axis for u in block.unknowns]) * 1.0
+            shear = (up - up.mean(axis=1, keepdims=True))[:, block.local] * moved
+            stiff = np.einsum("ni,nij,nj->n", shear, block.values[some], shear)
+            whole = np.einsum("i,nij,j->n", moved, heavy[id(block.raw_nodes)].values[some], moved)
+            speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
+            length = np.ptp(up, axis=1) if upwards else longest_sides(zone)[some]
+            times, usual = (
+                length / np.where(speed > 0.0, speed, np.inf),
+                ELEMENTS_A_WAVE[kind.degree],
+            )
+            i = int(times.argmax())
+            if cells := 1.0 / (times[i] * frequency or np.inf):
+                told = float(length[i]), float(speed[i]), float(speed[i] / frequency / usual)
+                found.append(Long(int(block.nodes[some][i, 0]), *told, float(cells), usual))
+    return min(found, key=lambda c: c.cells / c.usual, default=None)

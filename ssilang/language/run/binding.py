@@ -283,17 +283,8 @@ class Binder:
         return tuple(values)
 
     def _group(self, g: Group, after: int) -> Any:
-        if not g.repeated and not g.optional:
-            return self._one(g, after)
         if not g.repeated:
-            if not self._may_begin(g):
-                return None
-            kept = self._kept()
-            try:
-                return self._one(g, after)
-            except SsiError:
-                self._put_back(kept)
-                return None
+            return self._one(g, after)
         found: list[Any] = []
         most = self._value(g.times) if g.times else None
         while self.call.operands and (most is None or len(found) < most) and self._may_begin(g):
@@ -468,13 +459,8 @@ def _heads(keywords: Sequence[Keyword | Select]) -> Heads:
 
 def missing_keyword(call: Call, words: Sequence[str]) -> SsiError:
     """The error for a keyword that must stand there."""
-    return SsiError(
-        "missing-keyword",
-        call.span,
-        operator=call.name,
-        words=list(words),
-        found=call.peek_word() or "",
-    )
+    told = {"words": list(words), "found": call.peek_word() or ""}
+    return SsiError("missing-keyword", call.span, operator=call.name, **told)
 
 
 @dataclass(slots=True)

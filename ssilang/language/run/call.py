@@ -406,27 +406,17 @@ class Call:
 
     def missing(self, types: Sequence[str]) -> SsiError:
         """The error for an operand that is not there, pointing at what stands instead."""
-        types = (ANY,) if ANY in types else types
+        every = (*self.used, *self.operands)
+        told: dict[str, Any] = {"expected": [ANY] if ANY in types else list(types)}
+        told |= {"operator": self.name}
+        told |= {"quoted": [o.span.text[1:-1] for o in every if o.span.text[:1] == "'"]}
         if self.operands:
-            wrong, every = self.operands[0], (*self.used, *self.operands)
-            return SsiError(
-                "wrong-argument",
-                wrong.span,
-                operator=self.name,
-                expected=list(types),
-                found=type_of(wrong.value),
-                name=wrong.name,
-                value=str(wrong.value) if isinstance(wrong.value, str) else "",
-                bare=isinstance(wrong.value, str) and wrong.span.text[:1] not in ("'", "("),
-                quoted=[o.span.text[1:-1] for o in every if o.span.text[:1] == "'"],
-            )
-        return SsiError(
-            "missing-argument",
-            self.span,
-            operator=self.name,
-            expected=list(types),
-            quoted=[o.span.text[1:-1] for o in self.used if o.span.text[:1] == "'"],
-        )
+            wrong, text = self.operands[0], isinstance(self.operands[0].value, str)
+            told |= {"found": type_of(wrong.value), "name": wrong.name}
+            told |= {"bare": text and wrong.span.text[:1] not in ("'", "(")}
+            value = str(wrong.value) if text else ""
+            return SsiError("wrong-argument", wrong.span, value=value, **told)
+        return SsiError("missing-argument", self.span, **told)
 
     def error(self, code: str, value: object = None, /, **data: object) -> SsiError:
         """An error placed at the operand that holds `value`, else at the operator."""

@@ -75,12 +75,8 @@ def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
     holder, sign, _ = operand.span.text.rpartition("%")
     if sign:
         return SsiError("no-attribute", operand.span, name=name, holder=holder.strip() or "%")
-    place = later.get(name.upper())
-    if (
-        place is not None
-        and place.start > operand.span.start
-        and place.source is operand.span.source
-    ):
+    place, own = later.get(name.upper()), operand.span
+    if place is not None and place.start > own.start and place.source is own.source:
         line = place.source.position(place.start)[0]
         return SsiError("set-later", operand.span, name=name, line=line)
     return SsiError("unknown-operator", operand.span, name=name)
@@ -101,15 +97,8 @@ def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:
     )
     kind = "parentheses" if caller else "numbers" if bare and len(every) > 1 else "order"
     kind = "join" if joined and not caller else kind
-    return SsiError(
-        "excess",
-        operand.span,
-        found=type_of(operand.value),
-        name=operand.name,
-        kind=kind,
-        caller=caller,
-        begins=_first_word(operand.span),
-    )
+    told = {"found": type_of(operand.value), "name": operand.name, "kind": kind, "caller": caller}
+    return SsiError("excess", operand.span, **told, begins=_first_word(operand.span))
 
 
 def _called_with_parentheses(place: Span) -> str:

@@ -262,13 +262,8 @@ class PhraseRunner(OperandReader):
             if isinstance(problem, ValueError) and str(problem).startswith(_BEYOND_MEMORY):
                 raise SsiError("memory", span, operator=name) from None
             if not isinstance(problem, Said):
-                raise SsiError(
-                    "internal",
-                    span,
-                    operator=name,
-                    kind=type(problem).__name__,
-                    reason=str(problem),
-                ) from problem
+                told = {"kind": type(problem).__name__, "reason": str(problem)}
+                raise SsiError("internal", span, operator=name, **told) from problem
             raise SsiError.of(problem, span, operator=name) from problem
         if self.session.was_interrupted():
             raise KeyboardInterrupt

@@ -90,12 +90,7 @@ def _argument(parameter: Parameter, call: Call, procedure: Procedure) -> Any:
     if parameter.optional:
         return ANNULE
     wrong = call.operands[0] if call.operands else None
-    raise SsiError(
-        "missing-parameter",
-        wrong.span if wrong else call.span,
-        procedure=procedure.name,
-        parameter=parameter.name,
-        expected=parameter.type or "any object",
-        found=type_of(wrong.value) if wrong else "nothing",
-        heading=heading(procedure.definition),
-    )
+    told = {"procedure": procedure.name, "parameter": parameter.name}
+    told |= {"expected": parameter.type or "any object", "heading": heading(procedure.definition)}
+    told |= {"found": type_of(wrong.value) if wrong else "nothing"}
+    raise SsiError("missing-parameter", wrong.span if wrong else call.span, **told)

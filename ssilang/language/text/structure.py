@@ -200,14 +200,9 @@ def _crossed(stack: list[_Open], statement: Statement, name: str) -> SsiError | 
     assert inner.statement is not None
     del stack[at:]
     stack[-1].body.append(_loop(top, statement))
-    return SsiError(
-        "crossed-blocks",
-        statement.span,
-        name=name,
-        inside=inner.statement.first_word,
-        line=inner.statement.span.source.position(inner.statement.span.start)[0],
-        missing=_OPENS[inner.kind],
-    )
+    line = inner.statement.span.source.position(inner.statement.span.start)[0]
+    told = {"inside": inner.statement.first_word, "line": line, "missing": _OPENS[inner.kind]}
+    return SsiError("crossed-blocks", statement.span, name=name, **told)
 
 
 def _loop(top: _Open, end: Statement) -> Loop:
@@ -234,16 +229,9 @@ def _finp(stack: list[_Open], statement: Statement) -> None:
         raise _stray(stack, statement, kind)
     inner = stack[at + 1 :]  # what the procedure's end finds open was never closed
     del stack[at:]
-    stack[-1].body.append(
-        Definition(
-            top.name,
-            _parameters(top.statement.items[2:]),
-            tuple(top.body),
-            statement.items[1:],
-            kind == "DEBM",
-            top.statement.span.to(statement.span),
-        )
-    )
+    parts = _parameters(top.statement.items[2:]), tuple(top.body), statement.items[1:]
+    whole = top.statement.span.to(statement.span)
+    stack[-1].body.append(Definition(top.name, *parts, kind == "DEBM", whole))
     if inner and not inner[0].unnamed:
         raise _unclosed(inner[0])
 
@@ -267,27 +255,18 @@ def _parameters(items: tuple[Item, ...]) -> tuple[Parameter, ...]:
             i += 2
         if i < len(items) and isinstance(items[i], Number | Symbol):
             raise SsiError("parameter", items[i].span)
-        found.append(
-            Parameter(
-                name, types[0] if types else "", optional, types[1] if len(types) > 1 else "", span
-            )
-        )
+        kinds = [*types, "", ""]
+        found.append(Parameter(name, kinds[0], optional, kinds[1], span))
     return tuple(found)
 
 
 def _stray(stack: list[_Open], statement: Statement, opener: str) -> SsiError:
-    top = stack[-1]
-    return SsiError(
-        "stray-block-end",
-        statement.span,
-        word=statement.first_word,
-        opener=opener,
-        inside=top.statement.first_word if top.statement else "",
-        inside_name=top.name,
-        line=top.statement.span.source.position(top.statement.span.start)[0]
-        if top.statement
-        else 0,
-    )
+    opened, told = stack[-1].statement, {"inside_name": stack[-1].name, "inside": "", "line": 0}
+    if opened is not None:
+        line = opened.span.source.position(opened.span.start)[0]
+        told |= {"inside": opened.first_word, "line": line}
+    word = statement.first_word
+    return SsiError("stray-block-end", statement.span, word=word, opener=opener, **told)
 
 
 _STEPS = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator, Sequence
-from itertools import groupby
+from itertools import groupby, zip_longest
 
 from ssilang.language.registry import HelpTable
 from ssilang.language.vocabulary.entries import (
@@ -159,17 +159,9 @@ def _longest(line: str) -> int:
 def _laid_out(row: Sequence[str], widths: Sequence[int]) -> list[str]:
     """A row on as many lines as its longest cell takes."""
     cells = [_wrapped(cell, width) for cell, width in zip(row, widths, strict=True)]
-    count = max(len(lines) for lines in cells)
-    return [
-        (
-            "    "
-            + "  ".join(
-                (lines[i] if i < len(lines) else "").ljust(width)
-                for lines, width in zip(cells, widths, strict=True)
-            )
-        ).rstrip()
-        for i in range(count)
-    ]
+    rows = zip_longest(*cells, fillvalue="")
+    padded = (map(str.ljust, row, widths) for row in rows)
+    return ["    " + "  ".join(row).rstrip() for row in padded]
 
 
 def _wrapped(cell: str, width: int) -> list[str]:

@@ -16,10 +16,10 @@ import numpy as np
 from ssilang.io.atomic import write_text
 from ssilang.io.tables import write_parquet
 from ssilang.kernel.base.arrays import BoolArray
+from ssilang.kernel.fields.node_algebra import restricted
 from ssilang.language.values import LazyRows, LazyTable, promises
 from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
-from ssilang.operators.dynamics.motion_observers import restricted
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
@@ -39,7 +39,8 @@ BODY_WORDS = promises("TEMP", *NODAL, "CONTRAINTES", "VARIABLES_INTERNES")
 def _found(snapshot: Snapshot, nodes: IntArray | None, word: str) -> object:
     if word in JOINTS:
         return getattr(snapshot, OF_INSTANTS[JOINTS[word]])
-    return restricted(getattr(snapshot, NODAL[word]), nodes)
+    given: NodeField = getattr(snapshot, NODAL[word])
+    return given if nodes is None else restricted(given, nodes)
 
 
 VECTORS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
@@ -116,16 +117,14 @@ class TableObserver:
             return None
         if index not in VECTORS or self.nodes is not None:
             return None
-        rows = self.table.rows.items()
-        fields = [
-            InstantField(
-                snapshot.problem.numbering,
-                getattr(snapshot, VECTORS[index]),
+        fields, rows = [], self.table.rows
+        for place, snapshot in rows.items():
+            make, values = (
                 partial(_asked, self.table, place, index),
+                getattr(snapshot, VECTORS[index]),
             )
-            for place, snapshot in rows
-        ]
-        return fields, np.array([snapshot.time for _, snapshot in rows])
+            fields.append(InstantField(snapshot.problem.numbering, values, make))
+        return fields, np.array([snapshot.time for snapshot in rows.values()])
 
     def _points(self, row: int, name: str) -> CellField:
         found = self.track.cell_field(row, name)

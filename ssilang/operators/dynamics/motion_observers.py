@@ -20,18 +20,6 @@ if TYPE_CHECKING:
 Steps = NDArray[np.bool_]
 
 
-def restricted(given: NodeField, nodes: IntArray | None) -> NodeField:
-    """A nodal field on these increasing nodes only (None: everywhere)."""
-    if nodes is None:
-        return given
-    parts: dict[str, NodeValues] = {}
-    for name, part in given.components.items():
-        kept = np.isin(part.nodes, nodes)
-        if kept.any():
-            parts[name] = NodeValues(part.nodes[kept], part.values[kept])
-    return NodeField(given.table, parts, given.nature)
-
-
 @dataclass
 class VtkObserver:
     """Writes a VTK series of meshes with displacement, velocity, reactions, joints, stresses.

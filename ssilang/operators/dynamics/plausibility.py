@@ -327,7 +327,11 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
         entries.warn("operators.dynamics.nothing-moves")
     energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
     before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None
-    if isinstance(before, ListReel) and first == before.values[-1] and not problem.v.any():
+    if (
+        isinstance(before, ListReel)
+        and np.isclose(first, before.values[-1])
+        and not problem.v.any()
+    ):
         entries.warn("operators.dynamics.begins-again", first=first)
 
 

@@ -195,13 +195,7 @@ def _largest(extremes: Extremes) -> list[dict[str, Any]]:
         else:
             assert problem.interface is not None
             place = joint_places(problem.interface)[peak.place]
-        found.append(
-            {
-                "kind": kind,
-                "component": name,
-                "value": peak.value,
-                "time": float(problem.times[peak.step]),
-                "place": table.shown(np.asarray(place)).tolist(),
-            }
-        )
+        told = {"kind": kind, "component": name, "value": peak.value}
+        told |= {"time": float(problem.times[peak.step])}
+        found.append(told | {"place": table.shown(np.asarray(place)).tolist()})
     return found

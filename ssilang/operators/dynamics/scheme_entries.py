@@ -25,13 +25,8 @@ def contact_options(entries: Entries, dynamic: bool = True) -> ContactOptions:
         raise entries.error("operators.dynamics.penalty-wants-coefficient")
     if not dynamic:
         return ContactOptions(method, coefficient)
-    return ContactOptions(
-        method,
-        coefficient,
-        _correction(entries, method),
-        entries.flag("CONTACT_PERSISTANT"),
-        entries.flag("MASSE_MODIFIEE"),
-    )
+    words = entries.flag("CONTACT_PERSISTANT"), entries.flag("MASSE_MODIFIEE")
+    return ContactOptions(method, coefficient, _correction(entries, method), *words)
 
 
 def _correction(entries: Entries, method: str) -> str:

@@ -21,6 +21,7 @@ from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.waves.shaken import (
     AXES,
+    FEWER,
     SAME,
     accelerations,
     axes_of,
@@ -140,13 +141,12 @@ class _Entering:
                 continue
             curve = part.time.parts[0]
             frequency = strong_frequency(curve.abscissas, curve.ordinates)
-            axis = self.axes[int(np.abs(along).argmax())]
+            axis, stiffness = self.axes[int(np.abs(along).argmax())], self.inputs.stiffness
             assert mass is not None
-            if frequency and (found := longest_cell(self.inputs.stiffness, mass, axis, frequency)):
+            found = longest_cell(stiffness, mass, axis, frequency) if frequency else None
+            if found is not None and found.cells < FEWER * found.usual:
                 told = vars(found) | {"node": mass.table.told(found.node), "frequency": frequency}
-                told["wanted"] = found.speed / frequency / found.usual
                 yield "operators.dynamics.cells-too-long", {"name": part.name, **told}
-                return
 
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""

@@ -37,13 +37,9 @@ def zgam(
     )
     if isinstance(motion, ListChpo):
         tell_no_unknown(call, cast(NodeField, fields[0]), model)
-    return CellField(
-        tuple(
-            largest_shear_strain(z, _vectors(families.family_of(z).layout(z), fields))
-            for z in model.zones
-        ),
-        "SCALAIRE",
-    )
+    layouts = [(z, families.family_of(z).layout(z)) for z in model.zones]
+    blocks = (largest_shear_strain(z, _vectors(own, fields)) for z, own in layouts)
+    return CellField(tuple(blocks), "SCALAIRE")
 
 
 def _vectors(layout: Layout, fields: Sequence[AnyField]) -> Iterator[FloatArray]:

@@ -62,19 +62,15 @@ def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
     largest = dict(enumerate(values.values.tolist(), 1))
     for number, floor, spectra, _ in _each_floor(given, found):
         for part in spectra.parts:
-            top = int(np.argmax(part.ordinates))
-            rows.append(
-                {
-                    "floor": number,
-                    "component": str(floor.get("COMPOSANTE")),
-                    "damping": part.legend,
-                    "acceleration": float(part.ordinates[top]),
-                    "frequency": float(part.abscissas[top]),
-                    "largest": largest.get(number),
-                    "frequencies": part.abscissas,
-                    "accelerations": part.ordinates,
-                }
-            )
+            top, x, y = int(np.argmax(part.ordinates)), part.abscissas, part.ordinates
+            row = {"floor": number, "component": str(floor.get("COMPOSANTE"))}
+            row |= {
+                "damping": part.legend,
+                "acceleration": float(y[top]),
+                "frequency": float(x[top]),
+            }
+            row |= {"largest": largest.get(number), "frequencies": x, "accelerations": y}
+            rows.append(row)
     return rows
 
 

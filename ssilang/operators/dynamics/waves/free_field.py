@@ -36,14 +36,8 @@ def zcol(call: Call, table: Table = Arg("TABLE", en="layers, motion and depths")
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         raise entries.error("operators.dynamics.equal-steps-wanted")
     soil = SoilColumn(thickness, density, modulus, damping, f1, f2)
-    field = free_field(
-        soil,
-        float(steps.mean()),
-        signal.ordinates,
-        depths,
-        cutoff,
-        None if control < 0 else control,
-    )
+    at = None if control < 0 else control
+    field = free_field(soil, float(steps.mean()), signal.ordinates, depths, cutoff, at)
     if field.begun > _BEGUN and all(w.code != _CODE for w in call.session.warnings):
         entries.warn(_CODE, share=100 * field.begun, rest=1.5 * soil.crossing)
     _tell_coarse(entries, soil, signal, cutoff)
@@ -59,18 +53,11 @@ def _tell_coarse(entries: Entries, soil: SoilColumn, signal: CurvePart, cutoff: 
     speed = np.sqrt(soil.modulus / soil.density)
     wanted = speed / (_NODES * frequency)
     i = int(np.argmax(heights.values / wanted))
-    told = any(w.code == _COARSE for w in entries.call.session.warnings)
-    if heights.values[i] > (1 + 1e-9) * wanted[i] and not told:
-        entries.warn(
-            _COARSE,
-            top=soil.tops[i],
-            bottom=soil.tops[i + 1],
-            height=heights.values[i],
-            wanted=wanted[i],
-            frequency=frequency,
-            speed=speed[i],
-            nodes=_NODES,
-        )
+    known = any(w.code == _COARSE for w in entries.call.session.warnings)
+    if heights.values[i] > (1 + 1e-9) * wanted[i] and not known:
+        told = {"top": soil.tops[i], "bottom": soil.tops[i + 1], "height": heights.values[i]}
+        told |= {"wanted": wanted[i], "frequency": frequency, "speed": speed[i]}
+        entries.warn(_COARSE, nodes=_NODES, **told)
 
 
 def _results(field: FreeField, start: float) -> Table:

@@ -21,11 +21,11 @@ from ssilang.kernel.waves.free_field_forces import (
     yielding_outside,
 )
 from ssilang.kernel.waves.resolution import (
-    coarse_elements,
     highest_frequency,
     pressure_speed,
     reflecting_edges,
 )
+from ssilang.kernel.waves.shaken import longest_cell
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -186,11 +186,10 @@ def _tell_coarse(entries: Entries, motion: Motion) -> None:
         frequency = highest_frequency(motion.times, np.nan_to_num(motion.acceleration))
     if frequency <= 0:
         return
-    model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
-    coarse = coarse_elements(model, material, frequency)
-    if coarse is not None:
-        table = model.zones[0].cells.nodes
-        told = vars(coarse) | {"place": table.shown(coarse.place), "frequency": frequency}
+    ground = _ground(entries)
+    coarse = longest_cell(ground.stiffness, ground.mass, "UX", frequency, upwards=False)
+    if coarse is not None and coarse.cells < coarse.usual * (1.0 - 1e-9):
+        told = vars(coarse) | {"node": ground.mass.table.told(coarse.node), "frequency": frequency}
         entries.warn("operators.dynamics.element-too-long", **told)
 
 
