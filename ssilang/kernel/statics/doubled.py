@@ -134,12 +134,8 @@ class Terms:
 
 def terms_of(matrix: Matrix) -> Terms:
     """The terms of a matrix' conditions."""
-    nodes, names, alone, sense = (
-        [np.zeros(0, int)],
-        [""][:0],
-        [np.zeros(0, int)],
-        [np.zeros(0, int)],
-    )
+    none = np.zeros(0, int)
+    nodes, alone, sense, names = [none], [none], [none], list[str]()
     for r in matrix.relations:
         count = np.diff(r.row_start)
         nodes.append(r.nodes)

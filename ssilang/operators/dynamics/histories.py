@@ -119,10 +119,8 @@ class TableObserver:
             return None
         fields, rows = [], self.table.rows
         for place, snapshot in rows.items():
-            make, values = (
-                partial(_asked, self.table, place, index),
-                getattr(snapshot, VECTORS[index]),
-            )
+            make = partial(_asked, self.table, place, index)
+            values = getattr(snapshot, VECTORS[index])
             fields.append(InstantField(snapshot.problem.numbering, values, make))
         return fields, np.array([snapshot.time for snapshot in rows.values()])
 

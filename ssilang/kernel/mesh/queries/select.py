@@ -50,7 +50,6 @@ def cells_containing(block: CellBlock, position: FloatArray) -> BoolArray:
 # corners of simplices that make up a cell: enough for point location in cells with flat sides
 _SIMPLICES: dict[int, dict[int, tuple[tuple[int, ...], ...]]] = {
     1: {2: ((0, 1),)},
-    2: {3: ((0, 1, 2),), 4: ((0, 1, 2), (0, 2, 3))},
     3: {
         4: ((0, 1, 2, 3),),
         5: ((0, 1, 2, 4), (0, 2, 3, 4)),
@@ -62,7 +61,10 @@ _SIMPLICES: dict[int, dict[int, tuple[tuple[int, ...], ...]]] = {
 
 def simplices(block: CellBlock) -> tuple[tuple[int, ...], ...]:
     """Triangles or tetrahedra that fill a cell, as places among its corners."""
-    return _SIMPLICES[block.kind.dimension][len(block.kind.corners)]
+    count = len(block.kind.corners)
+    if block.kind.dimension == 2:  # polygons are convex
+        return tuple((0, i, i + 1) for i in range(1, count - 1))
+    return _SIMPLICES[block.kind.dimension][count]
 
 
 def _in_simplex(
