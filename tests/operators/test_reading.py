@@ -266,6 +266,7 @@ def test_several_records_of_cosmos(tmp_path: Path) -> None:
         (cosmos(step=-999.0), "the 34th of the 100 reals"),
         (cosmos(step=1.0), "0 s, says the line above the values, their step makes 10 s"),
         (cosmos().replace("acceleration pts", "raw counts pts"), "no line says how many"),
+        (cosmos().replace("Real-header", "Other"), "34th of the 100 reals"),
     ],
 )
 def test_a_broken_record_of_cosmos_says_where(tmp_path: Path, content: str, told: str) -> None:

@@ -170,6 +170,8 @@ def test_step_too_long_is_refused(scheme):
     with pytest.raises(KernelError, match="too long"):
         run(ONE, 0 * ONE, 100.0 * ONE, 1.0, 0.0, 0.3, 10, scheme=scheme)
     assert run(ONE, 0 * ONE, ONE, 1.0, 0.0, 0.3, 10, scheme=scheme).times[-1] == pytest.approx(3.0)
+    with pytest.raises(KernelError, match="diverges"):  # driven, by short steps
+        run(ONE, -20.0 * ONE, ONE, 1.0, 0.0, 0.01, 5000, scheme=scheme)
 
 
 @together(
