@@ -64,12 +64,9 @@ def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
         for part in spectra.parts:
             top, x, y = int(np.argmax(part.ordinates)), part.abscissas, part.ordinates
             row = {"floor": number, "component": str(floor.get("COMPOSANTE"))}
-            row |= {
-                "damping": part.legend,
-                "acceleration": float(y[top]),
-                "frequency": float(x[top]),
-            }
-            row |= {"largest": largest.get(number), "frequencies": x, "accelerations": y}
+            row |= {"damping": part.legend, "acceleration": float(y[top])}
+            row |= {"frequency": float(x[top]), "largest": largest.get(number)}
+            row |= {"frequencies": x, "accelerations": y}
             rows.append(row)
     return rows
 

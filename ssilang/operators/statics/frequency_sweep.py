@@ -68,7 +68,8 @@ def _at_rest(field: NodeField) -> NodeField:
 def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
     from ssilang.kernel.statics.frequency import default_frequencies
 
-    given = entries.get("TEMPS_CALCULES") or entries.get("TEMPS_SAUVES")
+    said = (entries.get(word) for word in ("TEMPS_CALCULES", "TEMPS_SAUVES"))
+    given = next((values for values in said if values is not None), None)
     if given is None:
         return default_frequencies(inputs)
     values = np.asarray(given.values, dtype=float)
