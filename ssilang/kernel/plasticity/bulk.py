@@ -163,6 +163,10 @@ class Bulk:
     def _answered(self, state: State, du: FloatArray, time: float, whole: bool) -> Answer:
         force = np.zeros(self.size)
         found = [self._respond(i, old, du, time, force, whole) for i, old in enumerate(state)]
+        return self._gathered(force, found)
+
+    def _gathered(self, force: FloatArray, found: list[_OfZone]) -> Answer:
+        """The answer of zones, whose forces are `force` (n,)."""
 
         def terms() -> FloatArray:
             data = self.terms.blank()
@@ -186,28 +190,21 @@ class Bulk:
         """
         if any("SECTION" in zone.zone.behaviour for zone in self.zones):
             return None
-        force, moduli, strained = self.force(state), [], False
+        force, found, strained = self.force(state), list[_OfZone](), False
         for i, zone in enumerate(self.zones):
             D, h = zone.parameters.moduli, np.array(zone.held, dtype=int)
             D = D - D[:, :, h] @ np.linalg.solve(D[:, h[:, None], h], D[:, h])
-            moduli.append(D)
+            found.append(_OfZone(state[i], 0.0, self._adding(i, D)))
             if i in self.free:
                 freed = zone.spread(self.free[i](time)) - state[i].free
                 pressed = zone.forces(np.einsum("mij,mj->mi", D, freed)).ravel()
                 force -= np.bincount(self.places[i].ravel(), pressed, self.size)
                 strained = strained or bool(freed.any())
+        return self._gathered(force, found) if strained else None
 
-        def terms() -> FloatArray:
-            data = self.terms.blank()
-            for i, (zone, D) in enumerate(zip(self.zones, moduli, strict=True)):
-                self.terms.add(data, i, zone.stiffness(D))
-            return data
-
-        def tangent() -> sp.csr_array:
-            return self.terms.matrix(answer.terms)
-
-        answer = Answer(force, tangent, state, 0.0, make_terms=terms)
-        return answer if strained else None
+    def _adding(self, i: int, D: FloatArray) -> Callable[[FloatArray], None]:
+        """Adds the stiffness of a zone to terms, where its points have tangents (m, 6, 6)."""
+        return lambda data: self.terms.add(data, i, self.zones[i].stiffness(D))
 
     def _respond(
         self, i: int, old: PointState, du: FloatArray, time: float, force: FloatArray, whole: bool
@@ -241,7 +238,7 @@ class Bulk:
         return _OfZone(
             PointState(found.stress, plastic, free, found.variables, time),
             float(density @ zone.weights.ravel()),
-            lambda data: self.terms.add(data, i, zone.stiffness(found.tangent)),
+            self._adding(i, found.tangent),
         )
 
     @cached_property

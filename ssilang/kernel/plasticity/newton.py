@@ -104,13 +104,13 @@ class BulkSolver(FullNewtonSolver):
         held = self.constraints.particular(dd)
         free = type(self.bulk) is Bulk and self.bulk.free
         elastic = self.bulk.predicted(self.state, self.time) if free else None
-        for answer in (None,) if elastic is None else (elastic, None):
-            known = answer is None and not held.any()
-            start = (held, None) if known else self._predicted(motion, r, held, gap, answer)
-            outcome = self._newton(motion, r, start[0], gap, start[1])
+        if elastic is not None:
+            start, pushed = self._predicted(motion, r, held, gap, elastic)
+            outcome = self._newton(motion, r, start, gap, pushed)
             if outcome.turns > 0:
-                break
-        return outcome
+                return outcome
+        start, pushed = self._predicted(motion, r, held, gap) if held.any() else (held, None)
+        return self._newton(motion, r, start, gap, pushed)
 
     def _predicted(
         self,

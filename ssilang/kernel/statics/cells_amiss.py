@@ -68,14 +68,13 @@ def hanging_nodes(matrix: Matrix, solids: Solids) -> IntArray:
 
 def overlapping_cells(matrix: Matrix, solids: Solids) -> IntArray:
     """First node (n,) of cells whose middle lies inside a cell of another part; some of them."""
-    bodies = [
-        (block, zone.cells, matrix.table.coordinates[block.nodes])
-        for block, zone, _ in solids
-        if zone.cells.kind.dimension == zone.mode.dimension
-    ]
-    found = [0] * 0
-    for (block, _, x), (_, cells, y) in permutations(bodies, 2):
-        low, high, middles = y.min(axis=1), y.max(axis=1), x.mean(axis=1)
+    bodies = []
+    for block, zone, _ in solids:
+        if zone.cells.kind.dimension == zone.mode.dimension:
+            x = matrix.table.coordinates[block.nodes]
+            bodies.append((block, zone.cells, x.mean(axis=1), x.min(axis=1), x.max(axis=1)))
+    found = list[int]()
+    for (block, _, middles, *_), (_, cells, _, low, high) in permutations(bodies, 2):
         there = ((middles >= low.min(axis=0)) & (middles <= high.max(axis=0))).all(axis=1)
         inner = np.flatnonzero(there)
         for i in inner[:: 1 + len(inner) // _LOOKED_AT].tolist():

@@ -129,11 +129,14 @@ class Terms:
     nodes: IntArray
     names: NDArray[np.str_]
     alone: BoolArray
-    sense: NDArray[np.int8]
+    sense: IntArray
 
 
 def terms_of(matrix: Matrix) -> Terms:
-    """The terms of a matrix' conditions."""
+    """The terms of a matrix' conditions, joined once."""
+    kept = matrix.cache.get("terms")
+    if isinstance(kept, Terms):
+        return kept
     none = np.zeros(0, int)
     nodes, alone, sense, names = [none], [none], [none], list[str]()
     for r in matrix.relations:
@@ -142,8 +145,10 @@ def terms_of(matrix: Matrix) -> Terms:
         names += r.unknowns
         alone.append(np.repeat(count == 1, count))
         sense.append(np.repeat(r.sense, count))
-    joined = (np.concatenate(x) for x in (nodes, alone, sense))
-    return Terms(next(joined), np.array(names, np.str_), next(joined) > 0, next(joined))
+    every = np.concatenate(nodes), np.array(names, np.str_)
+    made = Terms(*every, np.concatenate(alone) > 0, np.concatenate(sense))
+    matrix.cache["terms"] = made
+    return made
 
 
 SAME = 1e-9

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.errors import FieldError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
@@ -100,7 +100,10 @@ def unconfined(problem: Problem, bulk: Bulk, state: State) -> tuple[str, float, 
         return None
     tangent = bulk.respond(state, np.zeros(problem.numbering.size), problem.times[0]).tangent
     stiffness = sp.csr_array(closed_stiffness(problem) + T.T @ tangent @ T)
-    moved = T @ solved(stiffness, T.T @ (loading.forces @ factors)[:, None])[:, 0]
+    try:
+        moved = T @ solved(stiffness, T.T @ (loading.forces @ factors)[:, None])[:, 0]
+    except SingularFactorError:  # the steps tell what moves
+        return None
     for name, z, places, old in zip(names, bulk.zones, bulk.places, state, strict=True):
         if name in FRICTIONAL and type(z) is PlasticPoints:
             stress = np.einsum("mij,mj->mi", z.parameters.moduli, z.strains(moved[places]))

@@ -61,9 +61,8 @@ def accelerations(problem: Problem) -> FloatArray:
 def is_shaken(problem: Problem, name: str) -> bool:
     """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
     axes = axes_of(problem)
-    return name in axes and bool(
-        (accelerations(problem) * changing(problem))[axes.index(name)].any()
-    )
+    shaking = accelerations(problem) * changing(problem)
+    return name in axes and bool(shaking[axes.index(name)].any())
 
 
 def strong_frequency(times: FloatArray, values: FloatArray) -> float:
@@ -126,11 +125,8 @@ def longest_cell(
             whole = np.einsum("i,nij,j->n", moved, heavy[id(block.raw_nodes)].values[some], moved)
             speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
             length = np.ptp(up, axis=1) if upwards else longest_sides(zone)[some]
-            times, usual = (
-                length / np.where(speed > 0.0, speed, np.inf),
-                ELEMENTS_A_WAVE[kind.degree],
-            )
-            i = int(times.argmax())
+            times = length / np.where(speed > 0.0, speed, np.inf)
+            i, usual = int(times.argmax()), ELEMENTS_A_WAVE[kind.degree]
             if cells := 1.0 / (times[i] * frequency or np.inf):
                 told = float(length[i]), float(speed[i]), float(speed[i] / frequency / usual)
                 found.append(Long(int(block.nodes[some][i, 0]), *told, float(cells), usual))

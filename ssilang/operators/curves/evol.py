@@ -291,19 +291,24 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     called = _point_names(call, support)
     parts: list[CurvePart] = []
     for name in names:
+        relative = _are_relative(fields, title, name)
         for node in nodes:
             values = value_in_time(call, fields, name, node)
             _tell_peak(call, fields, values, name)
             legend = f"{name} {called[node]}"
             colour = colours[len(parts) % len(colours)]
             made = CurvePart(times, values, "TEMP", name, legend, colour)
-            made = made.measured("s", _unit_in_time(results, title, name))
-            parts.append(made)
-            if title == "ACCE" and isinstance(fields, RecordedFields):
-                from ssilang.kernel.waves.shaken import is_shaken
-
-                object.__setattr__(made, "relative", is_shaken(fields.track.problem, name))
+            parts.append(made.measured("s", _unit_in_time(results, title, name), relative))
     return Curve(tuple(parts), workspace(call.session).title)
+
+
+def _are_relative(fields: Sequence[Any], index: str, name: str) -> bool:
+    """Whether results are accelerations relative to a ground that shakes along their axis."""
+    if index != "ACCE" or not isinstance(fields, RecordedFields):
+        return False
+    from ssilang.kernel.waves.shaken import is_shaken
+
+    return is_shaken(fields.track.problem, name)
 
 
 def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str) -> None:

@@ -122,11 +122,13 @@ class _Entering:
         moves = np.asarray(by_node @ (self.along * free[:, None])) > 0.0
         total = mass.sum(axis=0)
         for axis, name in enumerate(self.axes):
-            forces = np.asarray(by_node @ (self.along[:, axis, None] * problem.loading.forces))
-            laden = [(f[f != 0.0], mass[f != 0.0, axis]) for f in forces.T]
-            by_mass = any(len(f) >= MANY and shares(m[:, None], f[:, None]).any() for f, m in laden)
             less = moves[:, axis] & (mass[:, axis] < PART * mass.max(axis=1))
-            if by_mass and total[axis] < WHOLE * total.max() and less.any():
+            if total[axis] >= WHOLE * total.max() or not less.any():
+                continue
+            along = sp.csr_array(by_node * self.along[:, axis])
+            forces = (along @ f for f in problem.loading.forces.T)  # one by one: they may be many
+            laden = ((f[f != 0.0], mass[f != 0.0, axis]) for f in forces)
+            if any(len(f) >= MANY and shares(m[:, None], f[:, None]).any() for f, m in laden):
                 node = problem.numbering.table.told(int(nodes[less.argmax()]))
                 told = {"count": int(less.sum()), "node": node, "axis": name}
                 told["other"] = self.axes[int(mass[less.argmax()].argmax())]

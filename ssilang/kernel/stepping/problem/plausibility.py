@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
@@ -217,10 +218,19 @@ def swings(problem: Problem) -> list[Swing]:
 
 
 def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
-    """Motions (n, k) under forces (n, k)."""
-    if K.shape[0] <= DENSE:
+    """Motions (n, k) under forces (n, k).
+
+    Raises
+    ------
+    SingularFactorError
+        If nothing holds what moves.
+    """
+    if K.shape[0] > DENSE:
+        return SuperLUFactor(sp.csr_array(K), positive=True).solve(forces)
+    try:
         return np.asarray(np.linalg.solve(K.toarray(), forces), float)
-    return SuperLUFactor(sp.csr_array(K), positive=True).solve(forces)
+    except np.linalg.LinAlgError as error:
+        raise SingularFactorError(str(error)) from None
 
 
 def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
