@@ -535,6 +535,9 @@ MODELS = {
 """Models, loads and steps."""
 
 SENSIBLE_MODELS = {
+    "a mode of no mass, which what steps it refuses": SQUARE
+    + HELD
+    + SEIS.format(900.0).replace("C =", "V . 'MODES' . 1 . 'MASSE_GENERALISEE' = 0. ; C ="),
     "springs under a body held at its base": SQUARE
     + HELD
     + "U = RESO (K ET (APPU 'UX' 1.E6 S)) (FORC (1. 0.) H) ; X = MAXI U 'SANS' (MOTS 'LX') ;",

@@ -41,10 +41,10 @@ def seis(
         number = along.get(_AXES.index(direction) + 1) if isinstance(along, Table) else None
         if not isinstance(number, int | float):
             raise call.error("operators.modal.mode-no-generalised-displacements", table)
-        values[shape.mark.node] = -factor * float(number)
-    _tell_left_out(call, shapes, direction)
+        values[shape.mark.node] = float(number)
+    _tell_left_out(call, shapes, values, direction)
     nodes = np.array(sorted(values))
-    part = NodeValues(nodes, np.array([values[int(n)] for n in nodes]))
+    part = NodeValues(nodes, -factor * np.array([values[int(n)] for n in nodes]))
     field = NodeField(shapes[0].mark.nodes, {"FALF": part}, "DISCRET")
     return Load((LoadPart("MECA", field, curve),))
 
@@ -52,15 +52,17 @@ def seis(
 HALF = 0.5  # of the mass that moves; with less the answer is that of the rest
 
 
-def _tell_left_out(call: Call, shapes: Sequence[Shape], direction: str) -> None:
+def _tell_left_out(
+    call: Call, shapes: Sequence[Shape], moved: dict[int, float], direction: str
+) -> None:
     """Warn where modes leave out more of the mass that no support holds than they have."""
-    axis, held = _AXES.index(direction) + 1, 0.0
-    for entry in (s.entry for s in shapes):
-        along, masses = (entry.get(Mot(n)) for n in ("DEPLACEMENTS_GENERALISES", "MASSES_MOBILES"))
-        if not isinstance(masses, Table) or not isinstance(along, Table):
-            return
-        moved, mass, whole = along.get(axis), entry.get(Mot("MASSE_GENERALISEE")), masses.get(axis)
-        held += float(moved) ** 2 / float(mass) / (float(whole) or np.inf)  # type: ignore[arg-type]
+    words, axis, held = ("MASSES_MOBILES", "MASSE_GENERALISEE"), _AXES.index(direction) + 1, 0.0
+    for shape in shapes:
+        masses, mass = (shape.entry.get(Mot(word)) for word in words)
+        whole = masses.get(axis) if isinstance(masses, Table) else None
+        if not isinstance(whole, float) or not isinstance(mass, float) or mass <= 0.0:
+            return  # other modes than VIBR's
+        held += moved[shape.mark.node] ** 2 / mass / (whole or np.inf)
     if held < HALF:
         told = {"share": 100.0 * held, "rest": 100.0 - 100.0 * held, "axis": direction}
         call.warn("operators.modal.mass-left-out", **told)
