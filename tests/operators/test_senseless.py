@@ -197,8 +197,8 @@ SEIS = "V = VIBR 'SIMU' {0} 1 K M ; C = SEIS (EVOL 'MANU' 'TEMP' LT 'ACCE' LT) V
 LOAD = "CHAR 'MECA' (FORC (300. 0.) H) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.))"
 SAND = PASAPAS.replace("{0}", LOAD).replace(
     "T = TABL",
-    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'RH_COULOMB' ; "
-    "A = MATE MO 'YOUN' 1.E7 'NU' 0. 'COHE' {0} 'PHI' 0.5 ; T = TABL",
+    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'DRUCKER_PARFAIT' ; "
+    "A = MATE MO 'YOUN' 1.E7 'NU' 0. 'LTR' {0} 'LCS' (3. * {0}) ; T = TABL",
 )
 MATRICES = "operators.matrices."
 PART = (

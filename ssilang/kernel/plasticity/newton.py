@@ -170,9 +170,9 @@ class BulkSolver(FullNewtonSolver):
                     return StepOutcome(now.du, 0, now.residual)
                 step, pushed = np.zeros_like(now.du), now.pushed  # all yields, and is in balance
             now = self._searched(motion, r, now, step, pushed)
-            self.residuals.append(now.residual)
             if not np.isfinite(now.residual):
                 break
+            self.residuals.append(now.residual)
             if now.residual <= TOLERANCE or self._stalled():
                 motion.contact[:] = now.pushed
                 self._commit(motion, now.joints)

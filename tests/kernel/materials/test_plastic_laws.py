@@ -125,14 +125,17 @@ def test_flow_is_found_in_few_turns_however_little_it_is(
         assert len(turns) - before <= 12
 
 
+@pytest.mark.parametrize("size", [10, 2e3])
 @pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
-def test_stress_is_admissible(name: str) -> None:
+def test_stress_is_admissible(name: str, size: float) -> None:
     law, p = PLASTIC_LAWS[name], parameters(name)
     first, second = steps(5)
     blank = np.zeros((M, len(law.variables)))
     start = law.respond(p, np.zeros((M, 6)), first, blank)
-    found = law.respond(p, start.stress, 10 * second, start.variables)
-    assert excess(name, p, found.stress, found.variables).max() < 1e-9
+    found = law.respond(p, start.stress, size * second, start.variables)
+    told = np.isfinite(found.stress).all(axis=1)  # NaN: not found, the step is cut
+    assert told.mean() > (0.9 if size > 10 else 0.999)
+    assert excess(name, p, found.stress[told], found.variables[told]).max() < 1e-9 * size
 
 
 def excess(name: str, p: PointParameters, stress: np.ndarray, variables: np.ndarray) -> np.ndarray:

@@ -40,7 +40,7 @@ def respond_held(
         block = (moduli if turn == 0 else found.tangent)[:, h[:, None], h[None, :]]
         rounding = 0.03 * np.abs(moduli @ whole[..., None])[..., 0]  # of where it returned from
         size = np.maximum(np.abs(found.stress), rounding).max(axis=1)
-        if (np.abs(rest).max(axis=1) <= 1e-13 * size + 1e-300).all():
+        if not (np.abs(rest).max(axis=1) > 1e-13 * size + 1e-300).any():  # NaN stays so
             break
         whole[:, h] -= np.linalg.solve(block + ridge, rest[..., None])[..., 0]
         found = law.respond(parameters, stress, whole, variables)

@@ -12,14 +12,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 TRANSITION = np.radians(25.0)
 TIP = 0.05
-TURNS = 60
+TURNS = 30
 CUTS = 12
+FAR = 1e5  # times the cohesion: where only a step that diverges leads
 _S = -1.5 * np.sqrt(3.0)
 
 _PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
@@ -61,25 +62,52 @@ def criterion(parameters: PointParameters, stress: FloatArray) -> FloatArray:
 def _closest_point(
     parameters: PointParameters, compliance: FloatArray, trial: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    m = len(trial)
-    unknown = np.column_stack([trial, np.zeros(m)])
-    rest, jacobian, _ = _equations(parameters, compliance, trial, unknown)
-    norm = _norm(parameters, rest)
-    for _ in range(TURNS):
-        active = norm > 1e-12
-        if not active.any():
-            break
-        step = -_solved(jacobian, rest)
-        step[~active] = 0.0
-        unknown, rest, jacobian, norm = _searched(
-            parameters, compliance, trial, unknown, step, norm
-        )
+    unknown = np.column_stack([trial, np.zeros(len(trial))])
+    jacobian, lost = _newton(parameters, compliance, trial, unknown, TIP)
+    rows = np.flatnonzero(lost)
+    if len(rows):  # far beyond a sharp tip: along ever sharper ones
+        some, own, far = parameters.at(rows), compliance[rows], trial[rows]
+        found = np.column_stack([far, np.zeros(len(rows))])
+        ratio = (np.abs(far).max(axis=1) / (TIP * some["COHE"])).max()
+        for halvings in range(int(np.log2(min(ratio, FAR / TIP))), -1, -1):
+            jacobian[rows], lost[rows] = _newton(some, own, far, found, TIP * 2.0**halvings)
+        unknown[rows] = found
+    unknown[lost], jacobian[lost] = np.nan, np.eye(7)
     inverse = np.linalg.inv(jacobian).astype(np.float64)
     return unknown[:, :6], inverse[:, :6, :6]
 
 
-def _solved(jacobian: FloatArray, rest: FloatArray) -> FloatArray:
-    return np.linalg.solve(jacobian, rest[..., None])[..., 0].astype(np.float64)
+def _newton(
+    parameters: PointParameters,
+    compliance: FloatArray,
+    trial: FloatArray,
+    unknown: FloatArray,
+    tip: float,
+) -> tuple[FloatArray, BoolArray]:
+    """Changes stress and multiplier `unknown`; Jacobian, which points have not converged."""
+    scale = _scale(parameters, trial)
+    rest, jacobian = _equations(parameters, compliance, trial, unknown, tip)
+    norm = _norm(parameters, scale, rest)
+    norm[np.abs(trial).max(axis=1) > FAR * parameters["COHE"]] = np.nan
+    for _ in range(TURNS):
+        rows = np.flatnonzero(norm > 1e-12)
+        if not len(rows):
+            break
+        unknown[rows], rest[rows], jacobian[rows], norm[rows] = _searched(
+            parameters.at(rows),
+            compliance[rows],
+            trial[rows],
+            unknown[rows],
+            _step(jacobian[rows], rest[rows]),
+            norm[rows],
+            scale[rows],
+            tip,
+        )
+    return jacobian, ~(norm <= 1e-12)
+
+
+def _step(jacobian: FloatArray, rest: FloatArray) -> FloatArray:
+    return -np.linalg.solve(jacobian, rest[..., None])[..., 0].astype(np.float64)
 
 
 def _searched(
@@ -89,34 +117,46 @@ def _searched(
     unknown: FloatArray,
     step: FloatArray,
     norm: FloatArray,
+    scale: FloatArray,
+    tip: float,
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """A step, halved where the residual would grow."""
     length = np.ones(len(norm))
     for _ in range(CUTS):
         new = unknown + length[:, None] * step
-        rest, jacobian, _ = _equations(parameters, compliance, trial, new)
-        found = _norm(parameters, rest)
-        worse = ~(found <= (1 - 0.1 * length) * norm) & (norm > 1e-12) & (found > 1e-13)
+        rest, jacobian = _equations(parameters, compliance, trial, new, tip)
+        found = _norm(parameters, scale, rest)
+        worse = ~(found <= (1 - 0.1 * length) * norm) & ~(found <= 1e-12)
         if not worse.any():
             break
         length = np.where(worse, 0.5 * length, length)
     return new, rest, jacobian, found
 
 
-def _norm(parameters: PointParameters, rest: FloatArray) -> FloatArray:
-    """Residual over the strain and stress of first yield (m,)."""
-    scale = parameters["COHE"] * np.cos(parameters["PHI"])
-    strain = np.abs(rest[:, :6]).max(axis=1) * parameters["YOUN"] / scale
-    found: FloatArray = np.maximum(strain, np.abs(rest[:, 6]) / scale)
+def _scale(parameters: PointParameters, trial: FloatArray) -> FloatArray:
+    """Stress of first yield (m,), or what rounds as much as a trial far beyond it."""
+    size = 0.01 * np.abs(trial).max(axis=1)
+    scale: FloatArray = np.maximum(parameters["COHE"] * np.cos(parameters["PHI"]), size)
+    return scale
+
+
+def _norm(parameters: PointParameters, scale: FloatArray, rest: FloatArray) -> FloatArray:
+    """Residual over the strain and stress of `scale` (m,)."""
+    strain = np.abs(rest[:, :6]).max(axis=1) * parameters["YOUN"]
+    found: FloatArray = np.maximum(strain, np.abs(rest[:, 6])) / scale
     return found
 
 
 def _equations(
-    parameters: PointParameters, compliance: FloatArray, trial: FloatArray, unknown: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Residual (m, 7), its derivative (m, 7, 7), yield function (m,)."""
+    parameters: PointParameters,
+    compliance: FloatArray,
+    trial: FloatArray,
+    unknown: FloatArray,
+    tip: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Residual (m, 7), its derivative (m, 7, 7)."""
     stress, multiplier = unknown[:, :6], unknown[:, 6]
-    f, gradient, hessian = _surface(parameters, stress)
+    f, gradient, hessian = _surface(parameters, stress, tip)
     rest = np.empty_like(unknown)
     rest[:, :6] = np.einsum("mij,mj->mi", compliance, stress - trial)
     rest[:, :6] += multiplier[:, None] * gradient
@@ -124,11 +164,11 @@ def _equations(
     jacobian = np.zeros((len(f), 7, 7))
     jacobian[:, :6, :6] = compliance + multiplier[:, None, None] * hessian
     jacobian[:, :6, 6] = jacobian[:, 6, :6] = gradient
-    return rest, jacobian, f
+    return rest, jacobian
 
 
 def _surface(
-    parameters: PointParameters, stress: FloatArray
+    parameters: PointParameters, stress: FloatArray, tip: float = TIP
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Yield function (m,), gradient (m, 6), Hessian (m, 6, 6)."""
     c, phi = parameters["COHE"], parameters["PHI"]
@@ -142,7 +182,7 @@ def _surface(
     g3 = np.einsum("mij,aij->ma", square, _DEVIATORIC)
     h3 = np.einsum("mij,abij->mab", tensor, _PRODUCTS)
     h, d2, d3, d22, d23, d33 = _section(J2, J3, sine)
-    root = np.sqrt(h + (TIP * limit) ** 2)
+    root = np.sqrt(h + (tip * limit) ** 2)
     inner = d2[:, None] * g2 + d3[:, None] * g3
     cross = g2[:, :, None] * g3[:, None, :]
     bend = d22[:, None, None] * g2[:, :, None] * g2[:, None, :]
