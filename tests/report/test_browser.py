@@ -11,7 +11,7 @@ from chromium import PROGRAM, Chromium
 
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="needs Debian's chromium")
 READY = "document.getElementById('scene-view').dataset.ready === '1'"
-WINDOW, PHONE = (800, 700), (390, 700)
+WINDOW, PHONE = (480, 420), (390, 700)
 Pixels = npt.NDArray[np.uint8]
 
 
