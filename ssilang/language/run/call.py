@@ -232,7 +232,8 @@ class Call:
         self, code: str, a: Argument, operand: Operand, data: Mapping[str, object]
     ) -> SsiError:
         """What is wrong with an operand, at its place."""
-        said = {"operator": self.name, "name": a.name, "en": a.en, "fr": a.fr}
+        english = "" if a.en == a.name else a.en
+        said = {"operator": self.name, "name": a.name, "en": english, "fr": a.fr}
         return SsiError(code, operand.span, **said, **data)
 
     def word(self) -> str | None:
