@@ -98,7 +98,7 @@ SMALLER = {
         ("NZ2 = 4 ; NW0 = 5 ;", "NZ2 = 3 ; NW0 = 4 ;"),
         ("REPE BA 12 ;", "REPE BA 8 ;"),
     ],
-    "seismic/isolated_block.ssi": [("DUREE = 16.", "DUREE = 8.")],
+    "seismic/isolated_block.ssi": [("DUREE = 16.", "DUREE = 4.")],
     "seismic/oblique_waves.ssi": [
         ("DUREE = 1.4", "DUREE = 0.9"),
         (

@@ -21,6 +21,7 @@ from ssilang.kernel.records.signals import constant_step
 _DAMPING = 0.1
 """Of the least squares: weight of an amplitude against that of its own misfit."""
 _HALVINGS = 4
+_ROUNDS = 40
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,6 @@ def matched(
     target: FloatArray,
     damping: float,
     tolerance: float,
-    rounds: int = 40,
 ) -> Matched:
     """The record near a given one whose spectrum is the target.
 
@@ -83,7 +83,7 @@ def matched(
     values = values * float(np.exp(np.mean(np.log(target / np.abs(first.values)))))
     best, answers = values, _answers(times, values, frequencies, damping)
     misfit = _misfit(answers, target)
-    for done in range(rounds):
+    for done in range(_ROUNDS):
         if misfit.max() <= tolerance:
             return Matched(best, float(misfit.max()), done)
         move = _adjustment(times, step, frequencies, target, damping, answers)
@@ -96,7 +96,7 @@ def matched(
                 break
         else:
             return Matched(best, float(misfit.max()), done + 1)
-    return Matched(best, float(misfit.max()), rounds)
+    return Matched(best, float(misfit.max()), _ROUNDS)
 
 
 def _misfit(answers: _Answers, target: FloatArray) -> FloatArray:
