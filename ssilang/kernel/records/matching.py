@@ -26,11 +26,10 @@ _ROUNDS = 40
 
 @dataclass(frozen=True)
 class Matched:
-    """A record and how far its spectrum is from the target: largest part of the target, rounds."""
+    """A record and how far its spectrum is from the target: largest part of the target."""
 
     values: FloatArray
     misfit: float
-    rounds: int
 
 
 @dataclass(frozen=True)
@@ -83,9 +82,9 @@ def matched(
     values = values * float(np.exp(np.mean(np.log(target / np.abs(first.values)))))
     best, answers = values, _answers(times, values, frequencies, damping)
     misfit = _misfit(answers, target)
-    for done in range(_ROUNDS):
+    for _ in range(_ROUNDS):
         if misfit.max() <= tolerance:
-            return Matched(best, float(misfit.max()), done)
+            return Matched(best, float(misfit.max()))
         move = _adjustment(times, step, frequencies, target, damping, answers)
         for halving in range(_HALVINGS):
             tried = best + move / 2.0**halving
@@ -95,8 +94,8 @@ def matched(
                 best, answers, misfit = tried, found, other
                 break
         else:
-            return Matched(best, float(misfit.max()), done + 1)
-    return Matched(best, float(misfit.max()), _ROUNDS)
+            return Matched(best, float(misfit.max()))
+    return Matched(best, float(misfit.max()))
 
 
 def _misfit(answers: _Answers, target: FloatArray) -> FloatArray:
