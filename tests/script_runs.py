@@ -1,13 +1,16 @@
 """Running a script in a test and looking at what it made."""
 
+import io
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import pytest
 
-from ssilang.cli.run import RunOptions, RunResult, run_text
+from ssilang.cli.run import RunOptions, RunResult, execute, make_session, run_text
+from ssilang.language.run.session import Session
+from ssilang.language.text.source import Source
 
 
 def ran(
@@ -36,6 +39,13 @@ T2 = DYNAMIC T ;
 """A mass that leaves a joint again and again: files of all kinds, checkpoints."""
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+
+
+def session_after(text: str, folder: Path, output: TextIO | None = None) -> Session:
+    """A session that has run a text."""
+    made = make_session(Source("prelude", ""), RunOptions(folder), output or io.StringIO())
+    execute(made, Source("prelude", text))
+    return made
 
 
 def found(script: str, *names: str, folder: Path | None = None) -> Any:
@@ -79,3 +89,8 @@ def assert_says(output: str, wanted: str) -> None:
     assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
     numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
     assert numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
+
+
+def prog(values: Iterable[float]) -> str:
+    """A list of reals, all their digits."""
+    return "(PROG " + " ".join(f"{v:.17g}" for v in values) + ")"

@@ -498,23 +498,27 @@ def test_run_takes_one_value_of_a_name(deck, tmp_path, capsys):
         assert (stopped.value.code, said in capsys.readouterr().err) == (2, True)
 
 
-@pytest.mark.parametrize("problem", [PermissionError(13, "closed"), ImportError("no sem_open")])
-def test_where_processes_cannot_share_the_runs_go_one_after_the_other(deck, monkeypatch, problem):
+def test_where_processes_cannot_share_the_runs_go_one_after_the_other(deck, monkeypatch):
     """As without /dev/shm; the rows are those of several processes."""
-    usual = SweepOptions(deck, ["AG=0.1,0.9,0.2", "N=3,1"], out=deck.parent / "usual", jobs=2)
-    expected, _, _ = run(usual)
+    options = [
+        SweepOptions(deck, ["AG=0.1,0.9,0.2", "N=3,1"], out=deck.parent / name, jobs=2)
+        for name in ("usual", "closed", "absent")
+    ]
+    expected, _, _ = run(options[0])
+    for problem, alone in zip(
+        (PermissionError(13, "closed"), ImportError("no sem_open")), options[1:], strict=True
+    ):
 
-    def lock(self):
-        raise problem
+        def lock(self, problem=problem):
+            raise problem
 
-    monkeypatch.setattr(SpawnContext, "Lock", lock)
-    alone = SweepOptions(deck, ["AG=0.1,0.9,0.2", "N=3,1"], out=deck.parent / "alone", jobs=2)
-    code, _, err = run(alone)
-    assert code == expected == 1  # one value is too strong
-    assert "the runs go one after the other" in err
-    texts = [(o.folder / "sweep.csv").read_text() for o in (usual, alone)]
+        monkeypatch.setattr(SpawnContext, "Lock", lock)
+        code, _, err = run(alone)
+        assert code == expected == 1  # one value is too strong
+        assert "the runs go one after the other" in err
+    texts = [(o.folder / "sweep.csv").read_text() for o in options]
     tables = [list(csv.DictReader(io.StringIO(text), delimiter=";")) for text in texts]
     for row in (row for table in tables for row in table):
         del row["seconds"], row["folder"]
-    assert tables[0] == tables[1]
+    assert tables[0] == tables[1] == tables[2]
     assert len(tables[0]) == 6

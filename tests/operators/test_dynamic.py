@@ -9,10 +9,6 @@ from ssilang.cli.run import RunOptions
 from ssilang.language.say.diagnostics import sentence
 
 
-def run(text, tmp_path):
-    return ran(text, output_directory=tmp_path)
-
-
 def table(result, name="T2"):
     return result.session.root.find(name)
 
@@ -22,7 +18,7 @@ def fails(text, tmp_path):
 
 
 def test_free_oscillation_and_the_default_cadence(tmp_path):
-    found = table(run(OSCILLATOR + "T2 = DYNAMIC T1 ;", tmp_path))
+    found = table(ran(OSCILLATOR + "T2 = DYNAMIC T1 ;", tmp_path))
     times = [found.get(i).get("TEMP") for i in range(1, len(found) + 1)]
     assert times == pytest.approx(np.arange(26) * 0.04)
     last = found.get(26).get("DEPL")
@@ -41,7 +37,7 @@ def test_free_oscillation_and_the_default_cadence(tmp_path):
     ],
 )
 def test_saved_instants(entry, times, tmp_path):
-    found = table(run(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;", tmp_path))
+    found = table(ran(OSCILLATOR + entry + "T2 = DYNAMIC T1 ;", tmp_path))
     assert [found.get(i + 1).get("TEMP") for i in range(len(found))] == pytest.approx(times)
     assert len(found) == len(times)
 
@@ -49,7 +45,7 @@ def test_saved_instants(entry, times, tmp_path):
 def test_older_entries_start_at_zero_and_keep_their_instants(tmp_path):
     text = OSCILLATOR + "OUBL T1 'TEMPS_CALCULES' ; T1 . 'INST' = PROG 0.5 1. ;"
     text += "T1 . 'FREQ' = 100. ; T2 = DYNAMIC T1 ; E = T1 . 'ENERGIES' . 'TEMPS' ;"
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     found = table(result)
     assert [found.get(i).get("TEMP") for i in (1, 2)] == [0.5, 1.0]
     assert len(found) == 2
@@ -64,14 +60,14 @@ def test_reactions_come_from_the_multipliers(tmp_path):
     )
     text += "T1 . 'PAS_SAUVES' = 'TOUS' ; T2 = DYNAMIC T1 ;"
     text += "R = MAXI (REAC (T2 . 51 . 'DEPL') B) 'ABS' ; U = EXTR (T2 . 51 . 'DEPL') 'UX' P ;"
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     assert table(result, "R") == pytest.approx(4.0 * table(result, "U"), rel=1e-10)
 
 
 def test_joints_in_the_stiffness_are_replaced_by_their_law(tmp_path):
-    one = run(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path)
+    one = ran(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path)
     text = HOPPER + "T1 . 'RIGI' = (T1 . 'RIGI') ET (RIGI MO MA) ; T2 = DYNAMIC T1 ;"
-    two = run(text, tmp_path)
+    two = ran(text, tmp_path)
     ends = [table(r).get(126).get("DEPL").components["UY"].values for r in (one, two)]
     np.testing.assert_array_equal(*ends)
     assert ends[0].max() > 0.0
@@ -97,7 +93,7 @@ def test_vtk_series_and_csv_file(tmp_path):
     T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;
     """
     )
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     assert (tmp_path / "hop.pvd").is_file()
     assert len(list(tmp_path.glob("hop.*.vtu"))) == 6
     lines = (tmp_path / "hop.csv").read_text().splitlines()
@@ -113,7 +109,7 @@ def test_vtk_series_and_csv_file(tmp_path):
 def test_more_than_50_instants_are_one_file_unless_said(every, asked, one_file, tmp_path):
     text = HOPPER + f"T1 . 'PAS_SAUVES_VTK' = {every} ; T1 . 'MAILLAGE_VTK' = J ;"
     text += f"T1 . 'FORMAT_VTK' = '{asked}' ;" if asked else ""
-    run(text + "T2 = DYNAMIC T1 ;", tmp_path)
+    ran(text + "T2 = DYNAMIC T1 ;", tmp_path)
     instants = -(-501 // every)  # of 501, and the last one
     instants += (501 - 1) % every != 0
     assert (tmp_path / "dynamic.vtkhdf").is_file() == one_file
@@ -127,7 +123,7 @@ def test_both_kinds_of_series_have_the_same_fields_and_names(tmp_path):
 
     series = HOPPER + "T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'MAILLAGE_VTK' = J ;"
     for name in ("VTU", "VTKHDF"):
-        run(series + f"T1 . 'FORMAT_VTK' = '{name}' ; T2 = DYNAMIC T1 ;", tmp_path)
+        ran(series + f"T1 . 'FORMAT_VTK' = '{name}' ; T2 = DYNAMIC T1 ;", tmp_path)
     reader = vtkHDFReader()
     reader.SetFileName(str(tmp_path / "dynamic.vtkhdf"))
     reader.UpdateInformation()
@@ -150,7 +146,7 @@ def test_both_kinds_of_series_have_the_same_fields_and_names(tmp_path):
 
 def test_lists_asked_for_without_a_file_are_written_to_one(tmp_path):
     asked = "T1 . 'PAS_SAUVES_CSV' = 'TOUS' ; T1 . 'MAILLAGE_CSV' = MANU 'POI1' P ;"
-    result = run(HOPPER + asked + "T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;", tmp_path)
+    result = ran(HOPPER + asked + "T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;", tmp_path)
     lines = (tmp_path / "dynamic.csv").read_text().splitlines()
     assert len(lines) == 502
     assert len(lines[0].split(";")) == table(result, "N")
@@ -158,11 +154,11 @@ def test_lists_asked_for_without_a_file_are_written_to_one(tmp_path):
 
 def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
     text = HOPPER.replace("1000.", "1.E7") + "T2 = DYNAMIC T1 ;"
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     warning = result.session.warnings[0]
     wanted = np.pi * np.sqrt(1.0 / 1e7) / 30
     assert f"{wanted:.3g}" in sentence(warning, "en")[1]
-    assert not run(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path).session.warnings
+    assert not ran(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path).session.warnings
 
 
 @pytest.mark.parametrize(
@@ -189,7 +185,7 @@ def test_wrong_entries_are_named(entry, words, tmp_path):
 
 
 def test_misspelt_entry_is_reported(tmp_path):
-    result = run(OSCILLATOR + "T1 . 'PAS_SAUVE' = 1 ; T2 = DYNAMIC T1 ;", tmp_path)
+    result = ran(OSCILLATOR + "T1 . 'PAS_SAUVE' = 1 ; T2 = DYNAMIC T1 ;", tmp_path)
     assert result.session.warnings[0].data["near"] == "PAS_SAUVES"
 
 
@@ -204,7 +200,7 @@ def test_schemes_agree_on_a_smooth_motion(tmp_path):
         "T1 . 'NEWTON_COMPLET' = VRAI ;",
     ):
         text = OSCILLATOR + entry + "T2 = DYNAMIC T1 ; U = EXTR (T2 . 26 . 'DEPL') 'UX' P ;"
-        ends.append(table(run(text, tmp_path), "U"))
+        ends.append(table(ran(text, tmp_path), "U"))
     assert ends == pytest.approx([ends[0]] * 6, abs=1e-4)
 
 
@@ -217,7 +213,7 @@ def test_relation_mini_bounces_and_keeps_energy(tmp_path):
     T1 . 'PAS_SAUVES' = 'TOUS' ; T2 = DYNAMIC T1 ; V = EXTR (T2 . 51 . 'VITE') 'UX' P ;
     M = MAXI (EXTR (EVOL 'TEMP' T2 'DEPL' 'UX' P) 'ORDO') ;
     """
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     assert table(result, "M") == pytest.approx(0.2, abs=1e-12)
     assert table(result, "V") < 0.0
     energies = table(result, "T1").get("ENERGIES")
@@ -247,7 +243,7 @@ T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 5.E-3 0.5 ;
 
 def test_reduction_agrees_with_the_whole_model(tmp_path):
     asked = "T2 = DYNAMIC T1 ; T1 . 'REDUCTION' = 1.E-5 ; T3 = DYNAMIC T1 ;"
-    result = run(SHAKEN + asked, tmp_path)
+    result = ran(SHAKEN + asked, tmp_path)
     whole, reduced = result.session.statistics["calculations"]
     assert whole["loop"] == "condensed"
     assert reduced["reduced"]
@@ -274,7 +270,7 @@ def test_three_records_train_a_basis_that_runs_of_a_sweep_share(tmp_path):
 
 
 def test_reduction_of_a_small_problem_runs_it_whole(tmp_path):
-    result = run(OSCILLATOR + "T1 . 'REDUCTION' = 1.E-6 ; T2 = DYNAMIC T1 ;", tmp_path)
+    result = ran(OSCILLATOR + "T1 . 'REDUCTION' = 1.E-6 ; T2 = DYNAMIC T1 ;", tmp_path)
     line = result.session.statistics["calculations"][0]
     assert not line["reduced"]
     assert line["estimated_error"] is None
@@ -287,7 +283,7 @@ def test_reduction_goes_with_one_method(tmp_path):
 
 
 def test_a_warning_of_the_library_stands_at_the_scripts_own_line(tmp_path):
-    result = run(OSCILLATOR + "T1 . 'ECON' = VRAI ;\nT2 = DYNAMIC T1 ;", tmp_path)
+    result = ran(OSCILLATOR + "T1 . 'ECON' = VRAI ;\nT2 = DYNAMIC T1 ;", tmp_path)
     warning = next(w for w in result.session.warnings if "'ECON'" in sentence(w, "en")[0])
     assert warning.span.source.name == "script"
     assert warning.span.text == "DYNAMIC"
@@ -313,7 +309,7 @@ Y = Y ET (PROG (EXTR (B . &B1 . 'DEPL') 'UX' P)) ; FIN B1 ;
 
 @pytest.mark.parametrize(("push", "amplifies"), [(5.0, True), (1.0, False)])
 def test_a_reduced_motion_that_amplifies_is_told(push, amplifies, tmp_path):
-    result = run(ROCKING.format(push), tmp_path)
+    result = ran(ROCKING.format(push), tmp_path)
     told = [
         w for w in result.session.warnings if w.code == "operators.dynamics.reduction-amplified"
     ]

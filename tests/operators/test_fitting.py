@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
+from script_runs import prog
 
 X = np.array([0.0, 0.5, 1.5, 2.0, 3.5])
 Y = np.array([1.2, 0.7, 2.9, 3.1, 6.4])
 W = np.array([1.0, 3.0, 0.5, 2.0, 1.0])
-
-
-def prog(values):
-    return "(PROG " + " ".join(f"{v:.17g}" for v in values) + ")"
 
 
 def test_moca_is_the_weighted_least_squares_whatever_the_first_parameters(found):

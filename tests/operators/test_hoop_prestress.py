@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import found
 
 RADIUS, YOUNG = 100.0, 20000.0
 RING = (
@@ -13,10 +13,6 @@ RING = (
     "K0 = (RIGI M A) ET B ET (BLOQ 'UT' S) ; "
     "G = SIGM M A (RESO K0 (PRES 'MASS' M 1. (S COTE 2))) ; "
 )
-
-
-def found(script, name):
-    return ran(script).session.root.find(name)
 
 
 @pytest.mark.parametrize("harmonic", [2, 3, 5])

@@ -1,10 +1,9 @@
 """Senseless operands end in a message that says what is wrong, never in a defect."""
 
-import io
-
 import pytest
+from script_runs import session_after
 
-from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.run import execute
 from ssilang.language.say.diagnostics import sentence
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
@@ -20,10 +19,7 @@ T1 = PROG 0. 'PAS' 0.1 1. ; EV = EVOL 'MANU' 'T' T1 'A' T1 ; P0 = PROG ; K1 = MO
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("hostile")
-    made = make_session(Source("prelude", ""), RunOptions(folder), io.StringIO())
-    execute(made, Source("prelude", OBJECTS))
-    return made
+    return session_after(OBJECTS, tmp_path_factory.mktemp("hostile"))
 
 
 @pytest.mark.parametrize(

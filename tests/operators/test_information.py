@@ -6,17 +6,13 @@ from script_runs import failed, ran
 from ssilang.cli.run import run_text
 
 
-def run(text, folder):
-    return ran(text, output_directory=folder)
-
-
 def test_info_prints_the_page_in_the_language_of_the_session(tmp_path):
-    assert "\nSyntax\n" in run("INFO PROG ;", tmp_path).output
-    assert "Syntaxe" in run("OPTI 'LANG' 'FRAN' ; INFO PROG ;", tmp_path).output
+    assert "\nSyntax\n" in ran("INFO PROG ;", tmp_path).output
+    assert "Syntaxe" in ran("OPTI 'LANG' 'FRAN' ; INFO PROG ;", tmp_path).output
 
 
 def test_info_of_a_procedure(tmp_path):
-    assert "VERIFIE" in run("INFO @VERIFIE ;", tmp_path).output
+    assert "VERIFIE" in ran("INFO @VERIFIE ;", tmp_path).output
 
 
 def test_info_of_nothing_known_says_so(tmp_path):
@@ -25,31 +21,31 @@ def test_info_of_nothing_known_says_so(tmp_path):
 
 
 def test_noti_lists_operators_and_procedures(tmp_path):
-    output = run("NOTI GIBI ;", tmp_path).output
+    output = ran("NOTI GIBI ;", tmp_path).output
     assert "  DROI " in output
     assert "  @VERIFIE" in output
 
 
 def test_aide_finds_operators_by_a_text_of_their_help(tmp_path):
-    found = run("L1 = AIDE 'factorial' ;", tmp_path).session.root.find("L1")
+    found = ran("L1 = AIDE 'factorial' ;", tmp_path).session.root.find("L1")
     assert found.values == ["FACTORIE"]
-    assert len(run("L1 = AIDE 'no such text' ;", tmp_path).session.root.find("L1")) == 0
+    assert len(ran("L1 = AIDE 'no such text' ;", tmp_path).session.root.find("L1")) == 0
 
 
 def test_souc_only_grows_until_it_is_lowered(tmp_path):
     text = "A = SOUC ; SOUC 3 ; SOUC 1 ; B = SOUC ; SOUC 0 ; C1 = SOUC ;"
-    root = run(text, tmp_path).session.root
+    root = ran(text, tmp_path).session.root
     assert (root.find("A"), root.find("B"), root.find("C1")) == (False, True, False)
 
 
 def test_factorie(tmp_path):
-    root = run("A = FACTORIE 0 ; B = FACTORIE 6 ;", tmp_path).session.root
+    root = ran("A = FACTORIE 0 ; B = FACTORIE 6 ;", tmp_path).session.root
     assert (root.find("A"), root.find("B")) == (1, 720)
     assert run_text("A = FACTORIE -1 ;", output_directory=tmp_path).exit_code == 1
 
 
 def test_vertytab(tmp_path):
-    run("T = TABL ; T . 'X' = 1. ; VERTYTAB T 'X' 'FLOTTANT' ;", tmp_path)
+    ran("T = TABL ; T . 'X' = 1. ; VERTYTAB T 'X' 'FLOTTANT' ;", tmp_path)
     for bad in ("VERTYTAB T 'Y' 'FLOTTANT'", "VERTYTAB T 'X' 'ENTIER'"):
         result = run_text(f"T = TABL ; T . 'X' = 1. ; {bad} ;", output_directory=tmp_path)
         assert result.errors[0].code.startswith("stdlib.vertytab-")
@@ -60,7 +56,7 @@ def test_calls_of_operators_are_counted_from_zero_on(tmp_path):
         "L = PROG 1. ; TEMP 'ZERO' ; L = PROG 1. 2. ; REPE B 3 ; M = LECT 1 ; FIN B ; "
         "T = TEMP 'NOEC' ; TEMP 'IMPR' 'APPE' ; X = T . 'TEMPS_CPU' . 'INITIAL' ;"
     )
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     calls = result.session.root.find("T").get("APPELS")
     assert [calls.get(n).values.tolist() for n in ("PROG", "LECT")] == [[1], [3]]
     counts = [line.split() for line in result.output.splitlines()]
@@ -74,14 +70,14 @@ def test_empty_objects_of_pictures_and_clouds(tmp_path):
         "L = (VIDE D) ET (VIDE V) ET (VIDE N) ET (VIDE A) ; "
         "M = VIDE (A ET (ANNO 'ETIQ' (POIN 0.) 'x')) ;"
     )
-    root = run("OPTI DIME 1 ; " + text, tmp_path).session.root
+    root = ran("OPTI DIME 1 ; " + text, tmp_path).session.root
     assert root.find("L") is True
     assert root.find("M") is False
 
 
 def test_assi_runs_the_phrase_that_follows(tmp_path):
     text = "N = 2 ; X = ASSI N PROG 1. 2. ; A B = 'ASSI' 1 (MAXI X) (MINI X) ; LIST A ; LIST B ;"
-    lines = run(text, tmp_path).output.split("\n")
+    lines = ran(text, tmp_path).output.split("\n")
     assert [float(line.split(":")[1]) for line in lines if "value" in line] == [2.0, 1.0]
 
 
@@ -109,7 +105,7 @@ def test_assi_runs_a_phrase_for_all_objects_of_a_table(phrase, values, tmp_path)
 
 def test_assi_takes_the_objects_of_two_tables_at_the_same_index(tmp_path):
     text = SLAVES + "U . 1 = PROG 1. 2. ; X = ASSI 'TOUS' ET T U ; A = X . 1 ; B = X . 3 ;"
-    root = run(text, tmp_path).session.root
+    root = ran(text, tmp_path).session.root
     assert list(root.find("A").values) == [3.0, -4.0, 1.0, 2.0]
     assert list(root.find("B").values) == [5.0, 7.0]
 

@@ -1,13 +1,12 @@
 """Laws that operators obey for all operands: linearity, symmetry, inverses, idempotence."""
 
-import io
-
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from script_runs import session_after
 
-from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.run import execute
 from ssilang.language.text.source import Source
 
 FEW = settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
@@ -29,10 +28,7 @@ RB = (RIGI MO MA) ET (BLOQ 'DEPL' W1) ; MS = MASS MO MA ;
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("laws")
-    made = make_session(Source("prelude", ""), RunOptions(folder), io.StringIO())
-    execute(made, Source("prelude", PRELUDE))
-    return made
+    return session_after(PRELUDE, tmp_path_factory.mktemp("laws"))
 
 
 def value(session, expression: str, before: str = "") -> float:

@@ -81,7 +81,7 @@ print(json.dumps(everything()))
 """
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_all_stands_the_same_in_whatever_order_it_is_looked_for(run, truth, seed):
     found = run(LATE.replace("{seed}", str(seed)))
     assert found.keys() == truth.keys()

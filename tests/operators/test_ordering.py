@@ -4,13 +4,9 @@ import itertools
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import found
 
 LISTS = "L = PROG 3. -1. 2. ; E = LECT 30 10 20 ; C = PROG 5. 1. 2. 1. 5. 3. 2. 2. 9. ; "
-
-
-def found(text: str, name: str):
-    return ran(text).session.root.find(name)
 
 
 @pytest.mark.parametrize(

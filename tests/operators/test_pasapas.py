@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, finder, ran
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -21,12 +21,8 @@ T . 'TEMPS_CALCULES' = PROG 0.25 'PAS' 0.25 1. ;
 """
 
 
-def run(text, tmp_path):
-    return ran(text, output_directory=tmp_path).session.root.find
-
-
 def test_results_by_number_with_the_initial_state_first(tmp_path):
-    find = run(BAR + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
+    find = finder(BAR + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
     T = find("T")
     assert [i for i, _ in T.get("TEMPS").items()] == [0, 1, 2, 3, 4]
     assert [v for _, v in T.get("TEMPS").items()] == pytest.approx([0, 0.25, 0.5, 0.75, 1])
@@ -39,7 +35,7 @@ def test_results_by_number_with_the_initial_state_first(tmp_path):
 
 
 def test_saved_times(tmp_path):
-    find = run(BAR + "T . 'TEMPS_SAUVES' = PROG 0.5 1. ; PASAPAS T ;", tmp_path)
+    find = finder(BAR + "T . 'TEMPS_SAUVES' = PROG 0.5 1. ; PASAPAS T ;", tmp_path)
     assert [v for _, v in find("T").get("TEMPS").items()] == pytest.approx([0, 0.5, 1])
 
 
@@ -54,7 +50,7 @@ def test_second_call_goes_on_and_reprise_goes_back(tmp_path):
     U2 = EXTR (T . 'DEPLACEMENTS' . 5) 'UX' P2 ;
     """
     )
-    find = run(text, tmp_path)
+    find = finder(text, tmp_path)
     assert (find("N1"), find("N2")) == (7, 6)
     assert find("U1") == pytest.approx(4e-3)
     assert find("U2") == pytest.approx(4e-3)
@@ -67,7 +63,7 @@ def test_restrained_expansion_presses(tmp_path):
     T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' S 1 'T' 10.) EV ; PASAPAS T ;
     """
     )
-    T = run(text, tmp_path)("T")
+    T = finder(text, tmp_path)("T")
     stress = T.get("CONTRAINTES").get(2).blocks[0].components["SMXX"]
     assert stress == pytest.approx(-1e6 * 1e-5 * 5.0, rel=1e-10)
 
@@ -81,7 +77,7 @@ def test_a_warm_body_goes_on_from_the_stresses_of_its_time(tmp_path):
     T2 . 'TEMPS_CALCULES' = PROG 0.75 1. ; T2 . 'TEMPS' = TABL ; T2 . 'TEMPS' . 0 = 0.5 ;
     REPE B 2 ; M = EXTR (MOTS 'DEPLACEMENTS' 'CONTRAINTES') &B ; T2 . M = TABL ;
     T2 . M . 0 = T . M . 2 ; FIN B ; PASAPAS T2 ; """
-    find = run(BAR + warm + again, tmp_path)
+    find = finder(BAR + warm + again, tmp_path)
     for step, held in ((1, 3), (2, 4)):
         whole, part = find("T"), find("T2")
         for word in ("UX", "UY"):
@@ -102,7 +98,7 @@ def test_initial_stress_is_balanced_by_the_first_load(tmp_path):
     PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 1) 'UX' P2 ;
     """
     )
-    find = run(text, tmp_path)
+    find = finder(text, tmp_path)
     assert find("U") == pytest.approx(0.0, abs=1e-15)
     stress = find("T").get("CONTRAINTES").get(4).blocks[0].components["SMXX"]
     assert stress == pytest.approx(1000.0, rel=1e-10)
@@ -116,7 +112,7 @@ def test_user_procedure_runs_after_each_time_and_may_stop(tmp_path):
     FINP ;
     """
     text += BAR + "T . 'COMPTE' = 0 ; T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;"
-    T = run(text, tmp_path)("T")
+    T = finder(text, tmp_path)("T")
     assert T.get("COMPTE") == 3
     assert len(T.get("TEMPS")) == 4
 
@@ -133,7 +129,7 @@ def test_dynamic_steps_follow_a_mode(tmp_path):
     """
     )
     w = np.pi / 4 * np.sqrt(1e6 / 1000.0)  # first axial mode of a bar of 2 m
-    assert run(text, tmp_path)("U") == pytest.approx(np.sin(w * 0.062) / w, rel=1e-2)
+    assert finder(text, tmp_path)("U") == pytest.approx(np.sin(w * 0.062) / w, rel=1e-2)
 
 
 def test_unilateral_support_opens_and_closes(tmp_path):
@@ -148,7 +144,7 @@ def test_unilateral_support_opens_and_closes(tmp_path):
     U4 = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ; RE = REAC (T . 'DEPLACEMENTS' . 4) B ;
     """
     )
-    find = run(text, tmp_path)
+    find = finder(text, tmp_path)
     assert find("U1") == pytest.approx(5e-4, rel=1e-10)
     assert find("U4") == pytest.approx(1e-3, rel=1e-10)
     assert find("RE").components["FX"].values.sum() == pytest.approx(-500.0, rel=1e-9)
@@ -190,7 +186,7 @@ def test_user_procedure_sees_the_state_of_each_time_and_changes_the_load(tmp_pat
     """
     text += BAR + "T . 'VUS' = PROG ; T . 'PROCEDURE_PERSO1' = VRAI ; "
     text += "T . 'TEMPS_SAUVES' = PROG 1. ; PASAPAS T ;"
-    T = run(text, tmp_path)("T")
+    T = finder(text, tmp_path)("T")
     times = np.array([0.25, 0.5, 0.75, 1.0])
     wanted = 2e-3 * times * np.where(times > 0.5, 2, 1)  # sigma L / E of the bar of 2 m
     assert T.get("VUS").values == pytest.approx(wanted, rel=1e-9)
@@ -215,7 +211,7 @@ def test_user_procedures_see_where_nodes_were_and_are(tmp_path):
     """
     text += BAR + "T . 'VUS' = PROG ; T . 'OU' = PROG ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
     text += "T . 'PROCEDURE_PERSO1' = VRAI ; T . 'PROCEDURE_REEV_MEC' = VRAI ; PASAPAS T ;"
-    T = run(text, tmp_path)("T")
+    T = finder(text, tmp_path)("T")
     assert T.get("VUS").values == pytest.approx([0.0, 1.25, 1.5, 1.75, 2.0])
     ends = [T.get("DEPLACEMENTS").get(i).components["UX"].values.max() for i in range(1, 5)]
     assert T.get("OU").values == pytest.approx(ends, rel=1e-12)
@@ -239,7 +235,7 @@ def test_user_procedure_takes_a_part_of_the_model_away(tmp_path):
     N = NBEL (EXTR (T . 'CONTRAINTES' . 4) 'MAIL') ;
     """
     )
-    find = run(text, tmp_path)
+    find = finder(text, tmp_path)
     assert find("F").values == pytest.approx([250.0, 500.0, 375.0, 500.0], rel=1e-9)
     assert find("N") == 4
 
@@ -250,14 +246,14 @@ def test_user_procedure_gives_other_times(tmp_path):
       SI ((T . 'ESTIMATION' . 'TEMPS') EGA 0.5) ; T . 'A_CALCULER' = PROG 0.6 0.8 ; FINS ;
     FINP ;
     """
-    T = run(text + BAR + "T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;", tmp_path)("T")
+    T = finder(text + BAR + "T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;", tmp_path)("T")
     assert [v for _, v in T.get("TEMPS").items()] == [0.0, 0.25, 0.5, 0.6, 0.8]
 
 
 def test_table_is_saved_during_the_calculation(tmp_path):
     text = BAR + "OPTI SAUV 'k.sauv' ; T . 'TEMPS_SAUVEGARDES' = PROG 0.5 ; PASAPAS T ; "
     text += "OUBL T ; OPTI REST 'k.sauv' ; REST ; N = DIME (T . 'TEMPS') ;"
-    assert run(text, tmp_path)("N") == 3
+    assert finder(text, tmp_path)("N") == 3
 
 
 LOOSE = BAR.replace(
@@ -266,7 +262,7 @@ LOOSE = BAR.replace(
 
 
 def test_body_without_support_or_load_stays_at_rest(tmp_path):
-    find = run(LOOSE + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
+    find = finder(LOOSE + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
     assert find("U") == pytest.approx(2e-3, rel=1e-12)
 
 
@@ -315,7 +311,7 @@ STRAIN = (
 
 
 def test_pressure_on_an_edge_follows_its_curve(tmp_path):
-    find = run(
+    find = finder(
         PLATE + "T . 'CHARGEMENT' = CHAR 'PRES' (PRES MP 'PRES' 300.) EV ; PASAPAS T ;", tmp_path
     )
     T = find("T")
@@ -330,7 +326,7 @@ def test_pressure_on_an_edge_follows_its_curve(tmp_path):
 
 
 def test_imposed_strains_move_a_free_plate_without_stress(tmp_path):
-    T = run(PLATE + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;", tmp_path)("T")
+    T = finder(PLATE + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;", tmp_path)("T")
     u = T.get("DEPLACEMENTS").get(2).components
     assert u["UX"].values.max() == pytest.approx(1e-3 * 2.0, rel=1e-10)
     assert u["UY"].values.max() == pytest.approx(2e-3 * 1.0, rel=1e-10)
@@ -339,7 +335,7 @@ def test_imposed_strains_move_a_free_plate_without_stress(tmp_path):
 
 def test_imposed_strains_press_a_held_plate(tmp_path):
     held = PLATE + "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' 'UY' S ; "
-    T = run(held + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;", tmp_path)("T")
+    T = finder(held + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;", tmp_path)("T")
     stress = T.get("CONTRAINTES").get(3).blocks[0].components
     modulus = 0.25 * 1e5 / (1 - 0.3**2)
     assert stress["SMXX"] == pytest.approx(-modulus * (1e-3 + 0.3 * 2e-3), rel=1e-10)
@@ -371,7 +367,7 @@ def test_pressure_in_large_displacements_is_that_of_charmeca(tmp_path):
         "T . 'PROCEDURE_CHARMECA' = VRAI ; T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; "
     )  # fmt: skip
     found = [
-        run(script, tmp_path / str(i))("T").get("DEPLACEMENTS").get(1).components["UX"].values
+        finder(script, tmp_path / str(i))("T").get("DEPLACEMENTS").get(1).components["UX"].values
         for i, script in enumerate((cure, direct))
     ]
     assert found[0].min() == pytest.approx(-1.0 / 1e5 * 2.0, rel=1e-4)

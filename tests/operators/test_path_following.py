@@ -38,10 +38,6 @@ def truss_load(v):
     return -ES * (length / rest - 1.0) * (HEIGHT - v) / length
 
 
-def run(text, tmp_path):
-    return ran(text, output_directory=tmp_path)
-
-
 def refused(text, tmp_path):
     result = failed(text, folder=tmp_path)
     assert "defect of ssilang" not in result.message
@@ -66,7 +62,7 @@ def moved(table, component, node):
 
 def test_truss_snaps_through_both_limit_points_by_its_deflection(tmp_path):
     text = TRUSS + AUTOMATIC + DEFLECTION + "T . 'AUTOCRIT' = 0.075 ; PASAPAS T ;"
-    find = run(text, tmp_path).session.root.find
+    find = ran(text, tmp_path).session.root.find
     table, top = find("T"), find("P1").node
     v, factors = -moved(table, "UY", top), np.array(values(table, "TEMPS"))
     np.testing.assert_allclose(1e6 * factors, truss_load(v), atol=1e-6 * 2e6)
@@ -78,7 +74,7 @@ def test_truss_snaps_through_both_limit_points_by_its_deflection(tmp_path):
 
 def test_greatest_strain_controls_where_the_script_has_no_autopilo(tmp_path):
     text = TRUSS + AUTOMATIC + "T . 'AUTOCRIT' = 1.E-3 ; PASAPAS T ;"
-    find = run(text, tmp_path).session.root.find
+    find = ran(text, tmp_path).session.root.find
     table, top = find("T"), find("P1").node
     v, factors = -moved(table, "UY", top), np.array(values(table, "TEMPS"))
     np.testing.assert_allclose(1e6 * factors, truss_load(v), atol=1e-6 * 2e6)
@@ -95,7 +91,7 @@ def test_greatest_strain_controls_where_the_script_has_no_autopilo(tmp_path):
 def test_one_step_in_so_many_is_saved_and_a_path_too_long_ends_with_a_warning(tmp_path):
     text = TRUSS + AUTOMATIC + DEFLECTION
     text += "T . 'AUTOCRIT' = 0.05 ; T . 'AUTORESU' = 4 ; T . 'AUTOPAS' = 10 ; PASAPAS T ;"
-    result = run(text, tmp_path)
+    result = ran(text, tmp_path)
     table, top = result.session.root.find("T"), result.session.root.find("P1").node
     v = -moved(table, "UY", top)
     np.testing.assert_allclose(v, [0.0, 0.2, 0.4, 0.5], rtol=1e-9)
@@ -143,7 +139,7 @@ def test_softening_joint_on_a_soft_bar_is_followed_through_its_snap_back(drive, 
     else:
         text += "T . 'BLOCAGES_MECANIQUES' = FIX ; "
         text += "T . 'FORCES_PILOTEES' = FORC (0. 1.) Q1 ; "
-    find = run(text + "PASAPAS T ;", tmp_path).session.root.find
+    find = ran(text + "PASAPAS T ;", tmp_path).session.root.find
     table = find("T")
     w, end = (moved(table, "UY", find(n).node) for n in ("P1", "Q1"))
     np.testing.assert_allclose(w, 1e-3 * np.arange(31), atol=1e-14)
@@ -183,7 +179,7 @@ def test_three_plastic_bars_are_pulled_to_collapse_by_their_greatest_strain(tmp_
     T . 'PARAMETRE_DE_PILOTAGE' = EVOL 'MANU' (PROG 0. 12.) (PROG 0. 3.E-3) ; PASAPAS T ;
     """
     )
-    find = run(text, tmp_path).session.root.find
+    find = ran(text, tmp_path).session.root.find
     v = -moved(find("T"), "UY", find("P0").node)
     np.testing.assert_allclose(v, 2.5e-4 * np.arange(13), atol=1e-14)
     eta = find("T").get("COEFFICIENT_DE_PILOTAGE").values
@@ -200,7 +196,7 @@ def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):
     T . 'PARAMETRE_DE_PILOTAGE' = EVOL 'MANU' (PROG 0. 4.) (PROG 0. 1.E-3) ; PASAPAS T ;
     """
     )
-    find = run(text, tmp_path).session.root.find
+    find = ran(text, tmp_path).session.root.find
     v = -moved(find("T"), "UY", find("P0").node)
     np.testing.assert_allclose(v, 5e-4 * np.arange(5), atol=1e-13)  # its strain is v/2
 
@@ -234,7 +230,7 @@ def test_collapse_load_is_where_automatic_steps_end(tmp_path):
     T . 'AUTOCRIT' = 4.E-4 ; PASAPAS T ;
     """
     )
-    find = run(text, tmp_path).session.root.find
+    find = ran(text, tmp_path).session.root.find
     table = find("T")
     v, factors = -moved(table, "UY", find("P0").node), np.array(values(table, "TEMPS"))
     assert len(v) == 13
@@ -252,7 +248,7 @@ def test_piloindi_gives_the_factor_by_itself(tmp_path):
     X3 = AUTOPILO U1 U0 MO (T . 'CARACTERISTIQUES') T ;
     """
     )
-    find = run(text, tmp_path).session.root.find
+    find = ran(text, tmp_path).session.root.find
     assert (find("X1"), find("X2"), find("X3")) == pytest.approx((0.25, -0.25, 1.0))
 
 

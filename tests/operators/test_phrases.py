@@ -7,7 +7,6 @@ its coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of poi
 tables by what they hold, fields by functions of x, y and z for each component.
 """
 
-import io
 import math
 import tomllib
 from pathlib import Path
@@ -15,9 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import signal, special
+from script_runs import session_after
 from together import together
 
-from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.run import execute
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
@@ -48,9 +48,8 @@ def sessions(tmp_path_factory):
 
     def of(group):
         if group not in made or "before" not in GROUPS[group]:
-            folder = tmp_path_factory.mktemp(group)
-            made[group] = make_session(Source("before", ""), RunOptions(folder), io.StringIO())
-            execute(made[group], Source("before", GROUPS[group].get("before", "")))
+            before = GROUPS[group].get("before", "")
+            made[group] = session_after(before, tmp_path_factory.mktemp(group))
         return made[group]
 
     return of

@@ -14,9 +14,10 @@ import numpy as np
 import pytest
 import script_runs
 from scipy import special
+from script_runs import session_after
 from together import together
 
-from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.run import execute
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.text.source import Source
@@ -43,12 +44,6 @@ VX, VY = (lambda x, y: y), (lambda x, y: y * y)
 
 
 LISTED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-
-
-def session_after(text, folder, output):
-    made = make_session(Source("prelude", ""), RunOptions(folder), output)
-    execute(made, Source("prelude", text))
-    return made
 
 
 @pytest.fixture(scope="module")

@@ -4,14 +4,14 @@ A plate of quadrangles, one of triangles of another matter that yields, and bars
 any order; fields and matrices of the whole are those of the parts, forces and numbers add up.
 """
 
-import io
 import itertools
 
 import numpy as np
 import pytest
+from script_runs import session_after
 from together import together
 
-from ssilang.cli.run import RunOptions, execute, make_session
+from ssilang.cli.run import execute
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.text.source import Source
@@ -64,10 +64,7 @@ NUMBERS = ["INTG {M} (ENER {M} (SIGM {M} {A} U) (EPSI {M} U))", "NBEL (EXTR {M} 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("zones")
-    made = make_session(Source("prelude", ""), RunOptions(folder), io.StringIO())
-    execute(made, Source("prelude", PRELUDE))
-    return made
+    return session_after(PRELUDE, tmp_path_factory.mktemp("zones"))
 
 
 def asked(session, phrase, zones, materials=None):

@@ -17,3 +17,9 @@ def straight_line(
     first, last = sizes or end_sizes(nodes, start, end)
     cuts = subdivide(float(np.linalg.norm(b - a)), first, last, count)
     return mesh_curve(nodes, lambda s: a + s[:, None] * (b - a), start, end, cuts, quadratic)
+
+
+def line_between(nodes: NodeTable, a: object, b: object, n: int, quadratic: bool = False) -> Mesh:
+    """A line of n cells between two new nodes."""
+    ids = nodes.add(np.array([a, b], dtype=float))
+    return straight_line(nodes, int(ids[0]), int(ids[1]), n, quadratic=quadratic)

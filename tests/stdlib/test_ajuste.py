@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
-from script_runs import failed, ran
+from script_runs import failed, prog, ran
 
 X = np.linspace(0.1, 3.0, 25)
 NOISE = 0.02 * np.cos(17.0 * np.arange(25) ** 2)
@@ -26,10 +26,6 @@ FINP T1 ;
 """
 
 PLAIN = DECAY.format(f="FCT", d="DERI")
-
-
-def prog(values):
-    return "(PROG " + " ".join(f"{v:.17g}" for v in values) + ")"
 
 
 def shape(z):

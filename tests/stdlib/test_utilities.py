@@ -1,12 +1,8 @@
 """CONVT @PALETTE CHPR0 @EXCEL1 PECHE."""
 
 import pytest
-from script_runs import ran, refused
+from script_runs import found, ran, refused
 from together import together
-
-
-def found(script, name):
-    return ran(script).session.root.find(name)
 
 
 def test_unknown_units_are_named():

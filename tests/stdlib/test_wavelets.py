@@ -5,7 +5,7 @@ LeGall's 5/3 filters, and Daubechies' four (low-pass sums to 1, as in Mallat 198
 
 import numpy as np
 import pytest
-from script_runs import failed, found
+from script_runs import failed, found, prog
 
 _APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 2"
 _TOGETHER = "(PROG 0.5 0.25) -1 (PROG -0.0625 -0.125 0.375 -0.125 -0.0625) 1"
@@ -67,10 +67,6 @@ def test_details_must_fit_the_rest():
     assert "level 1 has" in result.message
 
 
-def listed(values):
-    return "(PROG " + " ".join(f"{v:.16f}" for v in values) + ")"
-
-
 def daubechies():
     """Filters h(0..3) and g(-2..1) = (-1)^(1-n) h(1-n), the sum of h being 1."""
     root = np.sqrt(3.0)
@@ -86,8 +82,8 @@ def test_daubechies_wavelet_keeps_the_energy_and_comes_back(levels):
     values = np.zeros(129)
     values[48:80] = np.random.default_rng(5).normal(size=32)
     script = signal(values) + (
-        f"N D R = MULTIDEC E {listed(h[::-1])} 3 {listed(g[::-1])} 1 {levels} 'PADD' ; "
-        f"M F = MULTIREC R D {listed(h)} 0 {listed(g)} 2 'PADD' ; L = EXTR F 'ORDO' ; "
+        f"N D R = MULTIDEC E {prog(h[::-1])} 3 {prog(g[::-1])} 1 {levels} 'PADD' ; "
+        f"M F = MULTIREC R D {prog(h)} 0 {prog(g)} 2 'PADD' ; L = EXTR F 'ORDO' ; "
         "RY = EXTR R 'ORDO' ; D1 = EXTR D 'ORDO' 1 ; DN = EXTR D 'ORDO' N ;"
     )
     back, rest, low, high = found(script, "L", "RY", "D1", "DN")

@@ -12,7 +12,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.mesh import Mesh
 
 
-def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
+def stl_lines(mesh: Mesh) -> list[str]:
     """The lines of a text file of the triangles of a mesh.
 
     Raises
@@ -23,7 +23,7 @@ def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
     others = {b.cell_type for b in mesh.blocks} - {"TRI3"}
     if others or not mesh.blocks:
         raise OutputError("io.stl-holds-tri3-only", others=others)
-    lines = [f"solid {name}"]
+    lines = ["solid surface"]
     for block in mesh.blocks:
         corners = block.coordinates
         normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -34,7 +34,7 @@ def stl_lines(mesh: Mesh, name: str = "surface") -> list[str]:
             lines.append("outer loop")
             lines += [f"vertex {x!r} {y!r} {z!r}" for x, y, z in triangle]
             lines += ["endloop", "endfacet"]
-    lines.append(f"endsolid {name}")
+    lines.append("endsolid surface")
     return lines
 
 

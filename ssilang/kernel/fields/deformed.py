@@ -104,8 +104,8 @@ def moving_components(field: NodeField) -> tuple[str, ...]:
     return ("UR", "UZ") if "UR" in field.components else ("UX", "UY", "UZ")
 
 
-def automatic_scale(mesh: Mesh, field: NodeField, share: float = 0.1) -> float:
-    """Amplification that makes the largest displacement `share` of the mesh's size.
+def automatic_scale(mesh: Mesh, field: NodeField) -> float:
+    """Amplification that makes the largest displacement a tenth of the mesh's size.
 
     Rounded to one of 1, 2, 5 times a power of ten; 1 for a zero displacement or mesh.
     """
@@ -114,7 +114,7 @@ def automatic_scale(mesh: Mesh, field: NodeField, share: float = 0.1) -> float:
         return 1.0
     size = float(np.ptp(mesh.nodes.coordinates[ids], axis=0).max())
     largest = float(np.linalg.norm(displacements(field, ids), axis=1).max())
-    return round_down(share * size / largest) if largest > 0.0 and size > 0.0 else 1.0
+    return round_down(0.1 * size / largest) if largest > 0.0 and size > 0.0 else 1.0
 
 
 def round_down(x: float) -> float:

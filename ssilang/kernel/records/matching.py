@@ -21,15 +21,15 @@ from ssilang.kernel.records.signals import constant_step
 _DAMPING = 0.1
 """Of the least squares: weight of an amplitude against that of its own misfit."""
 _HALVINGS = 4
+_ROUNDS = 40
 
 
 @dataclass(frozen=True)
 class Matched:
-    """A record and how far its spectrum is from the target: largest part of the target, rounds."""
+    """A record and how far its spectrum is from the target: largest part of the target."""
 
     values: FloatArray
     misfit: float
-    rounds: int
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,6 @@ def matched(
     target: FloatArray,
     damping: float,
     tolerance: float,
-    rounds: int = 40,
 ) -> Matched:
     """The record near a given one whose spectrum is the target.
 
@@ -83,9 +82,9 @@ def matched(
     values = values * float(np.exp(np.mean(np.log(target / np.abs(first.values)))))
     best, answers = values, _answers(times, values, frequencies, damping)
     misfit = _misfit(answers, target)
-    for done in range(rounds):
+    for _ in range(_ROUNDS):
         if misfit.max() <= tolerance:
-            return Matched(best, float(misfit.max()), done)
+            return Matched(best, float(misfit.max()))
         move = _adjustment(times, step, frequencies, target, damping, answers)
         for halving in range(_HALVINGS):
             tried = best + move / 2.0**halving
@@ -95,8 +94,8 @@ def matched(
                 best, answers, misfit = tried, found, other
                 break
         else:
-            return Matched(best, float(misfit.max()), done + 1)
-    return Matched(best, float(misfit.max()), rounds)
+            return Matched(best, float(misfit.max()))
+    return Matched(best, float(misfit.max()))
 
 
 def _misfit(answers: _Answers, target: FloatArray) -> FloatArray:

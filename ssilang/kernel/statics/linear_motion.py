@@ -168,11 +168,11 @@ def _place(point: FloatArray, extent: float) -> FloatArray:
     return np.where(np.abs(point) < 1e-8 * extent, 0.0, point)
 
 
-def _most_moved(numbering: Numbering, span: FloatArray, limit: int = 6) -> list[Sentence]:
-    """Labels of the unknowns that move most, one for each motion, at most `limit`."""
+def _most_moved(numbering: Numbering, span: FloatArray) -> list[Sentence]:
+    """Labels of the unknowns that move most, one for each motion, at most six."""
     rest = span.copy()
     labels = []
-    for _ in range(min(limit, span.shape[1])):
+    for _ in range(min(6, span.shape[1])):
         size = np.linalg.norm(rest, axis=1)
         row = int(np.argmax(size > (1.0 - 1e-6) * size.max()))
         labels.append(numbering.label(row))

@@ -18,8 +18,8 @@ from ssilang.kernel.mesh.mesh import Mesh
 ELEMENTS_A_WAVE = {1: 8, 2: 4}
 
 
-def highest_frequency(times: FloatArray, acceleration: FloatArray, share: float = 0.05) -> float:
-    """Frequency above which the spectrum of velocity stays below a share of its peak (Hz).
+def highest_frequency(times: FloatArray, acceleration: FloatArray) -> float:
+    """Frequency above which the spectrum of velocity stays below 5 % of its peak (Hz).
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def highest_frequency(times: FloatArray, acceleration: FloatArray, share: float 
     frequencies = np.fft.rfftfreq(len(times), step)[1:]
     rows = np.abs(np.fft.rfft(acceleration.reshape(-1, len(times)), axis=1))[:, 1:]
     spectrum = rows.max(axis=0) / frequencies
-    above = np.flatnonzero(spectrum > share * spectrum.max(initial=0.0))
+    above = np.flatnonzero(spectrum > 0.05 * spectrum.max(initial=0.0))
     return float(frequencies[above[-1]]) if len(above) else 0.0
 
 

@@ -48,9 +48,7 @@ _LINES = 12  # of meanings in a hint
 
 
 @cache
-def sample(
-    element: str, mode: Mode, behaviour: tuple[str, ...] = (), formulation: str = "MECANIQUE"
-) -> Zone:
+def sample(element: str, mode: Mode, behaviour: tuple[str, ...] = ()) -> Zone:
     """A zone of one cell, to ask what such zones have; its nodes say nothing."""
     kind = ELEMENTS[element]
     table = NodeTable()
@@ -60,7 +58,8 @@ def sample(
     if kind.family == "shape":
         said = ("ELASTIQUE", element)
     options: dict[str, object] = {"DPGE": Point(table, 0)}
-    return Zone(block, _FORMULATION.get(kind.family, formulation), said, element, mode, "", options)
+    formulation = _FORMULATION.get(kind.family, "MECANIQUE")
+    return Zone(block, formulation, said, element, mode, "", options)
 
 
 _USUAL = {

@@ -81,8 +81,8 @@ def tetrahedron() -> Mesh:
 @pytest.mark.filterwarnings("ignore:overflow")  # of meshio itself
 def test_meshio_reads_our_triangles(tmp_path: Path) -> None:
     path = tmp_path / "t.stl"
-    lines = stl_lines(tetrahedron(), "body")
-    assert (lines[0], lines[-1]) == ("solid body", "endsolid body")
+    lines = stl_lines(tetrahedron())
+    assert (lines[0], lines[-1]) == ("solid surface", "endsolid surface")
     path.write_text("\n".join(lines))
     read = meshio.read(path)
     corners = read.points[read.cells[0].data]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from references.straight_line import straight_line
+from references.straight_line import line_between, straight_line
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
@@ -16,16 +16,10 @@ from ssilang.kernel.mesh.generators.sweep import (
 from ssilang.kernel.mesh.lines.curves import arc_about_axis
 from ssilang.kernel.mesh.lines.lines import line_chain, mesh_curve
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes, surface_normals
 from ssilang.kernel.mesh.queries.measure import total_measure
 from ssilang.kernel.mesh.surfaces.grid import grid_surface, sides_in_order
-
-
-def line_between(nodes: NodeTable, a: list[float], b: list[float], n: int, q: bool = False) -> Mesh:
-    ids = nodes.add(np.array([a, b], dtype=float))
-    return straight_line(nodes, int(ids[0]), int(ids[1]), n, quadratic=q)
 
 
 def test_equal_densities_give_equal_elements() -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from references.straight_line import straight_line
+from references.straight_line import line_between, straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes import merge
@@ -17,11 +17,6 @@ from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
 
 UP, DOWN = np.array([0.0, 1, 0]), np.array([0.0, -1, 0])
-
-
-def line(nodes: NodeTable, a: list[float], b: list[float], n: int, quadratic: bool = False) -> Mesh:
-    ids = nodes.add(np.array([a, b], dtype=float))
-    return straight_line(nodes, int(ids[0]), int(ids[1]), n, quadratic=quadratic)
 
 
 def test_oldest_node_of_a_group_stays() -> None:
@@ -56,7 +51,7 @@ def test_merging_needs_a_distance() -> None:
 @pytest.mark.parametrize(("quadratic", "cell"), [(False, "TRI3"), (True, "TRI6")])
 def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, cell: str) -> None:
     nodes = NodeTable()
-    radius = line(nodes, [0, 0], [1, 0], 2, quadratic)
+    radius = line_between(nodes, [0, 0], [1, 0], 2, quadratic)
     path = rotation(radius, 90.0, np.zeros(3), np.array([0.0, 0, 1]))
     name = "QUA8" if quadratic else "QUA4"
     sector = sweep_line(radius, path, subdivide(path.length, count=4), name)
@@ -83,7 +78,7 @@ def test_surface_turned_about_its_edge_gives_prisms(
     nodes = NodeTable()
     a, b = ([0, 0, 0], [1, 0, 0]) if along == 0 else ([0, 0, 0], [0, 0, 2])
     way = np.array([0.0, 0, 2]) if along == 0 else np.array([1.0, 0, 0])
-    base = line(nodes, a, b, 2, quadratic)
+    base = line_between(nodes, a, b, 2, quadratic)
     name = "QUA8" if quadratic else "QUA4"
     plate = sweep_line(base, translation(way), subdivide(1.0, count=2), name)
     path = rotation(plate, 90.0 if along else -90.0, np.zeros(3), np.array([0.0, 0, 1]))
@@ -101,7 +96,7 @@ def test_surface_turned_about_its_edge_gives_prisms(
 def plate_and_line(cuts: int) -> tuple[Mesh, Mesh, Mesh]:
     """Squares above the line y = 0 from x = 0 to 2, triangles below, and the line's two halves."""
     nodes = NodeTable()
-    first = line(nodes, [0, 0], [1, 0], cuts)
+    first = line_between(nodes, [0, 0], [1, 0], cuts)
     last = int(first.single_block().connectivity[-1, -1])
     end = int(nodes.add(np.array([[2.0, 0]]))[0])
     second = straight_line(nodes, last, end, cuts)
@@ -135,8 +130,8 @@ def test_joint_pairs_nodes_whatever_the_sense_of_the_second_line(
     quadratic: bool, name: str
 ) -> None:
     nodes = NodeTable()
-    upper = line(nodes, [0, 0], [1, 0], 3, quadratic)
-    lower = reversed_line(line(nodes, [0, 0], [1, 0], 3, quadratic))
+    upper = line_between(nodes, [0, 0], [1, 0], 3, quadratic)
+    lower = reversed_line(line_between(nodes, [0, 0], [1, 0], 3, quadratic))
     block = joint_mesh(upper, lower, 1e-3).single_block()
     assert (block.cell_type, len(block)) == (name, 3)
     x = block.coordinates
@@ -147,8 +142,8 @@ def test_joint_pairs_nodes_whatever_the_sense_of_the_second_line(
 
 def test_gap_turns_the_first_half_so_that_the_normal_opens_the_joint() -> None:
     nodes = NodeTable()
-    lower = line(nodes, [0, 0], [1, 0], 2)
-    upper = reversed_line(line(nodes, [0, 0.01], [1, 0.01], 2))
+    lower = line_between(nodes, [0, 0], [1, 0], 2)
+    upper = reversed_line(line_between(nodes, [0, 0.01], [1, 0.01], 2))
     x = joint_mesh(upper, lower, 0.1).single_block().coordinates
     way = x[:, 1] - x[:, 0]
     normal = np.column_stack([-way[:, 1], way[:, 0]])
@@ -157,8 +152,8 @@ def test_gap_turns_the_first_half_so_that_the_normal_opens_the_joint() -> None:
 
 def test_facets_are_paired_in_space() -> None:
     nodes = NodeTable()
-    first = line(nodes, [0, 0, 0], [1, 0, 0], 2)
-    other = line(nodes, [0, 0, 0], [1, 0, 0], 2)
+    first = line_between(nodes, [0, 0, 0], [1, 0, 0], 2)
+    other = line_between(nodes, [0, 0, 0], [1, 0, 0], 2)
     sheets = [
         sweep_line(m, translation(UP), subdivide(1.0, count=3), "QUA4") for m in (first, other)
     ]
@@ -169,7 +164,7 @@ def test_facets_are_paired_in_space() -> None:
 
 def test_far_meshes_do_not_join() -> None:
     nodes = NodeTable()
-    first, second = line(nodes, [0, 0], [1, 0], 2), line(nodes, [0, 1], [1, 1], 2)
+    first, second = line_between(nodes, [0, 0], [1, 0], 2), line_between(nodes, [0, 1], [1, 1], 2)
     with pytest.raises(MeshError, match="faces"):
         joint_mesh(first, second, 0.1)
     with pytest.raises(MeshError, match="POI1"):
@@ -186,8 +181,8 @@ def test_far_meshes_do_not_join() -> None:
 @pytest.mark.parametrize(("height", "measure"), [(1.0, "a length"), (0.3, "an area")])
 def test_the_length_or_area_that_is_not_joined_is_told(cells, apart, counts, height, measure):
     nodes = NodeTable()
-    first = line(nodes, [0, 0], [1, 0], 4)
-    halves = [line(nodes, [0.5 * i, 0], [0.5 + 0.5 * i, 0], n) for i, n in enumerate(cells)]
+    first = line_between(nodes, [0, 0], [1, 0], 4)
+    halves = [line_between(nodes, [0.5 * i, 0], [0.5 + 0.5 * i, 0], n) for i, n in enumerate(cells)]
     sides = [first, union(*halves)]
     if measure == "an area":
         path = translation(height * UP)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from references.straight_line import straight_line
+from references.straight_line import line_between, straight_line
 from together import together
 
 from ssilang.kernel.base.errors import MeshError
@@ -26,11 +26,6 @@ from ssilang.kernel.mesh.volumes.block import fill_block
 X, Y, Z = np.eye(3)
 
 
-def line(nodes: NodeTable, a: object, b: object, n: int, quadratic: bool = False) -> Mesh:
-    ids = nodes.add(np.array([a, b], dtype=float))
-    return straight_line(nodes, int(ids[0]), int(ids[1]), n, quadratic=quadratic)
-
-
 def sheet(base: Mesh, way: np.ndarray, n: int) -> Mesh:
     name = "QUA8" if base.single_block().cell_type == "SEG3" else "QUA4"
     length = float(np.linalg.norm(way))
@@ -40,8 +35,8 @@ def sheet(base: Mesh, way: np.ndarray, n: int) -> Mesh:
 def six_faces(quadratic: bool) -> list[Mesh]:
     """Faces of a box of sides 1, 2 and 3, cut in 2, 3 and 4, with common nodes merged."""
     nodes = NodeTable()
-    width = line(nodes, [0, 0, 0], X, 2, quadratic)
-    depth = line(nodes, [0, 0, 0], 2 * Y, 3, quadratic)
+    width = line_between(nodes, [0, 0, 0], X, 2, quadratic)
+    depth = line_between(nodes, [0, 0, 0], 2 * Y, 3, quadratic)
     pairs = [
         (sheet(width, 2 * Y, 3), 3 * Z),
         (sheet(width, 3 * Z, 4), 2 * Y),
@@ -93,7 +88,7 @@ def test_rounded_corner_is_tangent_to_both_lines(radius: float, quadratic: bool)
 
 def test_too_large_a_radius_is_refused() -> None:
     nodes = NodeTable()
-    first, second = line(nodes, [0, 0], [1, 0], 4), line(nodes, [1, 0], [1, 1], 4)
+    first, second = line_between(nodes, [0, 0], [1, 0], 4), line_between(nodes, [1, 0], [1, 1], 4)
     with pytest.raises(MeshError, match="too large"):
         fillet(first, second, 2.0, 4)
     with pytest.raises(MeshError, match="parallel"):
@@ -120,7 +115,7 @@ def test_touching_parts_are_joined_once_and_open_as_they_part(
     dimension: int, order: int, turned: tuple[int, ...]
 ) -> None:
     nodes = NodeTable()
-    base = line(nodes, np.zeros(dimension), X[:dimension], 3)
+    base = line_between(nodes, np.zeros(dimension), X[:dimension], 3)
     low, up = sheet(base, Y, 2), Y
     if dimension == 3:
         low, up = sweep_surface(low, translation(Z), subdivide(1.0, count=1)), Z

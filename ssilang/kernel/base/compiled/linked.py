@@ -10,9 +10,7 @@ calls, and what is reached by its address (`apart`), is made as numba makes it, 
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 from numba.core import compiler
@@ -23,6 +21,7 @@ from numba.core.typing.templates import make_concrete_template
 
 from ssilang.kernel.base.compiled.beside import BESIDE
 from ssilang.kernel.base.compiled.machine import Code, Ready
+from ssilang.late_imports import without_collections
 
 Types = tuple[Any, ...]
 
@@ -102,18 +101,6 @@ class _Compiler(compiler.Compiler):
         return super()._compile_core()
 
 
-@contextmanager
-def _without_collections() -> Iterator[None]:
-    """Compiling makes a million objects that last: looking through them takes a sixth of it."""
-    collects = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if collects:
-            gc.enable()
-
-
 class Linked(CPUDispatcher):
     """A compiled function; compiled callers get its part."""
 
@@ -129,7 +116,7 @@ class Linked(CPUDispatcher):
 
     def made(self, args: Types) -> tuple[Code, Ready]:
         """Code that Python can call, or by its address: to be kept, and to be called."""
-        with _without_collections():
+        with without_collections():  # a million objects that last: a sixth of compiling otherwise
             self.compile(args)
         done: Any = self.overloads[args]
         library, names = done.library, done.fndesc

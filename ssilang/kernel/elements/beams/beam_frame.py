@@ -112,8 +112,8 @@ class Section:
         return np.nan_to_num(ratio, nan=0.0)
 
 
-def _mean(parameters: ZoneField, name: str, default: float | None = None) -> FloatArray:
-    return parameters.at(name, "GRAVITE", default)[:, 0]
+def _mean(parameters: ZoneField, name: str) -> FloatArray:
+    return parameters.at(name, "GRAVITE")[:, 0]
 
 
 def section_rigidities(zone: Zone, parameters: ZoneField, shear_default: str) -> Section:

@@ -17,10 +17,10 @@ CHUNK = 512
 """Cells treated at once: the working arrays of a chunk then stay in the cache."""
 
 
-def chunks(n_cells: int, size: int = CHUNK) -> Iterator[slice]:
+def chunks(n_cells: int) -> Iterator[slice]:
     """Slices that cover range(n_cells)."""
-    for start in range(0, n_cells, size):
-        yield slice(start, min(start + size, n_cells))
+    for start in range(0, n_cells, CHUNK):
+        yield slice(start, min(start + CHUNK, n_cells))
 
 
 @dataclass(frozen=True, eq=False)

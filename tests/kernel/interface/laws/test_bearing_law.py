@@ -5,12 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from references.law_points import answer, table_of
 from scipy.integrate import solve_ivp
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS
-from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.point_laws import point_energies
 
 KN, KS, KPOS, QD = 1e9, 1.1e7, 1e6, 2e5
 UY = QD / (KS - KPOS)
@@ -19,19 +20,9 @@ LEAD = {"KN": KN, "KS1": KS, "KS2": KS, "QD": QD, "KPOS": KPOS, "ETA": 1.0, "BET
 BOWL = {"KN": KN, "KS1": KS, "KS2": KS, "RAYO": RADIUS, "FROT": MU}
 
 
-def table(**given):
-    found = np.zeros((1, N_PARAMETERS))
-    for name, value in given.items():
-        found[:, Parameter[name]] = value
-    return found
-
-
 def step(code, p, w, state):
     """Force, state and tangent at a jump."""
-    w = np.atleast_2d(np.asarray(w, float))
-    d = w.shape[1]
-    t, new, D = np.zeros((1, d)), np.zeros((1, N_STATE)), np.zeros((1, d, d))
-    respond(np.array([int(code)]), w, state, p, t, new, D)
+    t, new, D = answer(code, w, state, p)
     return t[0], new, D[0]
 
 
@@ -58,7 +49,7 @@ def test_core_yields_by_an_exponential_as_steps_grow_small():
     exact = KPOS * u + QD * (1 - math.exp(-u / UY))
     errors = []
     for n in (100, 200, 400):
-        found = along(LawCode.LEAD, table(**LEAD), plane(np.linspace(0, u, n + 1)[1:]))[0]
+        found = along(LawCode.LEAD, table_of(**LEAD), plane(np.linspace(0, u, n + 1)[1:]))[0]
         errors.append(abs(found[-1, 0] - exact) / QD)
         # backward Euler of dz = (1 - z) du / uy in closed form
         euler = 1 - (1 + u / UY / n) ** -n
@@ -71,7 +62,7 @@ def test_a_steady_loop_has_the_closed_form_of_bouc_and_wen():
     """beta 0.5: from -z1 at -a elastic up to z = 0, then 1 - exp: the loop's ends and area."""
     a, n = 5 * UY, 4000
     u = through(np.array([0, a, -a, a]), n)
-    t, (stored, lost) = along(LawCode.LEAD, table(**LEAD), plane(u))
+    t, (stored, lost) = along(LawCode.LEAD, table_of(**LEAD), plane(u))
     z1 = t[-1, 0] / QD - KPOS * a / QD
     # one half cycle: z1 = 1 - exp(-(2 a - z1 uy) / uy)
     wanted = 1.0
@@ -102,13 +93,13 @@ def test_beta_is_that_of_wen_s_term_in_the_absolute_velocity(beta, eta):
 
         z = solve_ivp(rate, (0, 1), [z], rtol=1e-10, atol=1e-12).y[0, -1]
     path = plane(through(corners, 20_000))
-    t, _ = along(LawCode.LEAD, table(**{**LEAD, "BETA": beta, "ETA": eta}), path)
+    t, _ = along(LawCode.LEAD, table_of(**{**LEAD, "BETA": beta, "ETA": eta}), path)
     assert (t[-1, 0] - KPOS * corners[-1]) / QD == pytest.approx(z, abs=5e-4)
 
 
 @pytest.mark.parametrize(("code", "given"), [(LawCode.LEAD, LEAD), (LawCode.PENDULUM, BOWL)])
 def test_axes_that_turn_do_not_matter(code, given):
-    p, rng = table(**given), np.random.default_rng(1)
+    p, rng = table_of(**given), np.random.default_rng(1)
     path = np.cumsum(rng.normal(size=(40, 3)) * [UY, UY, 0], axis=0)
     path[:, 2] = -1e-4
     c, s = math.cos(0.7), math.sin(0.7)
@@ -120,8 +111,8 @@ def test_axes_that_turn_do_not_matter(code, given):
 def test_a_plane_bearing_is_the_one_in_space_that_moves_along_one_axis():
     u = 3 * UY * np.sin(np.linspace(0, 6, 50))
     for code, given in ((LawCode.LEAD, LEAD), (LawCode.PENDULUM, BOWL)):
-        flat = along(code, table(**given), plane(u, -1e-4))[0]
-        space = along(code, table(**given), np.column_stack([u, 0 * u, np.full(50, -1e-4)]))[0]
+        flat = along(code, table_of(**given), plane(u, -1e-4))[0]
+        space = along(code, table_of(**given), np.column_stack([u, 0 * u, np.full(50, -1e-4)]))[0]
         np.testing.assert_allclose(space[:, [0, 2]], flat, rtol=1e-12)
 
 
@@ -129,17 +120,17 @@ def test_a_slider_feels_its_bowl_and_friction_by_the_normal_force():
     """N u / R + mu N while it slides, the bowl alone where it does not slip, nothing lifted off."""
     u, press = 0.2, -1e-3
     path = [[u / 10 * i, press + (u / 10 * i) ** 2 / (2 * RADIUS)] for i in range(1, 11)]
-    t, _ = along(LawCode.PENDULUM, table(**BOWL), path)
+    t, _ = along(LawCode.PENDULUM, table_of(**BOWL), path)
     force = -KN * press
     np.testing.assert_allclose(t[:, 1], -force, rtol=1e-12)
     u = np.array(path)[:, 0]
     np.testing.assert_allclose(t[:, 0], force * u / RADIUS + MU * force, rtol=1e-12)
-    lifted, _ = along(LawCode.PENDULUM, table(**BOWL), [*path, [0.2, 0.02]])
+    lifted, _ = along(LawCode.PENDULUM, table_of(**BOWL), [*path, [0.2, 0.02]])
     np.testing.assert_array_equal(lifted[-1], 0.0)
 
 
 def test_a_bowl_without_friction_loses_nothing():
-    p = table(**{**BOWL, "FROT": 0.0})
+    p = table_of(**{**BOWL, "FROT": 0.0})
     corners = np.array([[0, 0, -1e-3], [0.2, 0.1, 0.01], [-0.1, 0.2, 0.05], [0, 0, -1e-3]])
     path = through(corners, 1000)
     t, (stored, lost) = along(LawCode.PENDULUM, p, path)
@@ -164,7 +155,7 @@ def test_a_bowl_without_friction_loses_nothing():
 def test_bearings_without_a_law_are_refused(name, change, wrong):
     given = LEAD if name == "APPUI_PLOMB" else BOWL
     check = LAWS[name].check
-    check(table(**given))
+    check(table_of(**given))
     with pytest.raises(MaterialError) as caught:
-        check(table(**{**given, **change}))
+        check(table_of(**{**given, **change}))
     assert caught.value.data["name"] == wrong

@@ -1,35 +1,27 @@
 """Ground that yields below a footing: capacity, flow, tangent and energy at one place."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from references.law_points import answer, table_of
 from scipy.optimize import minimize_scalar
 
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
-from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.columns import N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.point_laws import point_energies
 
 BED = 6
 KN, KS, C = 2e7, 1e7, 5e4
 Q = (2 + math.pi) * C
-
-
-def parameters(**changed):
-    table = np.zeros((1, N_PARAMETERS))
-    values = {"BED_KN": KN, "BED_KS": KS, "COHE": C, "QULT": Q, "FROT": -1.0} | changed
-    for name, value in values.items():
-        table[:, Parameter[name]] = value
-    return table
+parameters = partial(table_of, BED_KN=KN, BED_KS=KS, COHE=C, QULT=Q, FROT=-1.0)
 
 
 def relief(w, state, p):
     """What yielding takes away, the state and the tangent."""
-    w = np.atleast_2d(np.asarray(w, float))
-    d = w.shape[1]
-    t, new, D = np.zeros((1, d)), np.zeros((1, N_STATE)), np.zeros((1, d, d))
-    respond(np.array([BED]), w, state, p, t, new, D)
+    t, new, D = answer(BED, w, state, p)
     return t[0], new, D[0]
 
 

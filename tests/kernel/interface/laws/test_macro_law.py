@@ -1,7 +1,10 @@
 """Macro-elements of footings: against integrals over the bed, closed forms, free rocking."""
 
+from functools import partial
+
 import numpy as np
 import pytest
+from references import law_points
 from references.assembled import Bench
 from references.footing import Disc, Strip
 from references.recorder import Recorder
@@ -10,10 +13,10 @@ from references.rocking import macro_element_period
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS
 from ssilang.kernel.interface.laws.macro_law import outline_of
-from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.point_laws import point_energies
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
@@ -21,20 +24,11 @@ from ssilang.kernel.stepping.run import integrate
 
 STRIP, DISC, SPRINGS = 3, 4, 5
 KN = 1e6
-
-
-def parameters(**given):
-    table = np.zeros((1, N_PARAMETERS))
-    for name, value in ({"KN": KN} | given).items():
-        table[:, Parameter[name]] = value
-    return table
+parameters = partial(law_points.table_of, KN=KN)
 
 
 def answer(code, w, p):
-    w = np.atleast_2d(np.asarray(w, float))
-    d = w.shape[1]
-    t, new, D = np.zeros((1, d)), np.zeros((1, N_STATE)), np.zeros((1, d, d))
-    respond(np.array([code]), w, np.zeros((1, N_STATE)), p, t, new, D)
+    t, _, D = law_points.answer(code, w, np.zeros((1, N_STATE)), p)
     return t[0], D[0]
 
 

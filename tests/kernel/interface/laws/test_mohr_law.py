@@ -1,38 +1,18 @@
 """Mohr-Coulomb joints: path of Cast3M's elementary test, dilatancy, tangent, energy."""
 
+from functools import partial
+
 import numpy as np
 import pytest
+from references import law_points
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter, Variable
+from ssilang.kernel.interface.laws.columns import Variable
 from ssilang.kernel.interface.laws.mohr_law import check_mohr_parameters
-from ssilang.kernel.interface.laws.point_laws import respond
 
 MOHR = 2
-
-
-def parameters(n=1, **given):
-    base = {"KN": 100.0, "KS1": 50.0, "KS2": 50.0, "TPHI": 1.0, "FROT": -1.0}
-    table = np.zeros((n, N_PARAMETERS))
-    for name, value in (base | given).items():
-        table[:, Parameter[name]] = value
-    return table
-
-
-def answer(w, state, p):
-    n, d = w.shape
-    t, new, D = np.zeros((n, d)), np.zeros((n, N_STATE)), np.zeros((n, d, d))
-    respond(np.full(n, MOHR), np.ascontiguousarray(w), state, p, t, new, D)
-    return t, new, D
-
-
-def walk(path, p):
-    state, tractions, states = np.zeros((1, N_STATE)), [], []
-    for w in path:
-        t, state, _ = answer(np.array([w], dtype=float), state, p)
-        tractions.append(t[0])
-        states.append(state[0])
-    return np.array(tractions), np.array(states)
+parameters = partial(law_points.table_of, KN=100.0, KS1=50.0, KS2=50.0, TPHI=1.0, FROT=-1.0)
+answer, walk = partial(law_points.answer, MOHR), partial(law_points.walk, MOHR)
 
 
 def test_slip_under_falling_pressure_then_opening():

@@ -1,49 +1,28 @@
 """The SDM law: closed form, path, energies, tangent, limits; refused parameters."""
 
 import itertools
+from functools import partial
 
 import numpy as np
 import pytest
+from references import law_points
 from references.sdm_arrays import normal_arrays, shear_arrays
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import (
     CLOSED_SHEAR,
-    N_PARAMETERS,
     N_STATE,
     OPEN_SHEAR,
     Parameter,
     Variable,
 )
-from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.laws.sdm_law import check_sdm_parameters, normal_law
 
 SDM = 1
-
-
-def parameters(n: int = 1, **given: float) -> np.ndarray:
-    base = {"KN": 1e9, "KS1": 4e8, "KS2": 3e8, "FU": 0.0, "GF": 0.0, "FC": 0.0, "FROT": -1.0}
-    table = np.zeros((n, N_PARAMETERS))
-    for name, value in (base | given).items():
-        table[:, Parameter[name]] = value
-    return table
-
-
-def answer(w, state, p):
-    n, d = w.shape
-    t, new, D = np.zeros((n, d)), np.zeros((n, N_STATE)), np.zeros((n, d, d))
-    respond(np.full(n, SDM), np.ascontiguousarray(w), state, p, t, new, D)
-    return t, new, D
-
-
-def walk(path, p, d=2):
-    """Tractions and states along a path of jumps (m, d), state committed at each."""
-    state, tractions, states = np.zeros((1, N_STATE)), [], []
-    for w in path:
-        t, state, _ = answer(np.array([w]), state, p)
-        tractions.append(t[0])
-        states.append(state[0])
-    return np.array(tractions), np.array(states)
+parameters = partial(
+    law_points.table_of, KN=1e9, KS1=4e8, KS2=3e8, FU=0.0, GF=0.0, FC=0.0, FROT=-1.0
+)
+answer, walk = partial(law_points.answer, SDM), partial(law_points.walk, SDM)
 
 
 def test_iteration_gives_lamberts_closed_form():

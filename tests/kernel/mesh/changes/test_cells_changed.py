@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from references.straight_line import straight_line
+from references.straight_line import line_between, straight_line
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained, contour, edges, envelope, faces, sharp_edges
@@ -28,14 +28,9 @@ from ssilang.kernel.mesh.queries.measure import enclosed_area, enclosed_volume, 
 from ssilang.kernel.mesh.queries.select import containing, inside_contour, inside_volume, stretch
 
 
-def line(nodes: NodeTable, a: list[float], b: list[float], n: int) -> Mesh:
-    ids = nodes.add(np.array([a, b], dtype=float))
-    return straight_line(nodes, int(ids[0]), int(ids[1]), n)
-
-
 def box(surface: str = "QUA4") -> Mesh:
     """A box of sides 1, 2 and 3 in 2 x 3 x 2 bricks (or twice as many prisms)."""
-    base = line(NodeTable(), [0, 0, 0], [1, 0, 0], 2)
+    base = line_between(NodeTable(), [0, 0, 0], [1, 0, 0], 2)
     y, z = np.array([0.0, 2, 0]), np.array([0.0, 0, 3])
     floor = sweep_line(base, translation(y), subdivide(2.0, count=3), surface)
     return sweep_surface(floor, translation(z), subdivide(3.0, count=2))
@@ -43,7 +38,7 @@ def box(surface: str = "QUA4") -> Mesh:
 
 def test_middles_go_along_their_edges_to_where_both_ends_are_as_far() -> None:
     mesh = quadratic(box())
-    mesh = union(mesh, line(mesh.nodes, [9, 0, 0], [9, 1, 0], 1))  # one without middles
+    mesh = union(mesh, line_between(mesh.nodes, [9, 0, 0], [9, 1, 0], 1))  # one without middles
     (bent,) = (b for b in edges(mesh).blocks if b.cell_type == "SEG3")
     x = mesh.nodes.coordinates
     middles = bent.connectivity[:, 1]
@@ -107,7 +102,7 @@ def test_counts_of_edges_and_faces_of_a_grid_of_bricks() -> None:
 
 
 def test_contour_is_put_end_to_end() -> None:
-    base = line(NodeTable(), [0, 0], [1, 0], 3)
+    base = line_between(NodeTable(), [0, 0], [1, 0], 3)
     plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
     chain = line_chain(chained(contour(plate)))
     assert chain[0] == chain[-1]
@@ -116,7 +111,7 @@ def test_contour_is_put_end_to_end() -> None:
 
 
 def test_part_of_a_closed_line_follows_its_sense() -> None:
-    base = line(NodeTable(), [0, 0], [1, 0], 3)
+    base = line_between(NodeTable(), [0, 0], [1, 0], 3)
     plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
     loop = chained(contour(plate))
     chain = line_chain(loop)
@@ -152,7 +147,7 @@ def test_orientation_leaves_cells_of_less_than_the_space() -> None:
 
 
 def test_opposed_neighbours_are_found() -> None:
-    base = line(NodeTable(), [0, 0], [1, 0], 2)
+    base = line_between(NodeTable(), [0, 0], [1, 0], 2)
     plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=1), "QUA4")
     check_consistent(plate)
     block = plate.single_block()
@@ -172,7 +167,7 @@ def test_sets_of_cells_do_not_see_the_order_of_nodes() -> None:
 
 def test_copies_share_the_nodes_that_originals_share() -> None:
     nodes = NodeTable()
-    first = line(nodes, [0, 0], [1, 0], 2)
+    first = line_between(nodes, [0, 0], [1, 0], 2)
     last = int(line_chain(first)[-1])
     second = straight_line(nodes, last, int(nodes.add(np.array([[2.0, 0]]))[0]), 2)
     copier = NodeCopier(nodes, turn(90.0, np.zeros(3), np.array([0.0, 0, 1])))
@@ -211,7 +206,9 @@ def test_points_are_located() -> None:
 
 def test_stitched_lines_of_unequal_cuts_leave_no_hole() -> None:
     nodes = NodeTable()
-    made = sweep.stitch(line(nodes, [0, 0], [1, 0], 5), line(nodes, [0, 1], [1, 1], 2))
+    made = sweep.stitch(
+        line_between(nodes, [0, 0], [1, 0], 5), line_between(nodes, [0, 1], [1, 1], 2)
+    )
     assert made.n_cells == 7
     assert total_measure(made) == pytest.approx(1.0)
 
@@ -227,7 +224,7 @@ def test_cone_on_a_skin_fills_the_box() -> None:
 
 
 def test_split_squares_alternate_their_diagonals() -> None:
-    base = line(NodeTable(), [0, 0], [1, 0], 2)
+    base = line_between(NodeTable(), [0, 0], [1, 0], 2)
     plate = sweep_line(base, translation(np.array([0.0, 1, 0])), subdivide(1.0, count=1), "QUA4")
     made = split_quadrangles(plate)
     shared = difference(edges(made), edges(plate)).single_block().coordinates
@@ -237,7 +234,7 @@ def test_split_squares_alternate_their_diagonals() -> None:
 
 def test_lines_join_in_the_order_in_which_they_continue() -> None:
     nodes = NodeTable()
-    first = line(nodes, [0, 0], [1, 0], 2)
+    first = line_between(nodes, [0, 0], [1, 0], 2)
     second = straight_line(
         nodes, int(line_chain(first)[-1]), int(nodes.add(np.array([[2.0, 0]]))[0]), 2
     )

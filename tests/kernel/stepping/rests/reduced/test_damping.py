@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from references.recorder import Recorder
 from references.soil_block import soil_block
+from references.whole_and_reduced import both, relative
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
@@ -23,10 +23,6 @@ VP = VS * np.sqrt(3.5)
 @pytest.fixture(autouse=True)
 def no_bases_of_other_tests():
     _PAIRS.clear()
-
-
-def relative(found, exact):
-    return float(np.abs(found - exact).max() / np.abs(exact).max())
 
 
 def with_edges(problem, width=28):
@@ -60,12 +56,6 @@ def shaken(problem, height=0.06):
     motion = height * np.sin(4 * np.pi * t) * np.minimum(1.0, 2 * t) ** 3
     curves = (loading.curves[0], (t, motion))
     return replace(problem, loading=replace(loading, forces=forces, imposed=imposed, curves=curves))
-
-
-def both(problem, tolerance):
-    whole, reduced = Recorder(len(problem.times)), Recorder(len(problem.times))
-    exact = integrate(problem, [whole])
-    return whole, exact, reduced, integrate_reduced(problem, tolerance, [reduced])
 
 
 def check(problem, tolerance, energy=10.0):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from references.recorder import Recorder
 from references.soil_block import soil_block
+from references.whole_and_reduced import both, relative
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
@@ -20,18 +21,6 @@ from ssilang.kernel.stepping.run import integrate
 @pytest.fixture(autouse=True)
 def no_bases_of_other_tests():
     _PAIRS.clear()
-
-
-def relative(found: np.ndarray, exact: np.ndarray) -> float:
-    return float(np.abs(found - exact).max() / np.abs(exact).max())
-
-
-def both(problem, tolerance):
-    whole, reduced = Recorder(len(problem.times)), Recorder(len(problem.times))
-    exact = integrate(problem, [whole])
-    history = integrate_reduced(problem, tolerance, [reduced])
-    assert reduced.closed
-    return whole, exact, reduced, history
 
 
 CASES = {

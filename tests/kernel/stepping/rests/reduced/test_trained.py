@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from references.recorder import Recorder
 from references.soil_block import soil_block
+from references.whole_and_reduced import relative
 
 from ssilang.io.errors import InputError
 from ssilang.io.training import TrainingFile
@@ -25,10 +26,6 @@ from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.times import Run
 
 STEPS, SIZE = 150, (16, 6, 8)
-
-
-def relative(found, exact):
-    return float(np.abs(found - exact).max() / np.abs(exact).max())
 
 
 def record(seed, **given):
