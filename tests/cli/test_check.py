@@ -99,6 +99,7 @@ def test_finds(text, code):
         ("X = FLUX 1. ; X = 2 ; MESS X ;", "not-built-yet"),
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
+        ("LENGTH = 3. ; X = MOTS LENGHT 'MANU' ; MESS LENGTH X ;", "perhaps-misspelt"),
         ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),
         ("DEBP @VERIFIE ; FINP ;", "overrides-procedure"),
         ("DEBP P X Y ; Z = MATE X SORT Y YOUM 2. ; FINP Z ; A = P 1 2 ; MESS A ;", "near-word"),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from ssilang.io import run_output
 from ssilang.io.errors import OutputError
 from ssilang.io.run_output import RunOutput
 from ssilang.messages.message import sentence
@@ -141,6 +142,21 @@ def test_the_output_folder_is_held_by_one_run(output: RunOutput) -> None:
     assert list(output.directory.iterdir()) == []
     other.hold()
     other.release()
+
+
+def test_a_lock_that_its_run_removes_meanwhile_is_made_again(output, monkeypatch):
+    path, lock = output.directory / ".running", run_output.lock
+
+    def late(handle):
+        path.unlink()
+        monkeypatch.setattr(run_output, "lock", lock)
+        lock(handle)
+
+    monkeypatch.setattr(run_output, "lock", late)
+    output.hold()
+    assert json.loads(path.read_text())["pid"] == os.getpid()
+    output.release()
+    assert not path.exists()
 
 
 def test_a_folder_that_is_exchanged_is_noticed(output: RunOutput) -> None:

@@ -166,8 +166,8 @@ def test_factors_at_their_top_are_no_demands_of_a_cloud(tmp_path):
 def test_intensities_are_those_known_else_what_was_swept(tmp_path):
     known = sweep_of(tmp_path, suite(), figures=("drift", "SA(T1)", "Sadness", "pgv_x", "PGA"))
     assert intensities_of(known, Asked([], [])) == ["SA(T1)", "pgv_x", "PGA"]
-    plain = sweep_of(tmp_path, suite(), figures=("drift",))
-    assert intensities_of(plain, Asked([], [])) == ["AG"]
+    plain = sweep_of(tmp_path, suite(), swept=("MOTION", "PGA", "AG"), figures=("drift",))
+    assert intensities_of(plain, Asked([], [])) == ["PGA"]
     words = sweep_of(tmp_path, suite(), swept=("MOTION",), figures=("drift",))
     assert intensities_of(words, Asked([], [])) == []
     assert "--intensity" in fragility_html(words, [], [], TOLD)

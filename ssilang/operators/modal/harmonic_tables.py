@@ -59,13 +59,6 @@ def colour_of(word: object) -> int:
     return index_of(name) if name in NAMES else 0
 
 
-def colours_of(words: object, count: int, default: int) -> list[int]:
-    """One colour a curve, from a LISTMOTS taken round and round."""
-    if not isinstance(words, ListMots) or not words.values:
-        return [default] * count
-    return [colour_of(words.values[i % len(words.values)]) for i in range(count)]
-
-
 def curve(x: FloatArray, y: FloatArray, names: tuple[str, str], title: str, colour: int) -> Curve:
     """One curve."""
     return Curve((CurvePart(x.copy(), y.copy(), names[0], names[1], title, colour),), title)

@@ -12,7 +12,6 @@ from ssilang.kernel.continuation.harmonics import basis_at
 from ssilang.operators.modal.harmonic_tables import (
     Asked,
     asked_results,
-    colours_of,
     curve,
     joined,
 )
@@ -89,13 +88,12 @@ def _results(entries: Entries, names: Names) -> None:
                 unknowns=names.unknowns,
             )
         given = asked.table.get("COULEUR_HBM")
-        colours = colours_of(given, names.places, asked.colour)
         own = []
         for place in range(names.places):
             number += 1
             own.append(number)
             titles.append(_title(asked.title, place))
-            found.set(number, _coefficient(asked, names, place, titles[-1], given, colours))
+            found.set(number, _coefficient(asked, names, place, titles[-1], given))
         asked.table.set(Mot("INDICES_HBM"), ListEnti(np.array(own, dtype=np.int64)))
     if number:
         found.set(Mot("TITRE"), Table.numbered([Mot(t) for t in titles]))
@@ -111,7 +109,7 @@ def _title(title: str, place: int) -> str:
 
 
 def _coefficient(
-    asked: Asked, names: Names, place: int, title: str, given: object, colours: list[int]
+    asked: Asked, names: Names, place: int, title: str, given: object
 ) -> Table:
     table = Table()
     table.set(Mot("POINT_MESURE"), asked.point)
@@ -152,7 +150,7 @@ def zhpo(
     count = entries.get("N_PT_POST") or 2**7 * harmonics
     shares = np.arange(count + 1) / count
     values, rates = basis_at(harmonics, 2 * np.pi * shares)
-    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
+    every = entries.get("PAS_SAUVES")
     curves, titles = [], []
     for asked in asked_results(entries, "RESULTATS"):
         motion = _motion(entries, asked)

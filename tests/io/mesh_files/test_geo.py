@@ -84,16 +84,21 @@ def test_a_guarded_process_reaches_its_folders_alone(tmp_path):
         attempt("rights", lambda: os.chmod(outside + "/secret", 0o777))
         attempt("times", lambda: os.utime(outside + "/secret"))
         attempt("limits of another", lambda: resource.prlimit(os.getppid(), resource.RLIMIT_CORE))
+        alone.limit(600)
+        largest = open(inside + "/large", "w")
+        attempt("two gigabytes", lambda: largest.truncate(2 * 1024**3))
+        attempt("a byte more", lambda: largest.truncate(2 * 1024**3 + 1))
         read_secret = lambda: open(outside + "/secret").read()
         worker = threading.Thread(target=attempt, args=("from a thread", read_secret))
         worker.start()
         worker.join()
     """
     said = guarded(code, tmp_path, (sys.prefix, sys.base_prefix, "/usr/lib", "/lib"))
-    fine = {"read given": "given", "write inside": "1"}
+    fine = {"read given": "given", "write inside": "1", "two gigabytes": str(2 * 1024**3)}
     assert {k: said[k] for k in fine} == fine
-    assert said["start a shell"] == "done"  # the shell is not there, and nothing ran
-    refused = {k: v for k, v in said.items() if k not in (*fine, "held", "start a shell")}
+    assert said.pop("start a shell") == "done"  # the shell is not there, and nothing ran
+    assert said.pop("a byte more") == "EFBIG"
+    refused = {k: v for k, v in said.items() if k not in (*fine, "held")}
     assert set(refused.values()) <= {"EACCES", "EPERM", "EXDEV"}, refused
     assert len(refused) == 19
     assert sorted(p.name for p in outside.iterdir()) == ["secret"]

@@ -249,6 +249,17 @@ def test_a_level_is_smoothed_by_chebyshevs_polynomials_of_the_fourth_kind():
             np.testing.assert_allclose(wanted - found, left * before, atol=1e-13)
 
 
+def test_a_coupling_counts_from_a_fiftieth_of_both_own_matrices():
+    """Of the geometric mean of their norms, sqrt(13) and 5."""
+    A = np.diag([2.0, 3.0, 3.0, 4.0, 1.0])
+    for share, joined in ((0.8, False), (1.2, True)):
+        size = share * np.sqrt(5.0 * np.sqrt(13.0)) / 50.0
+        A[[0, 2], [2, 0]], A[[1, 3], [3, 1]] = 0.6 * size, 0.8 * size
+        R = rows.grouped(sp.csr_array(A), np.array([0, 2, 4, 5]), float)
+        found, count = hierarchy.aggregates_of(R)
+        assert (found.tolist(), count) == (([0, 0, -1], 1) if joined else ([-1, -1, -1], 0))
+
+
 def test_unknowns_of_one_node_go_together():
     K, order = bar(6)
     turned = MultigridFactor(K, True, order.rigid, order.nodes)

@@ -123,10 +123,13 @@ def test_saved_steps_and_reactions():
 def test_states_that_do_not_fit_memory_run_again(monkeypatch):
     problem = soil_block(steps=100)
     one, two = Recorder(101), Recorder(101)
-    integrate_reduced(problem, 1e-3, [one])
+    told = []
+    integrate_reduced(problem, 1e-3, [one], lambda *at: told.append(at))
     monkeypatch.setattr("ssilang.kernel.stepping.rests.reduced.run.MOST_VALUES", 0)
     integrate_reduced(problem, 1e-3, [two])
     np.testing.assert_array_equal(one.of("u"), two.of("u"))
+    assert told == sorted(set(told))
+    assert told[-1] == (100, 100)
 
 
 def test_the_next_motion_finds_the_basis(monkeypatch):
