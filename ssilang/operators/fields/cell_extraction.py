@@ -60,9 +60,8 @@ def _own_names(field: CellField) -> Collection[str]:
 _OF_MODEL = [opt("model", "MMODEL", en="its zones only")]
 
 
-_OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
-    "TITR": lambda field, what: ListMots([field.title]),
-    "TYPE": lambda field, what: Mot(field.title),
+_OF_FIELD: dict[str, Callable[[CellField, Chosen], ListMots | Mesh | int]] = {
+    **dict.fromkeys(("TITR", "TYPE"), lambda field, what: ListMots([field.title])),
     "MAIL": lambda field, what: _mesh_of(field),
     "COMP": lambda field, what: _unique(
         [n for b in _restricted(field, what) for n in b.components]
@@ -83,12 +82,11 @@ _OF_FIELD: dict[str, Callable[[CellField, Chosen], Any]] = {
         unless=_own_names,
         en="sub-type, mesh, names of components or constituents, number of zones",
     ),
-    gives=by("what", {"TYPE": "MOT", "MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
+    gives=by("what", {"MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
 )
-def extr_cells(field: CellField, what: Chosen) -> ListMots | Mot | Mesh | int:
+def extr_cells(field: CellField, what: Chosen) -> ListMots | Mesh | int:
     """A part of a field in cells."""
-    found: ListMots | Mot | Mesh | int = _OF_FIELD[what.word](field, what)
-    return found
+    return _OF_FIELD[what.word](field, what)
 
 
 @EXTR.form(gives=ANY)

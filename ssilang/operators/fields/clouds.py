@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -89,10 +88,6 @@ _COMPONENT = arg("component", "MOT", en="column")
 _LIMIT = arg("limit", "FLOTTANT", en="limit", range=ANY_NUMBER)
 
 
-def _columns(cloud: Cloud) -> Collection[str]:
-    return getattr(cloud, "columns", ())
-
-
 @EXTR.form(
     main("cloud", "NUAGE", en="cloud"),
     select(
@@ -110,7 +105,7 @@ def _columns(cloud: Cloud) -> Collection[str]:
             ],
         },
         optional=False,
-        unless=_columns,
+        unless=lambda cloud: getattr(cloud, "columns", ()),
         en="names of columns, or the rows to take",
     ),
     gives=by("what", {"COMP": "LISTMOTS"}, "NUAGE"),

@@ -170,7 +170,7 @@ def save(call: Call, operands: list[tuple[str, Any]], label: str = "") -> None:
     assert isinstance(begun, _Begun)
     record = _record(begun, frame, operands, label)
     path = output_path(call, option_name(call.session, "SAUV", 8))
-    settings = _settings(workspace(call.session))
+    settings = {word: of(workspace(call.session)) for word, of in _SETTINGS.items()}
     write_archive(
         path, begun.encoder.objects, begun.encoder.arrays, [*begun.records, record], settings
     )
@@ -216,10 +216,6 @@ _SETTINGS: dict[str, Callable[[Workspace], Any]] = {
     "UNIT": lambda ws: str(ws.options.get("UNIT", "")),
 }
 """Settings that a file keeps."""
-
-
-def _settings(ws: Workspace) -> dict[str, Any]:
-    return {word: of(ws) for word, of in _SETTINGS.items()}
 
 
 # ---- REST

@@ -143,7 +143,7 @@ def _complex(
     ((frequency, count),) = _wanted(call, method)
     near = complex(frequency, method["decay"])
     modes = complex_modes(stiffness, mass, damping, near, count)
-    return modal_table(call, mass, [_complex_entry(m) for m in modes])
+    return modal_table(call, mass, [{n: of(m) for n, of in _COMPLEX.items()} for m in modes])
 
 
 # --- tables ----------------------------------------------------------------------------------
@@ -186,10 +186,6 @@ _COMPLEX: dict[str, Callable[[ComplexMode], Any]] = {
     "DEPLACEMENTS_GENERALISES_IMAGINAIRES": lambda mode: directions([a.imag for a in mode.along]),
 }
 """What the table of a complex mode says of it."""
-
-
-def _complex_entry(mode: ComplexMode) -> dict[str, Any]:
-    return {name: of(mode) for name, of in _COMPLEX.items()}
 
 
 def modal_table(

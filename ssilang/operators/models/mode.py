@@ -208,6 +208,7 @@ def _wish(
     bound: str | None,
 ) -> Wish:
     """What words and settings say."""
+    section = section or workspace(call.session).options.get("DPGE")
     given = {"DPGE": section, "INTEGRE": layers, "FRAME": bound}
     wish = Wish(
         constituent=(constituent or "").rstrip(),

@@ -87,7 +87,7 @@ def _real_power(a: float, b: float) -> float:
 
 
 def _held(run: Rule) -> Rule:
-    """The same on single reals; what no real can hold is an error, as a power's is."""
+    """The same on single reals; what no real can hold goes the long way, as a power's does."""
 
     def checked(a: float, b: float) -> float:
         value: float = run(a, b)
@@ -97,6 +97,18 @@ def _held(run: Rule) -> Rule:
         return value
 
     return checked
+
+
+def _unbounded(sign: str) -> Rule:
+    """A sign on single reals: what no real can hold is infinite, and numpy says so."""
+
+    def found(a: float, b: float) -> float:
+        try:
+            return float(_REAL[sign](a, b))
+        except OverflowError:
+            return float(_ARRAY[sign](np.float64(a), np.float64(b)))
+
+    return found
 
 
 _INTEGER: dict[str, Rule] = {
@@ -169,7 +181,7 @@ for _sign in SIGNS.split():
     SCALAR_RULES[_sign] = _scalar_rule(_sign)
 for _a in ("ENTIER", "FLOTTANT"):
     for _b in ("ENTIER", "FLOTTANT"):
-        _tabulated(SIGNS, _a, _b, (_INTEGER if _a == _b == "ENTIER" else _REAL).__getitem__)
+        _tabulated(SIGNS, _a, _b, _INTEGER.__getitem__ if _a == _b == "ENTIER" else _unbounded)
 for _a in ("LISTENTI", "LISTREEL"):
     for _b in ("ENTIER", "FLOTTANT", "LISTENTI", "LISTREEL"):
         _tabulated(SIGNS, _a, _b, _list_rule)
@@ -183,8 +195,8 @@ def compute(sign: str, call: Call) -> Any:
     Raises
     ------
     SsiError
-        'no-rule' when the types do not go together, 'arithmetic' for a division by zero or a
-        result past all reals, in any value of a list, curve or field.
+        'no-rule' when the types do not go together, 'arithmetic' for a division by zero or an
+        integer past its bound.
     """
     left = call.read("*")
     if left is not None and not call.operands and type_of(left.value) == "TABLE":
@@ -200,10 +212,11 @@ def compute(sign: str, call: Call) -> Any:
             "no-rule", left.span.to(right.span), operator=sign, left=types[0], right=types[1]
         )
     senseless: list[str] = []
+    place = left.span.to(right.span)
     try:
-        # a result past all reals is an error, wherever it stands; lists may be divided by zero
+        # a result past all reals is infinite; lists may be divided by zero
         with np.errstate(
-            over="raise", divide="call", invalid="call", call=lambda kind, _: senseless.append(kind)
+            over="call", divide="call", invalid="call", call=lambda kind, _: senseless.append(kind)
         ):
             if reading is not None:
                 result = reading(call, sign, left.value, right.value)
@@ -211,11 +224,11 @@ def compute(sign: str, call: Call) -> Any:
                 assert found is not None
                 result = found(left.value, right.value)
     except (ArithmeticError, ValueError, TypeError) as problem:
-        raise SsiError(
-            "arithmetic", left.span.to(right.span), operator=sign, reason=_reason(problem)
-        ) from None
-    if senseless and isinstance(result, ListReel):
-        _warn_of_zeros(call, left.span.to(right.span), sign, result)
+        raise SsiError("arithmetic", place, operator=sign, reason=_reason(problem)) from None
+    if "overflow" in senseless:
+        call.session.warn("operators.numbers.past-reals", place, sign=sign)
+    elif senseless and isinstance(result, ListReel):
+        _warn_of_zeros(call, place, sign, result)
     return result
 
 

@@ -79,12 +79,6 @@ def _degrees(function: Function) -> Function:
     return lambda x: np.degrees(function(x))
 
 
-def _exponential(x: Any) -> Any:
-    if np.any(np.asarray(x) > 709.7):
-        raise KernelError("operators.numbers.exp-too-large", x=np.max(x))
-    return np.exp(x)
-
-
 def _special(name: str) -> Function:
     """A function of scipy, which is imported when it is first used."""
     return lambda x: getattr(import_module("scipy.special"), name)(x)
@@ -109,7 +103,7 @@ _FUNCTIONS: dict[str, Function] = {
     "ASIH": np.arcsinh,
     "ACOH": _within("ACOH", np.arccosh, 1, np.inf, False),
     "ATAH": _within("ATAH", np.arctanh, -1, 1, False),
-    "EXP": _exponential,
+    "EXP": np.exp,
     "LOG": _within("LOG", np.log, 0, np.inf, True),
     "ERF": _special("erf"),
     "ERFC": _special("erfc"),

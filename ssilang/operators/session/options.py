@@ -162,6 +162,9 @@ def _mode(call: Call, word: str) -> None:
         return
     if said == "PLAN":
         said = call.keyword(("CONT", "DEFO", "GENE")) or (glued if glued in _MODES else "DEFO")
+        if said == "GENE":
+            point = call.read("POINT", after=call.keyword_end, only=True)
+            _store(call, "DPGE", point and point.value)
     elif said == "FOURIER":
         said = "FOUR"
         if call.keyword(("NOHARM",)) is None:

@@ -156,32 +156,41 @@ def _on_faces(
 ) -> NodeField:
     if isinstance(value, CellField):
         value = on_sides(model, value)
+    return pressure(model, _sides(call, model, value, faces), value)
+
+
+def _sides(call: Call, model: Model, load: object, faces: Mesh | None) -> Mesh:
+    """The sides of a load, else those whose nodes its field has; told where some stand twice."""
     if faces is None:
-        if not isinstance(value, NodeField | CellField):
+        if not isinstance(load, NodeField | CellField):
             raise call.missing(("MAILLAGE",))
-        faces = loaded_faces(model, value)
-    return pressure(model, _once(call, faces), value)
-
-
-def _once(call: Call, faces: Mesh) -> Mesh:
-    """The sides of a load; told where some stand there twice, and carry it twice."""
+        faces = loaded_faces(model, load)
     if count := repeated_cells(faces).n_cells:
         call.warn("operators.statics.sides-twice", faces, count=count)
     return faces
 
 
 @pres.form(said("COQU"))
-def shell_pressure(
-    call: Call,
+def along_normals(
     model: Model = MODEL,
     value: NodeField | CellField | float = _PRESSURE,
-    normal: bool = Flag("NORM", en="along the normal"),
+    side: str = Choice(("NORM",), optional=False, en="along the normal"),
+    fields: tuple[CellField, ...] = _OF_SHELLS,
+) -> NodeField:
+    """Pressure along the normals of shells."""
+    return shell_load(model, value)
+
+
+@pres.form(said("COQU"))
+def shell_pressure(
+    model: Model = MODEL,
+    value: NodeField | CellField | float = _PRESSURE,
     along: Point | None = Opt("POINT", en="vector on the side it pushes to"),
     towards: Point | None = Key("POIN", arg("point", "POINT"), en="point on the side it pushes to"),
     fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Pressure on shells."""
-    aim, point = (None if p is None or normal else p.coordinates for p in (along, towards))
+    aim, point = (None if p is None else p.coordinates for p in (along, towards))
     return shell_load(model, value, aim, point)
 
 
@@ -270,11 +279,8 @@ def fsur(
     fields: tuple[CellField, ...] = _THICKNESS,
 ) -> NodeField:
     """Forces on sides of continuous elements."""
-    if faces is None:
-        if not isinstance(density, NodeField):
-            raise call.missing(("MAILLAGE",))
-        faces = loaded_faces(model, density)
-    return traction(model, _once(call, faces), _values(density), joined(fields) if fields else None)
+    sides = _sides(call, model, density, faces)
+    return traction(model, sides, _values(density), joined(fields) if fields else None)
 
 
 @fsur.form(said("COQU"))

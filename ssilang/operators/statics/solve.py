@@ -240,8 +240,4 @@ operator(
 )(_reac)
 
 
-def _diag(matrix: Matrix) -> int:
-    return negative_eigenvalues(matrix)
-
-
-operator("DIAG", _MATRIX, family="solve", full_name="DIAGNEG")(_diag)
+operator("DIAG", _MATRIX, family="solve", full_name="DIAGNEG")(negative_eigenvalues)
