@@ -46,7 +46,6 @@ TABLE.add(np.array([[x, y, z] for z in (0, 1) for y in (0, 1, 2) for x in (0, 1,
 LINE, SURE = (Mesh.of(TABLE, "SEG2", np.array(c)) for c in ([[0, 1], [1, 2]], [[3, 4], [4, 5]]))
 STAR = Mesh.of(TABLE, "SEG2", np.array([[1, 4], [3, 4], [4, 5]]))
 QUADS = Mesh.of(TABLE, "QUA4", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
-BRICK = Mesh.of(TABLE, "CUB8", np.array([[0, 1, 4, 3, 9, 10, 13, 12]]))
 FIVE = Mesh.of(TABLE, "POL5", np.array([[0, 1, 5, 7, 3]]))
 POINTS = Mesh.of(TABLE, "POI1", np.array([[0], [4]]))
 SOIL = SoilColumn(TWO, TWO, TWO, TWO * 0.1, 1.0, 2.0)

@@ -314,6 +314,16 @@ def _membrane(first, second):
     return stiff * (e1 + 0.25 * e2), stiff * (e2 + 0.25 * e1), shear * g
 
 
+def _axes():
+    """The shell's normal, and the vector (0.2 1 0) in its plane."""
+    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
+    normal = normal / np.linalg.norm(normal)
+    first = np.array([0.2, 1.0, 0.0])
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    return normal, first
+
+
 @pytest.mark.parametrize(
     ("vectors", "side"),
     [("(0.2 1. 0.)", 1.0), ("(0.2 1. 0.) (1. 0. 0.)", -1.0)],
@@ -321,11 +331,7 @@ def _membrane(first, second):
 )
 def test_membrane_forces_of_shells_along_a_vector(found, vectors, side):
     """The triangles differ in their own axes, the forces along the vector do not."""
-    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
-    normal = normal / np.linalg.norm(normal)
-    first = np.array([0.2, 1.0, 0.0])
-    first = first - (first @ normal) * normal
-    first = first / np.linalg.norm(first)
+    normal, first = _axes()
     values = found(
         SHELL + f"R = RTEN F M {vectors} ; X1 = MAXI (EXCO 'N11' R) ; X2 = MINI (EXCO 'N11' R) ; "
         "X3 = MAXI (EXCO 'N22' R) ; X4 = MAXI (EXCO 'N12' R) ; X5 = MINI (EXCO 'N12' R) ;",
@@ -374,11 +380,7 @@ def test_strains_of_shells_turn_as_tensors(found):
         "X1 = MAXI 'ABS' (E - T) ; X2 = MAXI (EXCO 'EPSS' (RTEN (EPSI M MA U) M (0.2 1. 0.))) ;",
         "X1", "X2",
     )  # fmt: skip
-    normal = np.cross([3.0, 0.4, 1.0], [-0.3, 1.6, 0.5])
-    normal = normal / np.linalg.norm(normal)
-    first = np.array([0.2, 1.0, 0.0])
-    first = first - (first @ normal) * normal
-    first = first / np.linalg.norm(first)
+    _, first = _axes()
     assert shear == pytest.approx(0.0, abs=1e-14)
     assert largest == pytest.approx(first @ np.diag([0.01, 0.02, 0.0]) @ first)
 

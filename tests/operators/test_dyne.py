@@ -422,6 +422,18 @@ def test_a_polynomial_is_a_product_of_powers(tmp_path):
     assert v[-1] < -1.05
 
 
+OF_MODELS = """
+OPTI ELEM POI1 ; M1 = MODE (MANU 'POI1' PX) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
+M2 = MODE (MANU 'POI1' PY) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
+A = (MATE M1 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 1 . 'DEFORMEE_MODALE')) ET
+    (MATE M2 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 2 . 'DEFORMEE_MODALE')) ;
+L = MODE (MANU 'POI1' P) 'LIAISON' 'LIGNE_LIGNE' 'FROTTEMENT' ; TO = TABL ; TO . L = TV ;
+AL = MATE L 'LIMA' (L1 . 'LIGNE_MAITRE') 'LIES' P 'RAID' (L1 . 'RAIDEURS') 'GLIS' 0.2
+     'ADHE' 0.2 'RTAN' -1. 'ATAN' 1.E-3 'SORT' TO ;
+"""
+"""The modes and the link of a line as models."""
+
+
 def test_models_of_a_table_pasapas_are_the_tables_of_the_other_form(tmp_path):
     root = run(
         MASS
@@ -429,13 +441,9 @@ def test_models_of_a_table_pasapas_are_the_tables_of_the_other_form(tmp_path):
         + """
         R = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 3 ; F = R . L1 . 'FORCE_DE_CHOC_NORMALE' ;
         D = R . 401 . 'DEPLACEMENT' ;
-        OPTI ELEM POI1 ; M1 = MODE (MANU 'POI1' PX) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
-        M2 = MODE (MANU 'POI1' PY) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
-        A = (MATE M1 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 1 . 'DEFORMEE_MODALE')) ET
-            (MATE M2 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 2 . 'DEFORMEE_MODALE')) ;
-        L = MODE (MANU 'POI1' P) 'LIAISON' 'LIGNE_LIGNE' 'FROTTEMENT' ; TO = TABL ; TO . L = TV ;
-        AL = MATE L 'LIMA' (L1 . 'LIGNE_MAITRE') 'LIES' P 'RAID' (L1 . 'RAIDEURS') 'GLIS' 0.2
-             'ADHE' 0.2 'RTAN' -1. 'ATAN' 1.E-3 'SORT' TO ;
+        """
+        + OF_MODELS
+        + """
         T = TABL 'PASAPAS' ; T . 'MODELE' = M2 ET L ET M1 ; T . 'CARACTERISTIQUES' = A ET AL ;
         T . 'VITESSES' = TABL ; T . 'VITESSES' . 0 = TI . 'VITESSE' ; T . 'NOMBRE_PAS' = 1500 ;
         T . 'PAS_DE_TEMPS' = 1.E-4 ; T . 'PAS_DE_SORTIE' = 3 ; DYNE 'DE_VOGELAERE' T ;
@@ -467,13 +475,9 @@ def test_pasapas_steps_models_of_links(tmp_path):
         + """
         R = DYNE 'DE_VOGELAERE' TB TI TL TS 1500 1.E-4 ; F = R . L1 . 'FORCE_DE_CHOC_NORMALE' ;
         W = EXTR F 1021 ; V = R . 1501 . 'VITESSE' ;
-        OPTI ELEM POI1 ; M1 = MODE (MANU 'POI1' PX) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
-        M2 = MODE (MANU 'POI1' PY) 'MECANIQUE' 'ELASTIQUE' 'MODAL' ;
-        A = (MATE M1 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 1 . 'DEFORMEE_MODALE')) ET
-            (MATE M2 'FREQ' 0. 'MASS' 2. 'DEFO' (TM . 2 . 'DEFORMEE_MODALE')) ;
-        L = MODE (MANU 'POI1' P) 'LIAISON' 'LIGNE_LIGNE' 'FROTTEMENT' ; TO = TABL ; TO . L = TV ;
-        AL = MATE L 'LIMA' (L1 . 'LIGNE_MAITRE') 'LIES' P 'RAID' (L1 . 'RAIDEURS') 'GLIS' 0.2
-             'ADHE' 0.2 'RTAN' -1. 'ATAN' 1.E-3 'SORT' TO ;
+        """
+        + OF_MODELS
+        + """
         T = TABL 'PASAPAS' ; T . 'MODELE' = M1 ET M2 ET L ; T . 'CARACTERISTIQUES' = A ET AL ;
         T . 'VITESSES' = TABL ; T . 'VITESSES' . 0 = TI . 'VITESSE' ; T . 'DYNAMIQUE' = VRAI ;
         T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 0.15 ;

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.statics.linear import reactions
 
 OSCILLATOR = """
@@ -28,12 +28,6 @@ T . 'CHAR' = CHAR 'MECA' ((T . 'MASS') * (MANU 'CHPO' BLOC 1 'UY' {g}))
   (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;
 T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 2.E-4 0.2 ; T . 'EXTREMES' = VRAI ;
 """
-
-
-def ran(text):
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
-    return result
 
 
 @pytest.mark.parametrize("loop", ["", "T . 'NEWTON_COMPLET' = VRAI ;", "T . 'REDUCTION' = 1.E-6 ;"])

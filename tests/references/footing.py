@@ -132,32 +132,6 @@ class Disc:
         return float(self.k0 * theta * self.radius**4 * (inertia - 2.0 / 3.0 * c * s**3))
 
 
-def macro_element(
-    width: float, length: float, k0: float, v: float, theta: float
-) -> tuple[float, float, Array]:
-    """Upward force, moment and tangent of a strip at centre lift v and rotation theta > 0.
-
-    They derive from the potential `k0 L/6 theta^2 c^3`, c = B/2 - v/theta, in partial contact;
-    v is upwards and theta > 0 lifts the side +x. Returns (N, M, tangent (2, 2)): N >= 0 is the
-    soil's reaction (minus the derivative with respect to v), M the derivative with respect to
-    theta, the tangent the potential's second derivatives.
-    """
-    half = width / 2.0
-    edges = v - half * theta, v + half * theta
-    if edges[0] >= 0.0:
-        return 0.0, 0.0, np.zeros((2, 2))
-    kl = k0 * length
-    if edges[1] <= 0.0:
-        tangent = kl * np.diag([width, width**3 / 12.0])
-        return -kl * width * v, kl * width**3 / 12.0 * theta, tangent
-    c = half - v / theta
-    force = kl * theta * c**2 / 2.0
-    moment = kl * (theta * c**3 / 3.0 + v * c**2 / 2.0)
-    cross = kl * (c**2 / 2.0 - half * c)
-    rotation = kl * (c**3 / 3.0 + c * (v / theta) * (c + v / theta))
-    return force, moment, np.array([[kl * c, cross], [cross, rotation]])
-
-
 def onset_acceleration(kern: float, height: float, gravity: float = 9.81) -> float:
     """Slowly applied base acceleration at which a rigid block of centre height `height` lifts."""
     return gravity * kern / height

@@ -31,6 +31,10 @@ def _rows(cells: list[str], per_line: int) -> list[str]:
     return ["".join(cells[i : i + per_line]) for i in range(0, len(cells), per_line)]
 
 
+def _headed(head: str, short: bool, cells: list[str], per_line: int) -> str:
+    return head if short else "\n".join([head, *_rows(cells, per_line)])
+
+
 @listing("ENTIER")
 def _integer(value: int, short: bool, say: Teller) -> str:
     return say("operators.texts.integer", value=value)
@@ -63,9 +67,8 @@ def _reals(value: ListReel, short: bool, say: Teller) -> str:
 
 def say_reals(value: ListReel, short: bool, say: Teller, per_line: int) -> str:
     """The numbers of a list, so many in a line."""
-    rows = _rows([f" {real(v)}" for v in value.values.tolist()], per_line)
     head = say("operators.texts.reals", count=len(value), full=not short)
-    return head if short else "\n".join([head, *rows])
+    return _headed(head, short, [f" {real(v)}" for v in value.values.tolist()], per_line)
 
 
 @listing("LISTENTI")
@@ -75,16 +78,14 @@ def _integers(value: ListEnti, short: bool, say: Teller) -> str:
 
 def say_integers(value: ListEnti, short: bool, say: Teller, per_line: int) -> str:
     """The numbers of a list, so many in a line."""
-    rows = _rows([f" {v:7d}" for v in value.values.tolist()], per_line)
     head = say("operators.texts.integers", count=len(value), full=not short)
-    return head if short else "\n".join([head, *rows])
+    return _headed(head, short, [f" {v:7d}" for v in value.values.tolist()], per_line)
 
 
 @listing("LISTMOTS")
 def _words(value: ListMots, short: bool, say: Teller) -> str:
-    rows = _rows([f" {v.rstrip():<8s}" for v in value.values], 10)
     head = say("operators.texts.words", count=len(value), full=not short)
-    return head if short else "\n".join([head, *rows])
+    return _headed(head, short, [f" {v.rstrip():<8s}" for v in value.values], 10)
 
 
 @listing("LISTCHPO", "LISTOBJE")

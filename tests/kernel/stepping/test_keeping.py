@@ -26,7 +26,6 @@ from tests.kernel.contact.test_modal import feet
 from tests.kernel.stepping.test_choose import masses
 
 PARTS = ("u", "v", "a", "reaction", "w", "t", "state", "contact")
-MANY = (60, 10, 52)
 """A block on 300 jumps and more: factors of the interface are changed, not made anew."""
 
 

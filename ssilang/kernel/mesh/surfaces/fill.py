@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.mesh import Mesh
@@ -139,18 +139,24 @@ def _far_centres(
     return centres[pick[np.argsort(-excess[pick])]]
 
 
-def _front_sides(triangles: IntArray, large: np.ndarray) -> tuple[IntArray, IntArray]:
-    """Sides (k, 2), in the sense of their large triangle, whose other neighbour is good or none."""
+def sides_and_twins(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray, BoolArray]:
+    """Sides (3 n, 2) in the sense of their triangles, these, and the reverse sides where they are.
+
+    Sides from corner 0 to 1 of all triangles come first, then from 1 to 2 and from 2 to 0.
+    """
+    n = int(triangles.max(initial=0)) + 1
     sides = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     owner = np.tile(np.arange(len(triangles)), 3)
-    n = int(triangles.max()) + 1
     code, reverse = sides @ [n, 1], sides @ [1, n]
     order = np.argsort(code)
-    place = np.minimum(np.searchsorted(code[order], reverse), len(code) - 1)
-    twin = order[place]
-    paired = code[twin] == reverse
-    other_large = paired & large[owner[twin]]
-    front = large[owner] & ~other_large
+    twin = order[np.minimum(np.searchsorted(code[order], reverse), len(code) - 1)]
+    return sides, owner, twin, code[twin] == reverse
+
+
+def _front_sides(triangles: IntArray, large: np.ndarray) -> tuple[IntArray, IntArray]:
+    """Sides (k, 2), in the sense of their large triangle, whose other neighbour is good or none."""
+    sides, owner, twin, paired = sides_and_twins(triangles)
+    front = large[owner] & ~(paired & large[owner[twin]])
     return sides[front], owner[front]
 
 

@@ -22,6 +22,7 @@ from ssilang.kernel.mesh.surfaces.fill import (
     boundary_sizes,
     certain_sides,
     fill_contour,
+    sides_and_twins,
     sides_of,
     smooth,
 )
@@ -178,14 +179,9 @@ def squareness(points: FloatArray, quads: IntArray) -> FloatArray:
 
 def _pairs(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     """Adjacent triangles (numbers, numbers) and the quadrangle that each pair makes."""
-    n = int(triangles.max(initial=0)) + 1
-    sides = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    sides, owner, twin, paired = sides_and_twins(triangles)
     apex = np.concatenate([triangles[:, 2], triangles[:, 0], triangles[:, 1]])
-    owner = np.tile(np.arange(len(triangles)), 3)
-    code, reverse = sides @ [n, 1], sides @ [1, n]
-    order = np.argsort(code)
-    twin = order[np.minimum(np.searchsorted(code[order], reverse), len(code) - 1)]
-    pick = np.flatnonzero((code[twin] == reverse) & (owner < owner[twin]))
+    pick = np.flatnonzero(paired & (owner < owner[twin]))
     other = twin[pick]
     quads = np.column_stack([sides[pick, 0], apex[other], sides[pick, 1], apex[pick]])
     return owner[pick], owner[other], quads
