@@ -21,7 +21,7 @@ from ssilang.report.fragilities import (
     fragility_html,
 )
 from ssilang.report.html import asset, json_in_page, number, section, table, text
-from ssilang.report.sweep_table import MOTION, Sweep, edited, link_to, real, short
+from ssilang.report.sweep_table import MOTION, Sweep, edited, link_to, real, short, warnings_of
 
 MOST_RUNS = 5000
 """Rows of the table."""
@@ -50,6 +50,7 @@ def sweep_page(sweep: Sweep, language: str) -> str:
         section("fragility", told("report.fragility"), fragility),
         section("floors", told("report.sweep-floors"), charts_html(charts, "floors", told)),
         section("figures", told("report.sweep-figures"), charts_html(charts, "sweep", told)),
+        section("warnings", told("report.warnings"), _warnings(sweep, told)),
         section("sweep", told("report.sweep-runs"), _runs(sweep, told)),
         section("histories", told("report.sweep-histories"), _histories(sweep, told)),
     ]
@@ -102,6 +103,12 @@ def _span(sweep: Sweep, name: str) -> str:
         low, high = f"{min(numbers):g}", f"{max(numbers):g}"
         return low if low == high else f"{low} … {high}"
     return short(values[0]) if len(values) == 1 else str(len(values))
+
+
+def _warnings(sweep: Sweep, told: Teller) -> str:
+    """What runs were warned of."""
+    found = [told("cli.sweep-warning", **vars(w)) for w in warnings_of(sweep.folder, sweep.rows)]
+    return f"<ul>{''.join(f'<li>{text(t)}' for t in found)}</ul>" if found else ""
 
 
 def _runs(sweep: Sweep, told: Teller) -> str:

@@ -5,9 +5,12 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 from urllib.parse import quote
 
 from ssilang.io.atomic import inside
@@ -61,7 +64,7 @@ def read_sweep(folder: Path) -> Sweep:
     if not {"run", "exit_code", "seconds", "error", "folder"} <= set(titles) or not rows:
         raise InputError("report.not-a-sweep", path=path)
     swept = list(takewhile(lambda t: t != "exit_code", titles[1:]))
-    own = {"run", "exit_code", "seconds", "error", "folder", *swept}
+    own = {"run", "exit_code", "seconds", "error", "warnings", "folder", *swept}
     return Sweep(folder, rows, swept, [t for t in titles if t not in own])
 
 
@@ -77,6 +80,31 @@ def edited(sweep: Sweep) -> list[str]:
             same = False
         found += [] if same else [row["run"]]
     return found
+
+
+@dataclass(frozen=True)
+class Warned:
+    """What runs were warned of: the sentence of the first, its number and folder, how many were."""
+
+    text: str
+    run: str
+    folder: str
+    count: int
+
+
+def warnings_of(folder: Path, rows: Sequence[Mapping[str, Any]]) -> list[Warned]:
+    """What the runs of a sweep were warned of, each code once."""
+    codes = [(code, row) for row in rows for code in str(row.get("warnings", "")).split()]
+    count, found = Counter(code for code, _ in codes), []
+    for code, row in {code: row for code, row in reversed(codes)}.items():
+        path = inside(folder / RUNS, f"{row['folder']}/summary.json")
+        try:
+            given = json.loads(path.read_text(encoding="utf-8"))["warnings"] if path else []
+            text = next((str(w["text"]) for w in given if w["code"] == code), code)
+        except (OSError, ValueError, KeyError, TypeError):
+            text = code
+        found.append(Warned(text, str(row["run"]), str(row["folder"]), count[code]))
+    return found[::-1]
 
 
 def link_to(folder: Path, run: str) -> str:

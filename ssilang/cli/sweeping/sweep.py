@@ -26,6 +26,7 @@ from ssilang.cli.sweeping.table import (
     Row,
     can_write,
     draw_figures,
+    idle_names,
     write_plain_table,
     write_table,
 )
@@ -42,7 +43,7 @@ from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
-from ssilang.report.sweep_table import read_sweep
+from ssilang.report.sweep_table import read_sweep, warnings_of
 
 TABLE, PLAIN_TABLE, FITS = "sweep.parquet", "sweep.csv", "fragility.csv"
 
@@ -92,6 +93,7 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         return 2
     made = write_results(rows, list(cases[0].values), options.folder)
     _tell_left(made, options.language, err)
+    _tell_warnings(rows, list(cases[0].values), options, err)
     missing = _judge(options, asked, err)
     if options.report:
         out.write(write_reports(rows, options) + "\n")
@@ -296,6 +298,16 @@ def _tell_left(made: dict[str, object], language: str, err: TextIO) -> None:
         err.write(sentence("cli.histories-other-columns", told, language) + "\n")
     if joined.large:
         err.write(sentence("cli.histories-too-large", {"names": joined.large}, language) + "\n")
+
+
+def _tell_warnings(
+    rows: Sequence[Row], swept: list[str], options: SweepOptions, err: TextIO
+) -> None:
+    """What runs were warned of, once each; names whose values change nothing."""
+    told = [("cli.sweep-warning", vars(w)) for w in warnings_of(options.folder, rows)]
+    idle = idle_names([row for row in rows if row["exit_code"] == 0], swept)
+    for code, data in [*told, *(("cli.value-idle", {"name": name}) for name in idle)]:
+        err.write(sentence(code, data, options.language) + "\n")
 
 
 def write_reports(rows: Sequence[Row], options: SweepOptions) -> str:

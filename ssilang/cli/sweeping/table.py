@@ -11,7 +11,7 @@ from typing import Any
 from ssilang.cli.sweeping.given import MOTION
 
 Row = dict[str, Any]
-RESERVED = ("run", "exit_code", "seconds", "error", "folder")
+RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
 
 
 def can_write() -> bool:
@@ -56,6 +56,21 @@ def write_plain_table(rows: Sequence[Row], path: Path) -> None:
     writer.writeheader()
     writer.writerows(rows)
     write_text(path, text.getvalue())
+
+
+def idle_names(rows: Sequence[Row], swept: Sequence[str]) -> list[str]:
+    """Names of several numbers or motions of which no figure depends, to the last digit."""
+    figures = [n for n in columns_of(rows) if n not in (*RESERVED, *swept)]
+    found = []
+    for name in swept:
+        if name == MOTION or _numbers(rows, name):
+            others, known = [n for n in swept if n != name], dict[str, dict[str, str]]()
+            for row in rows:
+                same = known.setdefault(repr([row[n] for n in others]), {})
+                same[repr(row[name])] = repr([row.get(n) for n in figures])
+            alike = [len({*same.values()}) == 1 < len(same) for same in known.values()]
+            found += [name] if alike and all(alike) and figures else []
+    return found
 
 
 def draw_figures(rows: Sequence[Row], swept: Sequence[str], folder: Path) -> list[Path]:

@@ -80,6 +80,9 @@ def run_task(task: Task) -> Row:
         "exit_code": result.exit_code,
         "seconds": round(time.perf_counter() - started, 3),
         "error": result.message.partition("\n")[0],
+        "warnings": " ".join(
+            sorted({w.code for w in result.session.warnings if w.severity == "warning"})
+        ),
         **figures_of(result.session.statistics.get("verdicts", [])),
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,

@@ -65,18 +65,20 @@ def is_shaken(problem: Problem, name: str) -> bool:
     return name in axes and bool(shaking[axes.index(name)].any())
 
 
-def strong_frequency(times: FloatArray, values: FloatArray) -> float:
+def strong_frequency(times: FloatArray, values: FloatArray, power: int = -1) -> float:
     """Frequency (Hz) below which `STRONG` of the energy of a motion's velocities lies.
 
     Parameters
     ----------
     values : array (n,)
         Accelerations at `times` (n,), which need not be evenly apart.
+    power : int
+        Of the frequency that makes velocities of them: 1 for displacements.
     """
     even = np.linspace(times[0], times[-1], len(times))
     frequencies = np.fft.rfftfreq(len(even), even[1] - even[0])[1:]
     spectrum = np.abs(np.fft.rfft(np.interp(even, times, values)))[1:]
-    energy = np.cumsum((spectrum / frequencies) ** 2)
+    energy = np.cumsum((spectrum * frequencies**power) ** 2)
     return float(frequencies[np.searchsorted(energy, STRONG * energy[-1])]) if energy[-1] else 0.0
 
 

@@ -15,10 +15,15 @@ import numpy as np
 from ssilang.io.ground_motions.record import G
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements.catalog import LOCKING
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.interface import joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
+from ssilang.kernel.stepping.problem.plausibility import MOST_BODIES, Bodies
 from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
@@ -36,6 +41,7 @@ from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.interface.interface import Interface
+    from ssilang.kernel.matrices.matrix import ElementMatrices
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
@@ -46,6 +52,7 @@ WEIGHT = (0.05, 3.0)  # g; what pulls down
 MANY = 3  # nodes, or instants: fewer say nothing of a rule
 PART, WHOLE = 0.2, 0.8  # of what moves along another axis, at a node and in all: less is forgotten
 LEVELS = 3  # heights of a side; a base has one
+FEW = 2  # nodes of a side with springs of their own; one is an oscillator's
 NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
 """What a curve is of, by the first letters of the name of its ordinates."""
 
@@ -55,7 +62,7 @@ def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
     axes = axes_of(problem)
     found = [] if not axes else [*_Entering(problem, inputs, axes).told(entries)]
     if (joints := problem.interface) is not None:
-        found += [*_bridged(problem, joints, inputs), *_held_footings(problem, joints)]
+        found += [*_held_footings(problem, joints), *_sheared(problem, joints)]
     for code, told in found:
         entries.warn(code, **told)
 
@@ -83,7 +90,7 @@ class _Entering:
             shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
-        yield from chain(self._sides(), self._masses_one_way(), self._long_cells())
+        yield from chain(self._sides(), self._masses_one_way(), self._long_cells(), self._bending())
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load
@@ -138,17 +145,35 @@ class _Entering:
         """Cells with too few of them in a wavelength of what shakes, the worst of each load."""
         load, mass = self.inputs.load, self.inputs.mass
         terms = [p for p in load.parts for _ in nodal_terms(p)] if load and mass else []
-        for part, along in zip(terms, (self.loads * self.changing).T, strict=False):
+        shakes = self.loads * self.changing
+        for part, pushed, moved in zip(terms, shakes.T, self.base.T, strict=False):
+            along, power = (pushed, -1) if pushed.any() else (moved, 1)
             if not part.time or not along.any() or len(part.time.parts[0].abscissas) < MANY:
                 continue
             curve = part.time.parts[0]
-            frequency = strong_frequency(curve.abscissas, curve.ordinates)
+            frequency = strong_frequency(curve.abscissas, curve.ordinates, power)
             axis, stiffness = self.axes[int(np.abs(along).argmax())], self.inputs.stiffness
             assert mass is not None
             found = longest_cell(stiffness, mass, axis, frequency) if frequency else None
             if found is not None and found.cells < FEWER * found.usual:
                 told = vars(found) | {"node": mass.table.told(found.node), "frequency": frequency}
                 yield "operators.dynamics.cells-too-long", {"name": part.name, **told}
+
+    def _bending(self) -> Told:
+        """Linear cells one on the other, free to rise: they bend, and ground shears."""
+        rows, numbering = self.problem.constraints.C, self.problem.numbering
+        tied = numbering.nodes[np.unique(rows.indices)]
+        for axis in np.flatnonzero(self.shaken[:-1] + np.abs(self.base[:-1]).sum(axis=1)):
+            for block in self.inputs.stiffness.blocks:
+                zone, x = block.zone, block.table.coordinates[block.nodes][..., : len(self.axes)]
+                if zone is None or is_joint(zone) or zone.element not in LOCKING:
+                    continue
+                wide, levels = np.ptp(x[..., axis], axis=1), np.unique(x[..., -1].round(9))
+                alone = wide.min() > WHOLE * np.ptp(x[..., axis]) and len(levels) > 2 * LEVELS
+                if alone and np.isin(np.unique(block.nodes), tied).mean() < PART:
+                    node = block.table.told(int(block.nodes[-1, 0]))
+                    told = {"count": len(wide), "node": node, "up": self.axes[-1]}
+                    yield "operators.dynamics.column-bends", {**told, "axis": self.axes[axis]}
 
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""
@@ -165,19 +190,69 @@ class _Entering:
                 yield "operators.dynamics.sides-held", {"axis": self.axes[axis], **told}
 
 
-def _bridged(problem: Problem, joints: Interface, inputs: Inputs) -> Told:
-    """Dashpots to the ground, along the normal of joints, on bodies that these alone hold."""
-    blocks = () if inputs.damping is None else inputs.damping.blocks
-    alone = [b for b in blocks if b.nodes.shape[1] == 1 and b.kind != "MASSE"]
-    if not alone or not loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
+def bridged(problem: Problem, inputs: Inputs) -> Told:
+    """Springs and dashpots that act where joints open; ground held where these stand on it."""
+    if (joints := problem.interface) is None:
         return
+    own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
+    loose = bool(loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))))
+    damping = inputs.damping.blocks if inputs.damping and loose else ()
     for joint in joints.joints:
-        upper, axis = joint.zone.cells.nodes.resolve(joint.upper).ravel(), _normal(joint)
-        for nodes in (b.nodes[:, 0] for b in alone if axis in b.unknowns and b.values.any()):
-            if (there := np.intersect1d(nodes, upper)).size:
-                told = {"axis": axis, "node": problem.numbering.table.told(int(there[0]))}
-                yield "operators.dynamics.joints-bridged", told
+        sides = [joint.zone.cells.nodes.resolve(s).ravel() for s in (joint.lower, joint.upper)]
+        axis = normal_of(joint)
+        for code, blocks, few in (
+            ("operators.dynamics.joints-bridged", damping, 1),
+            ("operators.dynamics.joints-sprung", own.blocks, FEW),
+        ):
+            acting = [_across(b, *sides, axis) for b in blocks if b.kind != "MASSE"]
+            nodes = np.unique(np.concatenate([sides[0][:0], *acting]))
+            if len(nodes) >= few:
+                told = {"axis": axis, "node": problem.numbering.table.told(int(nodes[0]))}
+                yield code, told
+        yield from _ground_held(problem, own, sides[0], axis)
+
+
+def _across(block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str) -> IntArray:
+    """Nodes (n,) of `upper` that matrices hold along an axis, to the ground or to `lower`."""
+    ours = np.isin(block.nodes, upper)
+    cells = (ours | np.isin(block.nodes, lower)).all(axis=1) & ours.any(axis=1)
+    cells &= (~ours).any(axis=1) | (block.nodes.shape[1] == 1)
+    along = np.array(block.unknowns) == axis
+    acts = along & (np.diagonal(block.values, axis1=1, axis2=2) != 0.0)
+    held = acts & ours[:, block.local] & cells[:, None]
+    return block.nodes[:, block.local][held]
+
+
+def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str) -> Told:
+    """A joint's lower side held whole, on cells that go on below it."""
+    numbering, free = problem.numbering, abs(problem.constraints.T).sum(axis=1) > ROUNDING
+    along = numbering.nodes[(numbering.codes == numbering.code(axis)) & free]
+    if np.isin(lower, along).any() or problem.loading.imposed.any():
+        return
+    for block in stiffness.blocks:
+        zone = block.zone
+        if zone is not None and not is_joint(zone) and zone.cells.kind.dimension > 1:
+            below = block.nodes[np.isin(block.nodes, lower).any(axis=1)]
+            if np.isin(below, along).any():
+                node = numbering.table.told(int(lower[0]))
+                yield "operators.dynamics.ground-held", {"axis": axis, "node": node}
                 return
+
+
+def _sheared(problem: Problem, joints: Interface) -> Told:
+    """Weights that joints carry by their shear alone: none of them is pressed."""
+    bodies, loading = Bodies(problem), problem.loading
+    force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
+    for body in range(min(int(bodies.label.max(initial=-1)) + 1, MOST_BODIES)):
+        ways = {a: bodies.along(body, a) for a in axes_of(problem)}
+        axis = max(ways, key=lambda a: abs(float(ways[a] @ force)))
+        w = np.zeros((joints.n_points, joints.dimension))
+        local_jumps(joints.points, joints.J @ ways[axis], w)
+        slips = np.abs(w).max(initial=0.0) > 0.0 == np.abs(w[:, -1]).round(9).max(initial=0.0)
+        if slips and abs(ways[axis] @ force) > 0.0 and not bodies.holds(ways[axis]):
+            node = problem.numbering.nodes[np.argmax(bodies.label == body)]
+            told = {"axis": axis, "node": problem.numbering.table.told(int(node))}
+            yield "operators.dynamics.weight-in-shear", told
 
 
 def _held_footings(problem: Problem, joints: Interface) -> Told:
@@ -197,7 +272,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
     for joint in joints.joints:
         upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
-        along = _normal(joint)
+        along = normal_of(joint)
         names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}
         codes = [numbering.code(n) for n in names & {*numbering.unknowns}]
         kept = held[np.isin(numbering.nodes[held], tied) & np.isin(numbering.codes[held], codes)]
@@ -206,7 +281,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
             return
 
 
-def _normal(joint: JointCells) -> str:
+def normal_of(joint: JointCells) -> str:
     """The displacement along which a joint opens, most."""
     normal = np.abs(joint.frames[..., -1, :]).reshape(-1, joint.frames.shape[-1]).mean(axis=0)
     return displacement_names(joint.zone)[int(normal.argmax())]

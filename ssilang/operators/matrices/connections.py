@@ -75,7 +75,7 @@ def warn_connections(
     zones = () if model is None else model.zones
     others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
-    springs = [b for b in matrix.blocks if not b.zone and b.raw_nodes.shape[1] == 1]
+    springs = [b for b in matrix.blocks if b.raw_nodes.shape[1] == 1]
     found = {
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),

@@ -25,7 +25,7 @@ from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translat
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces, closed_stiffness
 from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.waves.shaken import AXES
+from ssilang.kernel.waves.shaken import AXES, changing, shares, translations
 
 MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS, DENSE = 5000, 400  # free motions up to which a solve costs little beside the steps
@@ -33,6 +33,7 @@ SUNK = 0.1  # of a body's size, that its joints give way
 PRESSED = 0.02  # mean force of a weight beside the largest one
 WEAK = 1e-13  # stiffness beside the largest one that holds nothing
 LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
+NEARLY = 0.01  # of a load: what is left where supports take the rest
 SUDDEN = 0.1  # part of a load's largest value that comes or goes within a step
 
 
@@ -109,16 +110,16 @@ class Bodies:
             nodes = numbering.nodes[self.label == body]
             size = float(np.ptp(numbering.table.coordinates[nodes], axis=0).max())
             for axis in [a for a in AXES if a in numbering.unknowns]:
-                motion = self._along(body, axis)
+                motion = self.along(body, axis)
                 delta = joints.J @ motion
                 held = float(delta @ (joints.closed_stiffness() @ delta))
-                if held > 0.0 and size > 0.0 and not self._holds(motion):
+                if held > 0.0 and size > 0.0 and not self.holds(motion, problem.C):
                     push = self.factors @ (problem.loading.forces.T @ motion)
                     way = float(np.abs(push).max(initial=0.0)) / held
                     if way > SUNK * size:
                         yield Sunk(int(nodes[0]), axis, way, size)
 
-    def _along(self, body: int, axis: str) -> FloatArray:
+    def along(self, body: int, axis: str) -> FloatArray:
         """The body's translation by one."""
         motion = np.zeros(self.problem.numbering.size)
         motion[self.problem.numbering.where(axis)] = 1.0
@@ -127,10 +128,10 @@ class Bodies:
 
     def _way(self, body: int, axis: str) -> str:
         """'held', 'slides', 'stands' on joints or stops, or 'pressed' that needs to be; or ''."""
-        problem, motion = self.problem, self._along(body, axis)
+        problem, motion = self.problem, self.along(body, axis)
         if not motion.any() or not motion @ (problem.M @ motion):
             return ""
-        if self._holds(motion):
+        if self.holds(motion, problem.C):
             return "held"
         pushed = self.factors @ (problem.loading.forces.T @ motion)
         forces = self.factors @ np.abs(problem.loading.forces[motion != 0.0]).sum(axis=0)
@@ -146,12 +147,12 @@ class Bodies:
             return "pressed" if shaken and not weight else "stands"
         return "slides" if excited and not closed else ""
 
-    def _holds(self, motion: FloatArray) -> bool:
-        """Whether stiffness, dashpots or supports act against a motion."""
+    def holds(self, motion: FloatArray, *others: sp.csr_array) -> bool:
+        """Whether stiffness, supports or other matrices act against a motion."""
         problem = self.problem
         if np.abs(problem.constraints.C @ motion).max(initial=0.0) > ROUNDING:
             return True
-        for matrix in (problem.K, problem.C):
+        for matrix in (problem.K, *others):
             natural = motion**2 @ abs(matrix.diagonal())
             if abs(motion @ (matrix @ motion)) > ROUNDING * natural:
                 return True
@@ -283,12 +284,12 @@ def masses_alone(problem: Problem) -> IntArray:
 
 
 def on_supports(problem: Problem) -> IntArray:
-    """Loads that change, all on what supports hold."""
-    T, forces = problem.constraints.T, problem.loading.forces
-    sizes = np.abs(forces).max(axis=0, initial=0.0)
-    left = np.abs(T.T @ forces).max(axis=0, initial=0.0)
-    changes = np.ptp(problem.loading.at(problem.times), axis=0) > 0.0
-    return np.flatnonzero(changes & (sizes > 0.0) & (left <= ROUNDING * sizes))
+    """Loads that supports take, all but a hundredth of them; weights where they change, too."""
+    T, forces, along = problem.constraints.T, problem.loading.forces, translations(problem)
+    sizes, left = (np.abs(f).sum(axis=0) for f in (forces, T.T @ forces))
+    weighs = shares(problem.M @ along, forces).any(axis=0) if along.size else sizes < 0.0
+    few = left <= np.where(weighs, ROUNDING, NEARLY) * sizes
+    return np.flatnonzero((sizes > 0.0) & few & (changing(problem) | ~weighs))
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.

@@ -187,7 +187,8 @@ def _tell_coarse(entries: Entries, motion: Motion) -> None:
     if frequency <= 0:
         return
     ground = _ground(entries)
-    coarse = longest_cell(ground.stiffness, ground.mass, "UX", frequency, upwards=False)
+    first = ground.stiffness.blocks[0].unknowns[0]  # UX, about an axis UR
+    coarse = longest_cell(ground.stiffness, ground.mass, first, frequency, upwards=False)
     if coarse is not None and coarse.cells < coarse.usual * (1.0 - 1e-9):
         told = vars(coarse) | {"node": ground.mass.table.told(coarse.node), "frequency": frequency}
         entries.warn("operators.dynamics.element-too-long", **told)
