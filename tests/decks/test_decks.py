@@ -106,8 +106,13 @@ SMALLER = {
             "(DT0 / 4.) DUREE ; TQUA . 'PAS_SAUVES' = 4",
         ),
     ],
-    "seismic/matched_layer.ssi": [("DUREE = 2.4 ; DCOM = 1.6", "DUREE = 1.6 ; DCOM = 0.8")],
-    "seismic/record_to_verdict.ssi": [("1.25E-3 (MAXI LT0)", "1.25E-3 3.")],
+    "seismic/matched_layer.ssi": [
+        ("DUREE = 2.4 ; DCOM = 1.6", "DUREE = 1.6 ; DCOM = 0.8"),
+        ("DT0 = 1.6E-3 ; NSAU = 10", "DT0 = 3.2E-3 ; NSAU = 5"),
+    ],
+    "seismic/record_to_verdict.ssi": [
+        ("1.25E-3 (MAXI LT0) ; T1 . 'PAS_SAUVES' = 16", "2.5E-3 3. ; T1 . 'PAS_SAUVES' = 8")
+    ],
     "seismic/tower_quake.ssi": [
         ("DUREE = 3. ;", "DUREE = 2.4 ;"),
         ("'TAILLE' 0.75 1.5", "'TAILLE' 1.5 1.5"),

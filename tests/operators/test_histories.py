@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from script_runs import finder
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.statics.linear import product
@@ -43,15 +44,9 @@ T . 'CARACTERISTIQUES' = AJ ET A2 ; T . 'RIGI' = (RIGI M1 A1) ET B1 ;
 T . 'MASS' = (MASS M1 A1) ET (MASS M2 A2) ;"""
 
 
-def ran(text):
-    result = run_text(text)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
-
-
 @pytest.mark.parametrize("step", [*LOOPS.values(), YIELDS], ids=[*LOOPS, "yielding ground"])
 def test_fields_at_a_few_nodes_are_those_of_the_body(step):
-    find = ran(BLOCK.format(step=step))
+    find = finder(BLOCK.format(step=step))
     whole, few = find("R1"), find("R2")
     node = find("P").node
     places = [i for i, _ in few.items() if type(i) is int]
@@ -90,7 +85,7 @@ RUBBED = LOOPS | {
 
 @pytest.mark.parametrize("loop", RUBBED)
 def test_forces_of_a_named_support_are_what_moves_the_whole_body(loop):
-    find = ran(BLOCK.format(step=RUBBED[loop] + NAMED))
+    find = finder(BLOCK.format(step=RUBBED[loop] + NAMED))
     mass, whole = find("T").get("MASS"), find("R1")
     rows = [whole.get(i) for i in range(1, 36)]
     pushed = [product(mass, row.get("ACCE")).components for row in rows]
@@ -115,7 +110,7 @@ def test_forces_of_a_named_support_are_what_moves_the_whole_body(loop):
 
 def test_stops_push_with_what_moves_the_mass_and_touch_alone():
     """A mass that falls on a stop from 1 mm and bounces: no force on its ways."""
-    find = ran("""
+    find = finder("""
 OPTI DIME 2 ELEM SEG2 MODE PLAN CONT ; P = 0. 0. ; T = TABL ;
 STOP = BLOQ 'MINI' 'UY' P ; SIDE = BLOQ 'UX' P ; K = APPUI 'UY' 1.E4 P ;
 T . 'RIGI' = K ET STOP ET SIDE ; T . 'MASS' = MASS 'DEPL' 10. P ; T . 'AMOR' = 0.1 * K ;
@@ -186,7 +181,7 @@ def test_curves_in_time_read_rows_without_making_fields(name, table, monkeypatch
     monkeypatch.setattr(
         NodeHistories, "node_field", lambda s, row, name: made.append(row) or given(s, row, name)
     )
-    find = ran(BLOCK.format(step="") + f"E = EVOL 'TEMP' {table} {asked} ;")
+    find = finder(BLOCK.format(step="") + f"E = EVOL 'TEMP' {table} {asked} ;")
     assert set(made) <= {0}  # the first says what components there are
     curve, steps = find("E").parts[0], find(table)
     rows = [steps.get(i) for i in range(1, 36)]
@@ -199,7 +194,7 @@ def test_curves_in_time_read_rows_without_making_fields(name, table, monkeypatch
 def test_curves_follow_what_a_script_put_into_the_table():
     change = "A1 = R2 . 4 ; A1 . 'DEPL' = 2. * (A1 . 'DEPL') ; "
     ask = "E{i} = EVOL 'TEMP' R2 'DEPL' 'UY' P ; "
-    find = ran(BLOCK.format(step="") + ask.format(i=1) + change + ask.format(i=2))
+    find = finder(BLOCK.format(step="") + ask.format(i=1) + change + ask.format(i=2))
     before, after = (find(name).parts[0].ordinates for name in ("E1", "E2"))
     ratio = np.ones(35)
     ratio[3] = 2.0
@@ -218,7 +213,7 @@ def test_a_node_that_is_not_kept_is_told_with_the_nearest_one(step, asked):
 
 def test_lists_and_their_file_hold_the_same_values(tmp_path):
     more = "T . 'PAS_SAUVES_CSV' = 3 ; T . 'MAILLAGE_CSV' = MANU 'POI1' P ; R3 = DYNAMIC T ;"
-    find = ran(BLOCK.format(step="") + more)
+    find = finder(BLOCK.format(step="") + more)
     lists, node = find("T").get("RESULTATS_CSV"), find("P").node + 1
     names = [str(i).rstrip() for i, _ in lists.items()]
     kinds = [f"{w}_{c}_{node}" for w in ("DEPL", "VITE", "ACCE") for c in ("UX", "UY")]

@@ -6,6 +6,7 @@ from scipy.integrate import quad
 from scipy.signal import lsim
 
 from ssilang.kernel.modal.oscillator import spectrum
+from ssilang.kernel.records import matching
 from ssilang.kernel.records.filters import integrated
 from ssilang.kernel.records.matching import matched, wavelets
 
@@ -46,7 +47,8 @@ def got_factor(a: np.ndarray, target: np.ndarray) -> float:
     return float(np.exp(np.mean(np.log(target / own))))
 
 
-def test_a_multiple_of_the_target_s_own_record_is_scaled_alone() -> None:
+def test_a_multiple_of_the_target_s_own_record_is_scaled_alone(monkeypatch) -> None:
+    monkeypatch.setattr(matching, "_adjustment", None)  # no round begins
     a = record()
     target = spectrum(TIMES, a, FREQUENCIES, 0.05, "ACCE")
     got = matched(TIMES, 3.0 * a, FREQUENCIES, target, 0.05, 1e-9)
