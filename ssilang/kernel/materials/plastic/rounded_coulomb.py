@@ -10,9 +10,11 @@ multiplier together, and its tangent is exact.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
@@ -20,6 +22,7 @@ TRANSITION = np.radians(25.0)
 TIP = 0.05
 TURNS = 30
 CUTS = 12
+SMALL = 1e-12
 FAR = 1e5  # times the cohesion: where only a step that diverges leads
 _S = -1.5 * np.sqrt(3.0)
 
@@ -47,7 +50,7 @@ def respond(
     if len(rows):
         some = parameters.at(rows)
         compliance = some.compliance
-        found[rows], tangent[rows] = _closest_point(some, compliance, trial[rows])
+        found[rows], tangent[rows] = _closest_point(_Return(some, compliance, trial[rows]))
         plastic = np.einsum("mij,mj->mi", compliance, trial[rows] - found[rows])
         square = (plastic[:, :3] ** 2).sum(axis=1) + 0.5 * (plastic[:, 3:] ** 2).sum(axis=1)
         p[rows] += np.sqrt(2 / 3 * square)
@@ -59,112 +62,85 @@ def criterion(parameters: PointParameters, stress: FloatArray) -> FloatArray:
     return _surface(parameters, stress)[0]
 
 
-def _closest_point(
-    parameters: PointParameters, compliance: FloatArray, trial: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    unknown = np.column_stack([trial, np.zeros(len(trial))])
-    jacobian, lost = _newton(parameters, compliance, trial, unknown, TIP)
+@dataclass(frozen=True)
+class _Return:
+    """Equations of the closest points to trial stresses, on a surface with a tip of some size."""
+
+    parameters: PointParameters
+    compliance: FloatArray
+    trial: FloatArray
+    tip: float = TIP
+
+    def at(self, rows: IntArray) -> _Return:
+        some = self.parameters.at(rows)
+        return _Return(some, self.compliance[rows], self.trial[rows], self.tip)
+
+    def far(self) -> FloatArray:
+        """Stress of the trial over cohesion (m,)."""
+        far: FloatArray = np.abs(self.trial).max(axis=1) / self.parameters["COHE"]
+        return far
+
+    def equations(self, unknown: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Residual (m, 7), its derivative (m, 7, 7), its size (m,).
+
+        The size is over strain and stress of first yield, or what rounds as much far beyond it.
+        """
+        stress, multiplier = unknown[:, :6], unknown[:, 6]
+        f, gradient, hessian = _surface(self.parameters, stress, self.tip)
+        rest = np.empty_like(unknown)
+        rest[:, :6] = np.einsum("mij,mj->mi", self.compliance, stress - self.trial)
+        rest[:, :6] += multiplier[:, None] * gradient
+        rest[:, 6] = f
+        jacobian = np.zeros((len(f), 7, 7))
+        jacobian[:, :6, :6] = self.compliance + multiplier[:, None, None] * hessian
+        jacobian[:, :6, 6] = jacobian[:, 6, :6] = gradient
+        strain = np.abs(rest[:, :6]).max(axis=1) * self.parameters["YOUN"]
+        scale = np.maximum(np.cos(self.parameters["PHI"]), 0.01 * self.far())
+        return rest, jacobian, np.maximum(strain, np.abs(f)) / (scale * self.parameters["COHE"])
+
+    def newton(self, unknown: FloatArray) -> tuple[FloatArray, BoolArray]:
+        """Changes stress and multiplier `unknown`; Jacobian, which points have not converged."""
+        rest, jacobian, norm = self.equations(unknown)
+        norm[self.far() > FAR] = np.nan
+        for _ in range(TURNS):
+            rows = np.flatnonzero(norm > SMALL)
+            if not len(rows):
+                break
+            step = np.linalg.solve(jacobian[rows], -rest[rows, :, None])[..., 0].astype(float)
+            unknown[rows], rest[rows], jacobian[rows], norm[rows] = self.at(rows).searched(
+                unknown[rows], step, norm[rows]
+            )
+        return jacobian, ~(norm <= SMALL)
+
+    def searched(
+        self, unknown: FloatArray, step: FloatArray, norm: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """A step, halved where the residual would grow."""
+        length = np.ones(len(norm))
+        for _ in range(CUTS):
+            new = unknown + length[:, None] * step
+            rest, jacobian, found = self.equations(new)
+            worse = ~(found <= (1 - 0.1 * length) * norm) & ~(found <= SMALL)
+            if not worse.any():
+                break
+            length = np.where(worse, 0.5 * length, length)
+        return new, rest, jacobian, found
+
+
+def _closest_point(points: _Return) -> tuple[FloatArray, FloatArray]:
+    """Stresses (m, 6), NaN where none is found, and tangents (m, 6, 6)."""
+    unknown = np.pad(points.trial, ((0, 0), (0, 1)))
+    jacobian, lost = points.newton(unknown)
     rows = np.flatnonzero(lost)
     if len(rows):  # far beyond a sharp tip: along ever sharper ones
-        some, own, far = parameters.at(rows), compliance[rows], trial[rows]
-        found = np.column_stack([far, np.zeros(len(rows))])
-        ratio = (np.abs(far).max(axis=1) / (TIP * some["COHE"])).max()
-        for halvings in range(int(np.log2(min(ratio, FAR / TIP))), -1, -1):
-            jacobian[rows], lost[rows] = _newton(some, own, far, found, TIP * 2.0**halvings)
+        some = points.at(rows)
+        found, ratio = np.pad(some.trial, ((0, 0), (0, 1))), min(some.far().max(), FAR) / TIP
+        for halvings in range(int(np.log2(ratio)), -1, -1):
+            tipped = replace(some, tip=TIP * 2.0**halvings)
+            jacobian[rows], lost[rows] = tipped.newton(found)
         unknown[rows] = found
     unknown[lost], jacobian[lost] = np.nan, np.eye(7)
-    inverse = np.linalg.inv(jacobian).astype(np.float64)
-    return unknown[:, :6], inverse[:, :6, :6]
-
-
-def _newton(
-    parameters: PointParameters,
-    compliance: FloatArray,
-    trial: FloatArray,
-    unknown: FloatArray,
-    tip: float,
-) -> tuple[FloatArray, BoolArray]:
-    """Changes stress and multiplier `unknown`; Jacobian, which points have not converged."""
-    scale = _scale(parameters, trial)
-    rest, jacobian = _equations(parameters, compliance, trial, unknown, tip)
-    norm = _norm(parameters, scale, rest)
-    norm[np.abs(trial).max(axis=1) > FAR * parameters["COHE"]] = np.nan
-    for _ in range(TURNS):
-        rows = np.flatnonzero(norm > 1e-12)
-        if not len(rows):
-            break
-        unknown[rows], rest[rows], jacobian[rows], norm[rows] = _searched(
-            parameters.at(rows),
-            compliance[rows],
-            trial[rows],
-            unknown[rows],
-            _step(jacobian[rows], rest[rows]),
-            norm[rows],
-            scale[rows],
-            tip,
-        )
-    return jacobian, ~(norm <= 1e-12)
-
-
-def _step(jacobian: FloatArray, rest: FloatArray) -> FloatArray:
-    return -np.linalg.solve(jacobian, rest[..., None])[..., 0].astype(np.float64)
-
-
-def _searched(
-    parameters: PointParameters,
-    compliance: FloatArray,
-    trial: FloatArray,
-    unknown: FloatArray,
-    step: FloatArray,
-    norm: FloatArray,
-    scale: FloatArray,
-    tip: float,
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """A step, halved where the residual would grow."""
-    length = np.ones(len(norm))
-    for _ in range(CUTS):
-        new = unknown + length[:, None] * step
-        rest, jacobian = _equations(parameters, compliance, trial, new, tip)
-        found = _norm(parameters, scale, rest)
-        worse = ~(found <= (1 - 0.1 * length) * norm) & ~(found <= 1e-12)
-        if not worse.any():
-            break
-        length = np.where(worse, 0.5 * length, length)
-    return new, rest, jacobian, found
-
-
-def _scale(parameters: PointParameters, trial: FloatArray) -> FloatArray:
-    """Stress of first yield (m,), or what rounds as much as a trial far beyond it."""
-    size = 0.01 * np.abs(trial).max(axis=1)
-    scale: FloatArray = np.maximum(parameters["COHE"] * np.cos(parameters["PHI"]), size)
-    return scale
-
-
-def _norm(parameters: PointParameters, scale: FloatArray, rest: FloatArray) -> FloatArray:
-    """Residual over the strain and stress of `scale` (m,)."""
-    strain = np.abs(rest[:, :6]).max(axis=1) * parameters["YOUN"]
-    found: FloatArray = np.maximum(strain, np.abs(rest[:, 6])) / scale
-    return found
-
-
-def _equations(
-    parameters: PointParameters,
-    compliance: FloatArray,
-    trial: FloatArray,
-    unknown: FloatArray,
-    tip: float,
-) -> tuple[FloatArray, FloatArray]:
-    """Residual (m, 7), its derivative (m, 7, 7)."""
-    stress, multiplier = unknown[:, :6], unknown[:, 6]
-    f, gradient, hessian = _surface(parameters, stress, tip)
-    rest = np.empty_like(unknown)
-    rest[:, :6] = np.einsum("mij,mj->mi", compliance, stress - trial)
-    rest[:, :6] += multiplier[:, None] * gradient
-    rest[:, 6] = f
-    jacobian = np.zeros((len(f), 7, 7))
-    jacobian[:, :6, :6] = compliance + multiplier[:, None, None] * hessian
-    jacobian[:, :6, 6] = jacobian[:, 6, :6] = gradient
-    return rest, jacobian
+    return unknown[:, :6], np.linalg.inv(jacobian)[:, :6, :6].astype(float)
 
 
 def _surface(
