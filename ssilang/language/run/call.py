@@ -248,11 +248,6 @@ class Call:
         value = self.operands[i].value
         return value.name if isinstance(value, Procedure) else str(value).upper()
 
-    def first_word(self) -> str | None:
-        """The first unread word, or name of a procedure, in capitals, as keywords are compared."""
-        i = self.word_index()
-        return None if i is None else self.text_at(i)
-
     def text_at(self, index: int) -> str:
         """What the word, or name of a procedure, at an index says, as keywords are compared."""
         return _text_of(self.operands[index].value).rstrip()

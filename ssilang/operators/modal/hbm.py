@@ -150,7 +150,7 @@ def zhpo(
     count = entries.get("N_PT_POST") or 2**7 * harmonics
     shares = np.arange(count + 1) / count
     values, rates = basis_at(harmonics, 2 * np.pi * shares)
-    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
+    every = entries.get("PAS_SAUVES")
     curves, titles = [], []
     for asked in asked_results(entries, "RESULTATS"):
         motion = _motion(entries, asked)

@@ -62,8 +62,8 @@ def continue_loads(entries: Entries) -> None:
     finite = finite_zones(entries)
     bodies = finite_bodies(entries, finite, start) if finite else plastic_bodies(entries, start)
     problem = make_problem(inputs)
-    most = entries.get("MAXIPAS") or entries.default("MAXIPAS")
-    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
+    most = entries.get("MAXIPAS")
+    every = entries.get("PAS_SAUVES")
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     saved = np.ones(len(times), bool)

@@ -288,8 +288,8 @@ def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
     from ssilang.kernel.plasticity.driven_load import follow_time
 
     asked = entries.get("AUTOCRIT")
-    most = entries.get("AUTOPAS") or entries.default("AUTOPAS")
-    every = entries.get("AUTORESU") or entries.default("AUTORESU")
+    most = entries.get("AUTOPAS")
+    every = entries.get("AUTORESU")
     model = entries.needed("MODELE")
     material = entries.get("CARACTERISTIQUES") or CellField((), "CARACTERISTIQUES")
 

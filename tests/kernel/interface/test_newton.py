@@ -9,7 +9,7 @@ from together import together
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.interface import interface_of
 from ssilang.kernel.interface.laws.columns import N_STATE, Variable
-from ssilang.kernel.interface.newton import HOLDING_TURN
+from ssilang.kernel.interface.newton import HOLDING_TURN, solve_interface
 from ssilang.kernel.interface.response import Joints, accept
 from ssilang.kernel.matrices.assembly import numbering_of
 
@@ -87,11 +87,13 @@ def test_a_step_with_no_consistent_shear_keeps_that_of_its_start(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_interface_that_loses_its_stiffness_says_so(kind):
-    """One elastic jump, S = 1, R = 2, K = 1: `1 + S (K - R)` vanishes."""
+    """One elastic jump, S = 1, R = 2, K = 1: `1 + S (K - R)` vanishes; of a jump of 5, 1 is left."""
     joints = Joints(
         np.zeros((1, 1), dtype=np.int64), np.ones((1, 1, 1)), np.ones(1),
         np.zeros(1, dtype=np.int64), np.ones((1, 20)),
     )  # fmt: skip
     now, work = at_rest(joints, 1, np.zeros((1, N_STATE))), room(joints, 1, kind)
     condensed = Condensed(np.ones((1, 1)), np.array([[2.0]]), 1.0)
-    assert compiled_newton(joints, condensed, now, np.ones(1), work) == 0
+    now.delta[:] = now.f[:] = -5.0
+    work.trial.y0[:] = work.trial.y[:] = 1.0
+    assert solve_interface(joints, condensed, now, work) == (0, 0.2)

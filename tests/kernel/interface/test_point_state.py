@@ -14,7 +14,7 @@ from ssilang.kernel.interface.point_state import (
     point_states,
 )
 
-ELASTIC, SDM, MOHR, STRIP = 0, 1, 2, 3
+ELASTIC, SDM, MOHR, STRIP, PENDULUM = 0, 1, 2, 3, 8
 
 
 def parameters(**given):
@@ -91,6 +91,9 @@ def test_states_of_the_other_laws():
     strip = {"KN": 1e6, "LARG": 4.0, "KS1": 1e6 * 16 / 12}
     assert Point(STRIP, **strip).to(1e-4, -1e-3).condition == CLOSED
     assert Point(STRIP, **strip).to(1e-3, -1e-3).condition == OPEN
+    bowl = Point(PENDULUM, RAYO=2.0, FROT=0.1).to(0.04, 3e-4)
+    assert bowl.condition == CLOSED  # 0.8 mm of the bowl above where it rose to
+    assert bowl.to(0.04, 9e-4).condition == OPEN
 
 
 def test_opening_spends_the_fracture_energy():

@@ -54,6 +54,7 @@ def test_decks_give_the_grammars_tree(path):
 @settings(max_examples=400, deadline=None)
 @given(st.lists(_PIECES, max_size=25))
 @example(["1E7", "1", "1"])
+@example(["A", " = ", ";"])
 def test_any_text_is_read_or_refused_as_by_the_grammar(pieces):
     source = Source("any", "".join(pieces))
     try:

@@ -41,9 +41,9 @@ class BeamFrame:
 
 
 def _as_vectors(values: NDArray[Any], n: int) -> FloatArray:
-    """VECT as stored (points, or triples) to vectors (n, 3)."""
+    """VECT as stored (points) to vectors (n, 3)."""
     flat = np.asarray(values, dtype=object).reshape(len(values), -1)[:, 0]
-    rows = [v.coordinates if isinstance(v, Point) else np.asarray(v, float) for v in flat]
+    rows = [point.coordinates for point in flat]
     return np.broadcast_to(np.array(rows, dtype=float), (n, 3))
 
 

@@ -327,7 +327,7 @@ def _turned_columns(
 def _turned_points(block: CellFieldBlock, values: NDArray[Any], turn: FloatArray) -> NDArray[Any]:
     """Vectors kept as points: new points, one for cells that turn alike."""
     flat = np.asarray(values, dtype=object).reshape(len(values), -1)[:, 0]
-    rows = [v.coordinates if isinstance(v, Point) else np.asarray(v, float) for v in flat]
+    rows = [point.coordinates for point in flat]
     moved = np.einsum("cij,cj->ci", turn, np.broadcast_to(np.array(rows), (len(turn), 3)))
     different, place = np.unique(moved.round(14), axis=0, return_inverse=True)
     table = block.cells.nodes

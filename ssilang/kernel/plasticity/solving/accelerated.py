@@ -66,10 +66,6 @@ class Acceleration:
         self._products = np.zeros((DEPTH, DEPTH))
         self._count, self._last = 0, (np.zeros(0), np.zeros(0))
 
-    def forget(self) -> None:
-        """Begin anew."""
-        self._count, self._last = 0, (np.zeros(0), np.zeros(0))
-
     def next(self, p: FloatArray, image: FloatArray) -> FloatArray:
         """The next p from the last one and its image g(p)."""
         residual = image - p

@@ -217,12 +217,6 @@ class Hierarchy:
     levels: tuple[Level, ...]
     inverse: FloatArray | None
 
-    @property
-    def n_bytes(self) -> int:
-        """Memory of all levels."""
-        parts = [a for x in self.levels for r in (x.A, x.P) if r is not None for a in r]
-        return sum(a.nbytes for a in parts if isinstance(a, np.ndarray))
-
     def cycle(self, b: Real) -> Real:
         """An approximate solution of A x = b: a symmetric positive map of b, one V-cycle."""
         return self._cycle(0, b.astype(self.levels[0].A.values.dtype))

@@ -130,6 +130,15 @@ def test_periods_are_rayleighs_of_the_static_shape():
         (loose,) = swings(masses((1.0, second, SINE), free=True))
         assert loose.period == np.inf
     assert swings(masses((1.0, 1.0, SINE), free=True, c=5.0)) == []
+    for weak, held in ((1e-16, False), (1e-10, True)):  # of the largest stiffness
+        b = Bench()
+        for x, k in ((0.0, 1e9), (1.0, 1e9 * weak)):
+            node = b.node(x, 0.0)
+            b.mass(2.0, node, ("UY",))
+            b.spring(k, node)
+        push = b.load(b.field((node, "FY", 3.0)), T, SINE)
+        (one,) = swings(make_problem(Inputs(b.stiffness, T, b.mass_matrix, load=push)))
+        assert np.isfinite(one.period) == held
     assert swings(masses((1.0, 2.0, np.ones(41)))) == []
 
 

@@ -208,11 +208,10 @@ def predict(
 def _strain_forces(
     forces: FloatArray, acting: IntArray, sweep: Sweep, begin: int, end: int
 ) -> None:
-    """`dF - J^T df` into the sweep's room; `change`, the last term, becomes zero."""
+    """`dF - J^T df` into the sweep's room; `change` is the last term."""
     out, change = sweep.room, sweep.change
     for i in range(begin, end):
         out[i] = change[i]
-        change[i] = 0.0
     for c in acting:
         part, force, to = sweep.load_change[c], forces[c, begin:end], out[begin:end]
         if part != 0.0:
