@@ -161,6 +161,8 @@ def test_body_held_by_friction_alone():
     swept = coulomb._Solver(bound).sweep(np.zeros(4))  # all touches and sticks: equations alone
     np.testing.assert_allclose(bound.W[:4] @ swept, -bound.q[:4], atol=1e-8)
     solver = coulomb._Solver(problem)
+    swept = solver.sweep(np.zeros(4))  # over springs of a hundredth
+    np.testing.assert_allclose(swept, [10.0, -2.0, -1.0, 0.4], rtol=0.05)
     for forces, off in (([10.0, -2.0], 0), ([12.0, -2.0], 2), ([10.0, -1.0], 1)):
         x = np.concatenate([forces, -problem.W[:2] @ forces])  # in place, whatever the balance
         assert solver.violation(solver.trial(x)) == pytest.approx(off / (10.0 + forces[0]))
