@@ -84,11 +84,6 @@ def test_kept_code_loads_without_the_compiler_and_serves_new_code(tmp_path):
                      ["[25. 50.]", "False 1", "True", "75.0"]]  # fmt: skip
 
 
-def test_a_module_in_c_is_loaded_once(monkeypatch):
-    monkeypatch.delitem(sys.modules, machine.LIBRARIES[0], raising=False)
-    assert machine.library(machine.LIBRARIES[0]) is machine.library(machine.LIBRARIES[0])
-
-
 def test_code_of_older_states_goes_when_nobody_has_used_it_for_long(tmp_path):
     module = "ssilang.kernel.base.arrays"
     names = [f"{module}-{cache.state_of(module)}", f"{module}-0123456789abcdef", "gone-0123"]

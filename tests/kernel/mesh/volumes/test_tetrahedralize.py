@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
-from ssilang.kernel.mesh.volumes.tetrahedralize import _inner_points
+from ssilang.kernel.mesh.volumes.tetrahedralize import _inner_points, lift_faces
 from ssilang.kernel.mesh.volumes.volume import fill_volume
 
 
@@ -63,6 +63,17 @@ def test_points_are_added_inside_alone() -> None:
     back = added - np.outer(added[:, 2], [0.7, 0.4, 0.0])
     assert len(added) > 50
     assert ((back > 0.0) & (back < [1.0, 2.0, 1.5])).all()
+
+
+def test_weights_grow_with_the_square_of_the_size() -> None:
+    block, found = sheared_skin((5, 3, 2)).single_block(), []
+    used, triangles = np.unique(block.connectivity, return_inverse=True)
+    for size in (0.4, 0.1):  # of a box of one
+        points = size * block.nodes.coordinates[used]
+        lifted = lift_faces(points, triangles.reshape(-1, 3), np.full(len(block), 1.5))
+        found.append(np.concatenate([lifted.weights / size**2, lifted.radii / size]))
+    assert np.ptp(found[0]) > 1.0
+    np.testing.assert_allclose(*found, atol=1e-6)
 
 
 def test_points_added_beside_small_triangles_keep_their_distance() -> None:
