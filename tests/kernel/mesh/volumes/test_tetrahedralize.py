@@ -68,12 +68,12 @@ def test_points_are_added_inside_alone() -> None:
 def test_weights_grow_with_the_square_of_the_size() -> None:
     block, found = sheared_skin((5, 3, 2)).single_block(), []
     used, triangles = np.unique(block.connectivity, return_inverse=True)
-    for size in (0.4, 0.1):  # of a box of one
+    for size in (0.4, 0.02):  # of a box of one
         points = size * block.nodes.coordinates[used]
         lifted = lift_faces(points, triangles.reshape(-1, 3), np.full(len(block), 1.5))
         found.append(np.concatenate([lifted.weights / size**2, lifted.radii / size]))
     assert np.ptp(found[0]) > 1.0
-    np.testing.assert_allclose(*found, atol=1e-6)
+    np.testing.assert_allclose(*found, atol=1e-3)
 
 
 def test_points_added_beside_small_triangles_keep_their_distance() -> None:
