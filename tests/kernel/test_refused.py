@@ -32,8 +32,9 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
 from ssilang.kernel.mesh.surfaces import charts, surface
 from ssilang.kernel.modal import explicit, links, oscillator
-from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power
+from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power, signals
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
+from ssilang.kernel.solvers.active_set.contact_methods import augmented, penalty, uzawa
 from ssilang.kernel.waves import layered_half_space as waves
 from ssilang.kernel.waves.incoherence import Ground as Unlike
 from ssilang.kernel.waves.incoherence import RigidBase
@@ -145,6 +146,13 @@ def joint(check, value):
 
 
 REFUSED = {
+    "solvers": {
+        "penalty-needs-coefficient": [lambda: penalty(np.eye(2), TWO, None, None),
+                                      lambda: penalty(np.eye(2), TWO, 0.0, None)],
+        "augmentation-must": [lambda: augmented(np.eye(2), TWO, 0.0, None)],
+        "uzawa-coefficient-not-converge": [lambda: uzawa(np.eye(2), TWO, 0.0, None),
+                                           lambda: uzawa(np.eye(2), TWO, 2.0, None)],
+    },
     "elements": {
         "field-empty": [lambda f=f: f(CellField(())) for f in (values_at_points, nodal_of_field)],
         "beam-cell-zero-length": [
@@ -202,6 +210,14 @@ REFUSED = {
         "joint-parameter-not-finite": [joint(columns_of, np.nan), joint(columns_of, np.inf)],
     },
     "records": {
+        "frequencies-values-function": [
+            lambda: signals.inverse_laplace(TWO - 1.0, ONE, 1.0, 1),
+            lambda: signals.inverse_laplace(ONE - 1.0, ONE, 1.0, 1),
+        ],
+        "frequencies-begin-constant-step": [lambda: signals.inverse_laplace(TWO, TWO, 1.0, 1)],
+        "frequencies-not-split-groups": [
+            *(lambda n=n: signals.inverse_laplace(TWO - 1.0, TWO, 1.0, n) for n in (0, 3)),
+        ],
         "soil-needs-many-thicknesses": [changed(SOIL, density=ONE), changed(SOIL, damping=ONE)],
         "thickness-density-modulus-layer": [
             *(changed(SOIL, **{n: TWO - 1.0}) for n in ("thickness", "density", "modulus")),

@@ -87,7 +87,7 @@ def test_a_step_with_no_consistent_shear_keeps_that_of_its_start(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_interface_that_loses_its_stiffness_says_so(kind):
-    """One elastic jump, S = 1, R = 2, K = 1: `1 + S (K - R)` vanishes; of a jump of 5, 1 is left."""
+    """One elastic jump, S = 1, R = 2, K = 1: `1 + S (K - R)` vanishes; 1 is left of a jump of 5."""
     joints = Joints(
         np.zeros((1, 1), dtype=np.int64), np.ones((1, 1, 1)), np.ones(1),
         np.zeros(1, dtype=np.int64), np.ones((1, 20)),
