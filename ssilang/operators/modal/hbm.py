@@ -108,9 +108,7 @@ def _title(title: str, place: int) -> str:
     )
 
 
-def _coefficient(
-    asked: Asked, names: Names, place: int, title: str, given: object
-) -> Table:
+def _coefficient(asked: Asked, names: Names, place: int, title: str, given: object) -> Table:
     table = Table()
     table.set(Mot("POINT_MESURE"), asked.point)
     table.set(Mot("COMPOSANTES"), Mot(names.coefficient(asked.component, place)))

@@ -12,7 +12,6 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.mesh.mesh import Point
 
 # local unknowns of a node: u v w, then rotations x y z; the plane keeps u v and the rotation z
 SPACE_ROWS = (0, 1, 2, 3, 4, 5)
