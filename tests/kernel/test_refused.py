@@ -11,6 +11,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.elements.results.supports import nodal_of_field, values_at_points
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS
@@ -49,6 +50,8 @@ STAR = Mesh.of(TABLE, "SEG2", np.array([[1, 4], [3, 4], [4, 5]]))
 QUADS = Mesh.of(TABLE, "QUA4", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
 FIVE = Mesh.of(TABLE, "POL5", np.array([[0, 1, 5, 7, 3]]))
 POINTS = Mesh.of(TABLE, "POI1", np.array([[0], [4]]))
+JOINT = Zone(CellBlock.make(TABLE, "RAC2", np.array([[0, 1, 3, 4]])), "MECANIQUE", ELASTIC, "JOI2",
+             PLANE)  # fmt: skip
 SOIL = SoilColumn(TWO, TWO, TWO, TWO * 0.1, 1.0, 2.0)
 FLOOR = floors.Storey(TWO, TWO * 0.1, TWO)
 SPACE = waves.HalfSpace(ONE, TWO, TWO, 2.0 * TWO, TWO * 0.1)
@@ -153,6 +156,10 @@ REFUSED = {
                                            lambda: uzawa(np.eye(2), TWO, 2.0, None)],
     },
     "elements": {
+        "joints-expand-in-time": [
+            lambda n=n, s=s: refuse_expanding([JOINT], material(JOINT, ALPN=n, ALPS=s, ALQN=0.0))
+            for n, s in ((1e-5, 0.0), (0.0, 1e-5))
+        ],
         "field-empty": [lambda f=f: f(CellField(())) for f in (values_at_points, nodal_of_field)],
         "beam-cell-zero-length": [
             stiff("POUT", SPATIAL, [1, 0, 0], [1, 0, 0]), stiff("TIMO", PLANE, [1, 2], [1, 2])

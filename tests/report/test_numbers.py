@@ -234,6 +234,7 @@ def test_a_deck_is_shown_as_it_is_written() -> None:
         "A = 1 ;", '<i class="c">* &lt;b&gt;</i>', " ", 'TITR <i class="s">\'two</i>',
         "<i class=\"s\">lines'</i> ;",
     ]  # fmt: skip
+    assert deck_html("A\n" * 20_001, lambda t: []).count("<li") == 20_000
 
 
 SWEPT = """run;ZED;AMP;exit_code;top;drift;seconds;error;folder

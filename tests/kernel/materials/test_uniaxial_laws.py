@@ -182,6 +182,7 @@ def test_concrete_cracks_softens_and_closes_where_the_crack_began() -> None:
         ({"ALF1": 0.2, "OME1": 0.3}, "slope-and-confinement"),
         ({"TRAF": 1.0}, "law-condition"),
         ({"ZETA": 0.0, "EZER": 0.004}, "law-condition"),
+        ({"ZETA": 0.0, "EZER": 0.01, "ALF1": 0.5, "OME1": 0.1}, "law-condition"),
     ],
 )
 def test_concrete_without_equations_is_refused(change: dict[str, float], code: str) -> None:

@@ -99,6 +99,10 @@ def test_counts_of_edges_and_faces_of_a_grid_of_bricks() -> None:
     volume = box()
     assert edges(volume).n_cells == 2 * 4 * 3 + 3 * 3 * 3 + 3 * 4 * 2
     assert faces(volume).n_cells == 3 * 3 * 2 + 2 * 4 * 2 + 2 * 3 * 3
+    corners = volume.node_ids[None, :8]
+    plane = Mesh.of(volume.nodes, "QUA4", corners[:, :4])
+    joint = Mesh.of(volume.nodes, "LIA4", corners)
+    assert {b.cell_type for b in faces(union(plane, joint)).blocks} == {"QUA4"}
 
 
 def test_contour_is_put_end_to_end() -> None:

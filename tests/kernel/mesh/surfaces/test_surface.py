@@ -85,15 +85,17 @@ def test_quadratic_cells_share_their_middles(surface: str, cell: str) -> None:
 
 def test_cells_follow_the_wanted_sizes() -> None:
     line = square(NodeTable(), 1.0, 10)
+    line.nodes.coordinates[:, 0] += 0.5 * line.nodes.coordinates[:, 1]
     chart = plane_chart(*contour_chart_data(line))
     usual = fill_surface(line, chart, "TRI3")
-    at = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    at = np.array([[0.0, 0, 0], [1, 0, 0], [1.5, 1, 0], [0.5, 1, 0]])
     coarse = fill_surface(line, chart, "TRI3", sizes=(at, np.full(4, 0.3)))
     assert coarse.n_cells < 0.8 * usual.n_cells
     for side in (line, reversed_line(line)):  # the chart sees the second one from behind
         made = fill_surface(side, chart, "TRI3", sizes=(at, np.array([0.08, 0.08, 0.4, 0.4])))
         low = made.single_block().coordinates[:, :, 1].mean(axis=1) < 0.5
         assert np.count_nonzero(low) > 0.7 * len(low)
+        assert total_measure(made) == pytest.approx(1.0, rel=1e-12)
 
 
 def test_cap_of_a_sphere_has_its_area() -> None:
