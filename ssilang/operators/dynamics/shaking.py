@@ -186,17 +186,18 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
     loose = bool(loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))))
     damping = inputs.damping.blocks if inputs.damping and loose else ()
     for joint in joints.joints:
-        sides = [joint.zone.cells.nodes.resolve(s).ravel() for s in (joint.lower, joint.upper)]
+        resolve = joint.zone.cells.nodes.resolve
+        lower, upper = resolve(joint.lower).ravel(), resolve(joint.upper).ravel()
         axis = _normal(joint)
         for code, blocks, few in (
             ("operators.dynamics.joints-bridged", damping, 1),
             ("operators.dynamics.joints-sprung", springs, FEW),
         ):
-            acting = [_across(b, *sides, axis) for b in blocks if b.kind != "MASSE"]
-            nodes = np.unique(np.concatenate([sides[0][:0], *acting]))
+            acting = [_across(b, lower, upper, axis) for b in blocks if b.kind != "MASSE"]
+            nodes = np.unique(np.concatenate([lower[:0], *acting]))
             if len(nodes) >= few:
                 yield code, {"axis": axis, "node": problem.numbering.table.told(int(nodes[0]))}
-        yield from _ground_held(problem, own, sides[0], axis)
+        yield from _ground_held(problem, own, lower, axis)
 
 
 def _across(block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str) -> IntArray:
