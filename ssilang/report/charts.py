@@ -94,6 +94,13 @@ def charts_of(results: Results, told: Teller) -> list[Chart]:
     return made
 
 
+_ENERGIES = {
+    "CINETIQUE": "report.kinetic", "ELASTIQUE": "report.elastic",
+    "JOINTS": "report.joints", "DISSIPEE": "report.lost", "AMORTIE": "report.damped",
+    "EXTERIEURE": "report.work", "ECART": "report.imbalance",
+}  # fmt: skip
+
+
 @dataclass(frozen=True)
 class _Of:
     """Pictures of a calculation."""
@@ -159,14 +166,9 @@ class _Of:
 
     def _energies(self) -> list[Chart]:
         columns = self.calculation.columns
-        words = {
-            "CINETIQUE": "report.kinetic", "ELASTIQUE": "report.elastic",
-            "JOINTS": "report.joints", "DISSIPEE": "report.lost", "AMORTIE": "report.damped",
-            "EXTERIEURE": "report.work", "ECART": "report.imbalance",
-        }  # fmt: skip
         lines = [
             Line(self.told(code), columns["time"], columns[word])
-            for word, code in words.items()
+            for word, code in _ENERGIES.items()
             if word in columns and np.abs(columns[word]).max() > 0.0
         ]
         if not lines:

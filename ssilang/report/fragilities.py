@@ -21,11 +21,10 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
 from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.messages.message import Refusal, Teller
-from ssilang.report import records
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import table, text
 from ssilang.report.records import FRAGILITY, read_record
-from ssilang.report.sweep_table import MOTION, RUNS, Sweep, link_to, real
+from ssilang.report.sweep_table import MOTION, Sweep, link_to, real, summary_of
 from ssilang.report.verdict import is_endless
 
 FRACTILES = (16, 84)
@@ -86,14 +85,8 @@ def _spectra(
     sweep: Sweep, row: dict[str, str]
 ) -> Iterator[tuple[Key, tuple[float, ...], FloatArray]]:
     """Of one run that ended well."""
-    name = f"{RUNS}/{row['folder']}/summary.json"
-    if row["exit_code"] != "0" or inside(sweep.folder, name) is None:
-        return
-    try:
-        summary = read_record(sweep.folder / name, records.SUMMARY)
-    except (OSError, ValueError):
-        return
-    for number, verdict in enumerate(summary["statistics"].get("verdicts", []), 1):
+    summary = summary_of(sweep.folder, row["folder"]) if row["exit_code"] == "0" else {}
+    for number, verdict in enumerate(summary.get("statistics", {}).get("verdicts", []), 1):
         for floor in verdict["floors"]:
             x, y = floor.get("frequencies", []), floor.get("accelerations", [])
             if len(x) > 1 and len(x) == len(y):

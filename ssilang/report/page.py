@@ -234,6 +234,12 @@ def _runs(results: Results) -> list[dict[str, Any]]:
     return found
 
 
+_OF_CHECKS = (
+    "report.name", "report.value", "report.expected",
+    "report.tolerance", "report.used", "",
+)  # fmt: skip
+
+
 def _checks(results: Results, told: Teller) -> str:
     figures = results.summary.get("figures", ())
     if not figures:
@@ -247,10 +253,7 @@ def _checks(results: Results, told: Teller) -> str:
         )
         for f in figures
     ]  # fmt: skip
-    heads = [
-        told("report.name"), told("report.value"), told("report.expected"),
-        told("report.tolerance"), told("report.used"), "",
-    ]  # fmt: skip
+    heads = [told(c) if c else "" for c in _OF_CHECKS]
     return table(heads, rows, (1, 2, 3))
 
 
@@ -272,25 +275,34 @@ def _warnings(results: Results, told: Teller) -> str:
     return f"<ul>{''.join(rows)}</ul>" if rows else ""
 
 
+_SECTIONS = {
+    "footing": "report.footing",
+    "energy": "report.energies",
+    "curves": "report.curves",
+    "tables": "report.tables",
+}
+
+
 def _chart_sections(charts: list[Chart], told: Teller) -> list[str]:
-    titles = {
-        "footing": told("report.footing"),
-        "energy": told("report.energies"),
-        "curves": told("report.curves"),
-        "tables": told("report.tables"),
-    }
-    return [section(g, title, charts_html(charts, g, told)) for g, title in titles.items()]
+    return [section(g, told(c), charts_html(charts, g, told)) for g, c in _SECTIONS.items()]
+
+
+_KINDS = {
+    "OUVERTURE": "report.opening",
+    "COMPRESSION": "report.compression",
+    "CISAILLEMENT": "report.shear",
+    "DEPL": "report.displacement",
+    "REACTIONS": "report.reaction",
+}
+_OF_LARGEST = (
+    "report.calculation", "report.quantity", "report.value",
+    "report.time", "report.place",
+)  # fmt: skip
 
 
 def _largest(results: Results, told: Teller) -> str:
     rows = []
-    kinds = {
-        "OUVERTURE": told("report.opening"),
-        "COMPRESSION": told("report.compression"),
-        "CISAILLEMENT": told("report.shear"),
-        "DEPL": told("report.displacement"),
-        "REACTIONS": told("report.reaction"),
-    }
+    kinds = {kind: told(code) for kind, code in _KINDS.items()}
     for i, calculation in enumerate(results.calculations, 1):
         found = sorted(calculation.largest, key=lambda x: list(kinds).index(x["kind"]))
         for peak in found:
@@ -306,11 +318,15 @@ def _largest(results: Results, told: Teller) -> str:
             )  # fmt: skip
     if not rows:
         return ""
-    heads = [
-        told("report.calculation"), told("report.quantity"), told("report.value"),
-        told("report.time"), told("report.place"),
-    ]  # fmt: skip
+    heads = list(map(told, _OF_LARGEST))
     return table(heads, rows, (2, 3))
+
+
+_OF_CALCULATIONS = (
+    "report.calculation", "report.unknowns", "report.interface-unknowns",
+    "report.steps", "report.method", "report.solver",
+    "report.iterations", "report.energy-imbalance", "report.seconds",
+)  # fmt: skip
 
 
 def _calculations(results: Results, told: Teller) -> str:
@@ -325,11 +341,7 @@ def _calculations(results: Results, told: Teller) -> str:
     ]  # fmt: skip
     if not rows:
         return ""
-    heads = [
-        told("report.calculation"), told("report.unknowns"), told("report.interface-unknowns"),
-        told("report.steps"), told("report.method"), told("report.solver"),
-        told("report.iterations"), told("report.energy-imbalance"), told("report.seconds"),
-    ]  # fmt: skip
+    heads = list(map(told, _OF_CALCULATIONS))
     return table(heads, rows, (1, 2, 3, 6, 7, 8))
 
 
@@ -411,19 +423,19 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
     return made, faults
 
 
+_WORDS = {
+    "choose": "report.choose", "colour": "report.colour", "warp": "report.warp",
+    "time": "report.time", "play": "report.play", "reset": "report.reset",
+    "edges": "report.edges", "ghost": "report.ghost", "through": "report.see-through",
+    "help": "report.scene-help",
+}  # fmt: skip
+
+
 def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
     notes = "".join(f"<p class=note>{text(f)}</p>" for f in dict.fromkeys(faults))
     if not scenes:
         return notes
-    words = {
-        w: text(told(code))
-        for w, code in {
-            "choose": "report.choose", "colour": "report.colour", "warp": "report.warp",
-            "time": "report.time", "play": "report.play", "reset": "report.reset",
-            "edges": "report.edges", "ghost": "report.ghost", "through": "report.see-through",
-            "help": "report.scene-help",
-        }.items()
-    }  # fmt: skip
+    words = {w: text(told(code)) for w, code in _WORDS.items()}
     options = "".join(
         f"<option value={i}>{text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
     )

@@ -38,6 +38,17 @@ class SceneError(Exception):
         self.code, self.data = code, data
 
 
+_DAMAGED = (
+    ArithmeticError, AttributeError, LookupError, MemoryError, RuntimeError, TypeError, ValueError,
+)  # fmt: skip
+"""Whatever a damaged file makes of its arrays."""
+_ARRAYS = (
+    "points", "triangles", "lines", "vertices", "edges", "joint_points", "joint_triangles",
+    "joint_lines",
+)  # fmt: skip
+"""What a scene's shape has: `points`, and numbers of them."""
+
+
 @contextmanager
 def _silent() -> Iterator[None]:
     """VTK prints nothing of damaged files: what is wrong is told by the report."""
@@ -73,15 +84,7 @@ def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
     try:
         with _silent():
             return _fitting(path, most_bytes)
-    except (
-        ArithmeticError,
-        AttributeError,
-        LookupError,
-        MemoryError,
-        RuntimeError,
-        TypeError,
-        ValueError,
-    ):  # whatever a damaged file makes of its arrays
+    except _DAMAGED:
         raise SceneError("report.series-damaged", name=path.name) from None
 
 
@@ -109,14 +112,7 @@ def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
             frames.append(shape.fields(grid))
             chosen.append(i)
     arrays: dict[str, NDArray[Any]] = {
-        "points": shape.points.astype("<f4"),
-        "triangles": shape.triangles.astype("<u4"),
-        "lines": shape.lines.astype("<u4"),
-        "vertices": shape.vertices.astype("<u4"),
-        "edges": shape.edges.astype("<u4"),
-        "joint_points": shape.joint_points.astype("<u4"),
-        "joint_triangles": shape.joint_triangles.astype("<u4"),
-        "joint_lines": shape.joint_lines.astype("<u4"),
+        n: getattr(shape, n).astype("<f4" if n == "points" else "<u4") for n in _ARRAYS
     }
     fields = []
     for name in [n for n in frames[0] if all(n in frame for frame in frames)]:

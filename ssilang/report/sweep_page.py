@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
 from string import Template
 from urllib.parse import quote
-
-import numpy as np
 
 from ssilang import __version__
 from ssilang.io.atomic import inside
@@ -21,10 +17,22 @@ from ssilang.report.fragilities import (
     fragility_html,
 )
 from ssilang.report.html import asset, json_in_page, number, section, table, text
-from ssilang.report.sweep_table import MOTION, Sweep, edited, link_to, real, short, warnings_of
+from ssilang.report.sweep_table import (
+    MOTION,
+    Sweep,
+    edited,
+    grouped,
+    link_to,
+    real,
+    short,
+    warnings_of,
+)
 
 MOST_RUNS = 5000
 """Rows of the table."""
+_WORDS = {
+    "all": "report.show-all", "zoomIn": "report.zoom-in", "zoomOut": "report.zoom-out",
+}  # fmt: skip
 MOST_LINES = 12
 """Curves of a picture."""
 
@@ -54,9 +62,6 @@ def sweep_page(sweep: Sweep, language: str) -> str:
         section("sweep", told("report.sweep-runs"), _runs(sweep, told)),
         section("histories", told("report.sweep-histories"), _histories(sweep, told)),
     ]
-    words = {
-        "all": "report.show-all", "zoomIn": "report.zoom-in", "zoomOut": "report.zoom-out",
-    }  # fmt: skip
     return Template(asset("page.html")).substitute(
         language=language,
         title=text(sweep.folder.name),
@@ -66,7 +71,7 @@ def sweep_page(sweep: Sweep, language: str) -> str:
         charts=json_in_page([c.told() for c in charts]),
         scenes="[]",
         blobs="",
-        words=json_in_page({w: told(code) for w, code in words.items()}),
+        words=json_in_page({w: told(code) for w, code in _WORDS.items()}),
         vtk="",
         uplot=asset("uPlot.iife.min.js") if charts else "",
         script=asset("charts.js"),
@@ -159,24 +164,13 @@ def _charts(sweep: Sweep, told: Teller) -> list[Chart]:
     others = [n for n in sweep.swept if n != axis]
     made = []
     for figure in sweep.figures:
-        groups: dict[str, list[tuple[float, float]]] = {}
-        for row in sweep.rows:
-            x, y = real(row[axis]), real(row[figure])
-            if x is not None and y is not None:
-                groups.setdefault(_label(row, others), []).append((x, y))
-        lines = [
-            Line(label or figure, *np.array(sorted(points)).T) for label, points in groups.items()
-        ]
+        groups = grouped(sweep.rows, axis, figure, others)
+        lines = [Line(label or figure, x, y) for label, (x, y) in groups.items()]
         left = len(lines) - MOST_LINES
         title = figure if left <= 0 else f"{figure} ({told('report.sweep-lines-left', count=left)})"
         if lines:
             made.append(Chart("sweep", title, axis, figure, lines[:MOST_LINES]))
     return made
-
-
-def _label(row: dict[str, str], names: Sequence[str]) -> str:
-    parts = [Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in names]
-    return ", ".join(parts)
 
 
 def _varies(sweep: Sweep, name: str) -> bool:

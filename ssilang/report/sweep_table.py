@@ -13,10 +13,14 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
+import numpy as np
+
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.report import records
 from ssilang.report.html import text
-from ssilang.report.records import MOST_BYTES
+from ssilang.report.records import MOST_BYTES, read_record
 
 TABLE, RUNS, KEPT = "sweep.csv", "runs", "row.json"
 MOTION = "MOTION"
@@ -92,17 +96,22 @@ class Warned:
     count: int
 
 
+def summary_of(folder: Path, run: object) -> dict[str, Any]:
+    """The summary of a run by its folder's name; empty if there is none, or a damaged one."""
+    path = inside(folder / RUNS, f"{run}/summary.json")
+    try:
+        return read_record(path, records.SUMMARY) if path else {}
+    except (OSError, ValueError):
+        return {}
+
+
 def warnings_of(folder: Path, rows: Sequence[Mapping[str, Any]]) -> list[Warned]:
     """What the runs of a sweep were warned of, each code once."""
     codes = [(code, row) for row in rows for code in str(row.get("warnings", "")).split()]
     count, found = Counter(code for code, _ in codes), []
-    for code, row in {code: row for code, row in reversed(codes)}.items():
-        path = inside(folder / RUNS, f"{row['folder']}/summary.json")
-        try:
-            given = json.loads(path.read_text(encoding="utf-8"))["warnings"] if path else []
-            text = next((str(w["text"]) for w in given if w["code"] == code), code)
-        except (OSError, ValueError, KeyError, TypeError):
-            text = code
+    for code, row in dict(reversed(codes)).items():
+        given = summary_of(folder, row["folder"]).get("warnings", ())
+        text = next((str(w["text"]) for w in given if w["code"] == code), code)
         found.append(Warned(text, str(row["run"]), str(row["folder"]), count[code]))
     return found[::-1]
 
@@ -113,6 +122,23 @@ def link_to(folder: Path, run: str) -> str:
         if run and inside(folder / RUNS, f"{run}/{name}") is not None:
             return text(f"{RUNS}/{quote(run)}/{name}")
     return ""
+
+
+def label_of(row: Mapping[str, Any], names: Sequence[str]) -> str:
+    """The values of some names in a row, motions by their name."""
+    return ", ".join(Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in names)
+
+
+def grouped(
+    rows: Sequence[Mapping[str, Any]], axis: str, figure: str, others: Sequence[str]
+) -> dict[str, FloatArray]:
+    """Numbers (2, n) of a figure over a name, in its order, by the values of other names."""
+    groups: dict[str, list[tuple[float, float]]] = {}
+    for row in rows:
+        x, y = (real(str(row.get(name))) for name in (axis, figure))
+        if x is not None and y is not None:
+            groups.setdefault(label_of(row, others), []).append((x, y))
+    return {name: np.array(sorted(points)).T for name, points in groups.items()}
 
 
 def short(value: str) -> str:

@@ -74,6 +74,12 @@ def _marked(name: str, value: float | None) -> str:
     return f'<b class="{"bad" if bad else "good"}">{shown}</b>'
 
 
+_OF_FLOORS = (
+    "report.floor-head", "report.component", "report.damping",
+    "report.acceleration", "report.frequency",
+)  # fmt: skip
+
+
 def _floors(floors: list[dict[str, Any]], told: Teller) -> str:
     rows = [
         (
@@ -82,8 +88,5 @@ def _floors(floors: list[dict[str, Any]], told: Teller) -> str:
         )
         for f in floors
     ]  # fmt: skip
-    heads = [
-        told("report.floor-head"), told("report.component"), told("report.damping"),
-        told("report.acceleration"), told("report.frequency"),
-    ]  # fmt: skip
+    heads = list(map(told, _OF_FLOORS))
     return table(heads, rows, (0, 3, 4))

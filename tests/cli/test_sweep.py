@@ -137,7 +137,7 @@ def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):
     options = SweepOptions(deck, ["AG=0.5,0.75"], folder, tmp_path / "out", jobs=1)
     code, _, wrong = run(options)
     assert code == 0
-    assert wrong == "left out, no motions: map.png, notes 1.md\n"
+    assert wrong.splitlines()[0] == "left out, no motions: map.png, notes 1.md"
     runs = sorted(p.name for p in (tmp_path / "out" / "runs").iterdir())
     assert runs == ["AG=0.5_m1", "AG=0.5_m2", "AG=0.75_m1", "AG=0.75_m2"]
     for name in ("m1.AT2", "m2.csv"):
@@ -311,6 +311,18 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     assert "a.csv and b.csv hold the same motion" in wrong
     assert "different units (a.csv G, b.csv G and c.csv CM/S2)" in wrong
     assert "no run has a figure" in wrong
+    deck.write_text(
+        "AG = 1. ; B = 1. ; X = SPO (EVOL 'MANU' (PROG 0. 1.) (PROG AG B)) 'AMOR' (B * 5.) "
+        "'FREQ' (PROG 1.) 'ACCE' ; SORT 'BILA' 'twice' (2. * AG) ;"
+    )
+    given = ["AG=1.,2.", "B=3.,4."]
+    code, _, wrong = run(replace(options, settings=given, motions=None, report=True))
+    said = wrong.splitlines()
+    assert (code, sum("4 runs were warned" in line for line in said) > 0) == (0, True)
+    assert [line.split(":")[0] for line in said if "no figure" in line] == [
+        "no figure depends on B"
+    ]
+    assert "4 runs were warned" in (options.out / "report.html").read_text()
     code, _, wrong = run(replace(options, out=deck))
     assert (code, "is a file" in wrong) == (2, True)
     code, _, wrong = run(replace(options, settings=["MOTION=a"]))

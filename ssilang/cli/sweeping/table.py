@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import importlib.util
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from ssilang.cli.sweeping.given import MOTION
+from ssilang.report.sweep_table import grouped
 
 Row = dict[str, Any]
 RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
@@ -62,14 +62,13 @@ def idle_names(rows: Sequence[Row], swept: Sequence[str]) -> list[str]:
     """Names of several numbers or motions of which no figure depends, to the last digit."""
     figures = [n for n in columns_of(rows) if n not in (*RESERVED, *swept)]
     found = []
-    for name in swept:
-        if name == MOTION or _numbers(rows, name):
-            others, known = [n for n in swept if n != name], dict[str, dict[str, str]]()
-            for row in rows:
-                same = known.setdefault(repr([row[n] for n in others]), {})
-                same[repr(row[name])] = repr([row.get(n) for n in figures])
-            alike = [len({*same.values()}) == 1 < len(same) for same in known.values()]
-            found += [name] if alike and all(alike) and figures else []
+    for name in swept if figures else ():
+        others = [n for n in swept if n != name]
+        few, more = (
+            {repr([r.get(n) for n in k]) for r in rows} for k in (others, others + figures)
+        )
+        if len(more) == len(few) < len(rows) and (name == MOTION or _numbers(rows, name)):
+            found.append(name)
     return found
 
 
@@ -88,26 +87,12 @@ def _numbers(rows: Sequence[Row], name: str) -> bool:
 
 
 def _draw(rows: Sequence[Row], axis: str, swept: Sequence[str], figure: str, folder: Path) -> Path:
-    import numpy as np
-
     from ssilang.io.plots.figure import save_figure, slug
     from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
     from ssilang.kernel.curves.curve import Curve, CurvePart
 
-    groups: dict[str, list[tuple[float, float]]] = {}
     others = [n for n in swept if n != axis]
-    for row in rows:
-        value = row.get(figure)
-        if value is not None and math.isfinite(value):
-            groups.setdefault(_label(row, others), []).append((row[axis], value))
-    parts = []
-    for label, points in groups.items():
-        x, y = np.array(sorted(points), dtype=float).T
-        parts.append(CurvePart(x, y, axis, figure, label))
+    groups = grouped(rows, axis, figure, others).items()
+    parts = [CurvePart(x, y, axis, figure, label) for label, (x, y) in groups]
     drawn = draw_curves(Curve(tuple(parts), figure), CurveOptions(x_title=axis, y_title=figure))
     return save_figure(drawn, folder / f"{slug(figure)}.png")
-
-
-def _label(row: Row, names: Sequence[str]) -> str:
-    parts = [Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in names]
-    return ", ".join(parts)

@@ -74,15 +74,14 @@ def run_task(task: Task) -> Row:
     started, wall = time.perf_counter(), time.time()
     result = run_file(task.deck, options)
     write_text(task.folder / "output.txt", result.output + result.message + "\n")
+    told = [w for w in result.session.warnings if w.severity == "warning"]
     row: Row = {
         "run": task.number,
         **task.values,
         "exit_code": result.exit_code,
         "seconds": round(time.perf_counter() - started, 3),
         "error": result.message.partition("\n")[0],
-        "warnings": " ".join(
-            sorted({w.code for w in result.session.warnings if w.severity == "warning"})
-        ),
+        "warnings": " ".join(sorted({w.code for w in told if not w.code.startswith("cli.")})),
         **figures_of(result.session.statistics.get("verdicts", [])),
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,

@@ -553,7 +553,7 @@ def _as_before(trial: Trial, said: Said, call: Call) -> Bound | None:
                 return None
         choice = call.take(main, *said.form.main.types).value
         values[said.form.main.name] = choice
-    call.take_keywords()
+    call.take_first(len(call.operands))
     return Bound(said.form, values)
 
 

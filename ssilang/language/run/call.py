@@ -341,11 +341,6 @@ class Call:
         self.used += self.operands[:count]
         del self.operands[:count]
 
-    def take_keywords(self) -> None:
-        """Consume all operands, which are keywords."""
-        self._after = self.operands[-1].span.end
-        self.take_first(len(self.operands))
-
     def take(self, index: int, *types: str) -> Operand:
         """Consume the operand at an index of the unread ones, as one of the types."""
         operand = self.operands.pop(index)

@@ -124,6 +124,8 @@ MADE_LISTS = {
 """Types whose first four letters are an operator's, with the operators that make them."""
 _SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
 # how numpy begins to refuse an array that no memory holds
+_PASSED = (SsiError, SeveralErrors, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft)
+"""What errors and jumps of scripts are."""
 _BEYOND_MEMORY = ("array is too big", "Maximum allowed")
 _PART = 255  # operands of a long chain `a + b + c ...` that are run together, an odd number
 
@@ -246,9 +248,7 @@ class PhraseRunner(OperandReader):
         except KeyboardInterrupt:
             self.session.was_interrupted()  # it is seen
             raise
-        except (
-            SsiError, SeveralErrors, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft,
-        ):  # fmt: skip
+        except _PASSED:
             raise
         except RecursionError:
             raise SsiError("recursion", span, limit=self.session.limits.recursion) from None

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
@@ -18,13 +17,10 @@ from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import idle_nodes
-from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, loose_bodies
-from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
+from ssilang.kernel.stepping.problem.bodies import loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
-    MOST_MOTIONS,
     STRANGE,
-    WEAK,
     Bodies,
     Swing,
     against_supports,
@@ -32,13 +28,12 @@ from ssilang.kernel.stepping.problem.plausibility import (
     masses_alone,
     on_supports,
     overloads,
-    solved,
     stiffness_contrast,
     swings,
 )
 from ssilang.kernel.waves.shaken import AXES
 from ssilang.operators.dynamics.reports import conserved
-from ssilang.operators.dynamics.shaking import bridged, normal_of, warn_of_shaking
+from ssilang.operators.dynamics.shaking import bridged, warn_of_shaking
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
@@ -46,7 +41,6 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import FloatArray
     from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.interface.kinematics import JointCells
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
@@ -62,7 +56,6 @@ OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
-GIVES = 0.1  # of a macro-element: ground below that gives way as much is no rock
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
@@ -153,34 +146,6 @@ def _motions(problem: Problem, _: Inputs) -> Told:
     yield from _swings(problem, asked)
 
 
-def _macros(problem: Problem) -> list[JointCells]:
-    return [j for j in problem.interface.joints if is_macro(j.zone)] if problem.interface else []
-
-
-def _ground_twice(problem: Problem, inputs: Inputs) -> Told:
-    """Macro-elements, which are springs of the ground, on ground that is meshed and gives way."""
-    macros, joints, T = _macros(problem), problem.interface, problem.constraints.T
-    if joints is None or not macros or T.shape[1] > MOST_MOTIONS:
-        return
-    blocks = [b for b in inputs.stiffness.blocks if b.zone and not is_joint(b.zone)]
-    solid = [b.nodes.ravel() for b in blocks if b.zone and b.zone.cells.kind.dimension > 1]
-    K, label, numbering = closed_stiffness(problem), bodies_of(problem), problem.numbering
-    K += sp.eye_array(K.shape[0]) * (0.01 * WEAK * float(abs(K).max()))
-    for joint in macros:
-        axis, sides = normal_of(joint), (joint.lower, joint.upper)
-        low, high = (joint.zone.cells.nodes.resolve(s).ravel()[:1] for s in sides)
-        at, above = (numbering.index_of(int(n[0]), axis) for n in (low, high))
-        ground = numbering.nodes[label == label[at]]
-        pushed = T[[at]].toarray().T
-        if pushed.any() and np.isin(ground, np.concatenate([low[:0], *solid])).any():
-            jump = joints.J[:, [above]].toarray().ravel()
-            springs = float(jump @ joints.closed_stiffness() @ jump)
-            share = springs * float((pushed.T @ solved(K, pushed)).item())
-            if share > GIVES:
-                told = {"node": numbering.table.told(int(low[0])), "share": 100.0 * share}
-                yield "operators.dynamics.ground-twice", told
-
-
 def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
@@ -191,17 +156,8 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     loose = list(bodies.loose())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in asked()):
-        macros, numbering = _macros(problem), problem.numbering
-        lower = [j.zone.cells.nodes.resolve(j.lower).ravel() for j in macros]
-        below = np.isin(numbering.nodes, np.concatenate([numbering.nodes[:0], *lower]))
-        turns = np.isin(
-            numbering.codes, [numbering.code(n) for n in numbering.unknowns if n[0] == "R"]
-        )
-        free = np.flatnonzero(below & turns & (abs(problem.constraints.T).sum(axis=1) > ROUNDING))
-        if len(free):
-            yield "operators.dynamics.turns-below", {"unknown": numbering.label(int(free[0]))}
-        else:
-            yield "operators.dynamics.turns-away", {"macro": bool(macros)}
+        joints = () if problem.interface is None else problem.interface.joints
+        yield "operators.dynamics.turns-away", {"macro": any(is_macro(j.zone) for j in joints)}
     for found in loose:
         told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
         if found.pressed:
@@ -228,7 +184,7 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _joints_of_others, _on_supports, _viscosity_unread, bridged,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
-OF_STIFFNESS = (_masses_alone, _motions, _ground_twice)
+OF_STIFFNESS = (_masses_alone, _motions)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 
@@ -313,8 +269,7 @@ def warn_resolution(entries: Entries, problem: Problem) -> None:
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
     keeps = joints is not None and conserved(joints)
-    kept = keeps and problem.scheme.conserving
-    entries.warn(code, **told, kept=kept, conserved=keeps)
+    entries.warn(code, **told, kept=keeps and problem.scheme.conserving, conserved=keeps)
 
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:
@@ -371,11 +326,8 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
         entries.warn("operators.dynamics.nothing-moves")
     energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
     before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None
-    if (
-        isinstance(before, ListReel)
-        and np.isclose(first, before.values[-1])
-        and not problem.v.any()
-    ):
+    again = isinstance(before, ListReel) and np.isclose(first, before.values[-1])
+    if again and not problem.v.any():
         entries.warn("operators.dynamics.begins-again", first=first)
 
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 ENERGY_LIMIT = 0.01
 """Imbalance of energy, as a part of the largest, above which it is told with what makes it."""
+_SHORTER_STEPS = "operators.dynamics.imbalance-step"
 _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
 LASTING = 8  # steps in a row: what an impact leaves for good
 CHANGED = 0.05  # of the largest energy
@@ -139,9 +140,7 @@ def _causes(problem: Problem, added: bool) -> list[str]:
         "operators.dynamics.imbalance-scheme": not (kept or problem.scheme.average_acceleration),
         "operators.dynamics.imbalance-added": added,
     }
-    return [cause for cause, holds in found.items() if holds] or [
-        "operators.dynamics.imbalance-step"
-    ]
+    return [cause for cause, holds in found.items() if holds] or [_SHORTER_STEPS]
 
 
 def _joules(session: Session) -> float:

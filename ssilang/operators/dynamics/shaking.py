@@ -15,7 +15,6 @@ import numpy as np
 from ssilang.io.ground_motions.record import G
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import joint_zones, without_zones
@@ -52,6 +51,10 @@ WEIGHT = (0.05, 3.0)  # g; what pulls down
 MANY = 3  # nodes, or instants: fewer say nothing of a rule
 PART, WHOLE = 0.2, 0.8  # of what moves along another axis, at a node and in all: less is forgotten
 LEVELS = 3  # heights of a side; a base has one
+PAIR = 2  # nodes of a spring, at most
+STUCK = {True: "operators.dynamics.joints-closed", False: "operators.dynamics.joints-held"}
+"""Joints that cannot open, by whether they can slip."""
+SHEARED = "operators.dynamics.weight-in-shear"
 FEW = 2  # nodes of a side with springs of their own; one is an oscillator's
 NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
 """What a curve is of, by the first letters of the name of its ordinates."""
@@ -90,7 +93,7 @@ class _Entering:
             shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
-        yield from chain(self._sides(), self._masses_one_way(), self._long_cells(), self._bending())
+        yield from chain(self._sides(), self._masses_one_way(), self._long_cells())
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load
@@ -159,22 +162,6 @@ class _Entering:
                 told = vars(found) | {"node": mass.table.told(found.node), "frequency": frequency}
                 yield "operators.dynamics.cells-too-long", {"name": part.name, **told}
 
-    def _bending(self) -> Told:
-        """Linear cells one on the other, free to rise: they bend, and ground shears."""
-        rows, numbering = self.problem.constraints.C, self.problem.numbering
-        tied = numbering.nodes[np.unique(rows.indices)]
-        for axis in np.flatnonzero(self.shaken[:-1] + np.abs(self.base[:-1]).sum(axis=1)):
-            for block in self.inputs.stiffness.blocks:
-                zone, x = block.zone, block.table.coordinates[block.nodes][..., : len(self.axes)]
-                if zone is None or is_joint(zone) or zone.element not in LOCKING:
-                    continue
-                wide, levels = np.ptp(x[..., axis], axis=1), np.unique(x[..., -1].round(9))
-                alone = wide.min() > WHOLE * np.ptp(x[..., axis]) and len(levels) > 2 * LEVELS
-                if alone and np.isin(np.unique(block.nodes), tied).mean() < PART:
-                    node = block.table.told(int(block.nodes[-1, 0]))
-                    told = {"count": len(wide), "node": node, "up": self.axes[-1]}
-                    yield "operators.dynamics.column-bends", {**told, "axis": self.axes[axis]}
-
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""
         numbering, T = self.problem.numbering, self.problem.constraints.T
@@ -195,21 +182,22 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
     if (joints := problem.interface) is None:
         return
     own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
+    springs = [b for b in own.blocks if b.raw_nodes.shape[1] <= PAIR]
     loose = bool(loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))))
     damping = inputs.damping.blocks if inputs.damping and loose else ()
     for joint in joints.joints:
-        sides = [joint.zone.cells.nodes.resolve(s).ravel() for s in (joint.lower, joint.upper)]
-        axis = normal_of(joint)
+        resolve = joint.zone.cells.nodes.resolve
+        lower, upper = resolve(joint.lower).ravel(), resolve(joint.upper).ravel()
+        axis = _normal(joint)
         for code, blocks, few in (
             ("operators.dynamics.joints-bridged", damping, 1),
-            ("operators.dynamics.joints-sprung", own.blocks, FEW),
+            ("operators.dynamics.joints-sprung", springs, FEW),
         ):
-            acting = [_across(b, *sides, axis) for b in blocks if b.kind != "MASSE"]
-            nodes = np.unique(np.concatenate([sides[0][:0], *acting]))
+            acting = [_across(b, lower, upper, axis) for b in blocks if b.kind != "MASSE"]
+            nodes = np.unique(np.concatenate([lower[:0], *acting]))
             if len(nodes) >= few:
-                told = {"axis": axis, "node": problem.numbering.table.told(int(nodes[0]))}
-                yield code, told
-        yield from _ground_held(problem, own, sides[0], axis)
+                yield code, {"axis": axis, "node": problem.numbering.table.told(int(nodes[0]))}
+        yield from _ground_held(problem, own, lower, axis)
 
 
 def _across(block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str) -> IntArray:
@@ -219,8 +207,7 @@ def _across(block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str)
     cells &= (~ours).any(axis=1) | (block.nodes.shape[1] == 1)
     along = np.array(block.unknowns) == axis
     acts = along & (np.diagonal(block.values, axis1=1, axis2=2) != 0.0)
-    held = acts & ours[:, block.local] & cells[:, None]
-    return block.nodes[:, block.local][held]
+    return block.nodes[:, block.local][acts & ours[:, block.local] & cells[:, None]]
 
 
 def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str) -> Told:
@@ -229,14 +216,11 @@ def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str
     along = numbering.nodes[(numbering.codes == numbering.code(axis)) & free]
     if np.isin(lower, along).any() or problem.loading.imposed.any():
         return
-    for block in stiffness.blocks:
-        zone = block.zone
-        if zone is not None and not is_joint(zone) and zone.cells.kind.dimension > 1:
-            below = block.nodes[np.isin(block.nodes, lower).any(axis=1)]
-            if np.isin(below, along).any():
-                node = numbering.table.told(int(lower[0]))
-                yield "operators.dynamics.ground-held", {"axis": axis, "node": node}
-                return
+    zoned = [b for b in stiffness.blocks if b.zone is not None and not is_joint(b.zone)]
+    solid = [b.nodes for b in zoned if b.zone and b.zone.cells.kind.dimension > 1]
+    if any(np.isin(n[np.isin(n, lower).any(axis=1)], along).any() for n in solid):
+        node = numbering.table.told(int(lower[0]))
+        yield "operators.dynamics.ground-held", {"axis": axis, "node": node}
 
 
 def _sheared(problem: Problem, joints: Interface) -> Told:
@@ -250,9 +234,8 @@ def _sheared(problem: Problem, joints: Interface) -> Told:
         local_jumps(joints.points, joints.J @ ways[axis], w)
         slips = np.abs(w).max(initial=0.0) > 0.0 == np.abs(w[:, -1]).round(9).max(initial=0.0)
         if slips and abs(ways[axis] @ force) > 0.0 and not bodies.holds(ways[axis]):
-            node = problem.numbering.nodes[np.argmax(bodies.label == body)]
-            told = {"axis": axis, "node": problem.numbering.table.told(int(node))}
-            yield "operators.dynamics.weight-in-shear", told
+            node = int(problem.numbering.nodes[np.argmax(bodies.label == body)])
+            yield SHEARED, {"axis": axis, "node": problem.numbering.table.told(node)}
 
 
 def _held_footings(problem: Problem, joints: Interface) -> Told:
@@ -264,15 +247,14 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
     moving = (left > ROUNDING)[joints.pairs].reshape(joints.n_points, 1, -1)
     moves: BoolArray = np.asarray(((np.abs(joints.B) > ROUNDING) & moving).any(axis=2))
     if not moves[:, -1].any():
-        closed, held = "operators.dynamics.joints-closed", "operators.dynamics.joints-held"
-        yield (closed if moves.any() else held), {}
+        yield STUCK[bool(moves.any())], {}
         return
     alone = np.diff(rows.indptr) == 1
     held, ties = rows[alone].indices, abs(rows[~alone])
     for joint in joints.joints:
         upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
-        along = normal_of(joint)
+        along = _normal(joint)
         names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}
         codes = [numbering.code(n) for n in names & {*numbering.unknowns}]
         kept = held[np.isin(numbering.nodes[held], tied) & np.isin(numbering.codes[held], codes)]
@@ -281,7 +263,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
             return
 
 
-def normal_of(joint: JointCells) -> str:
+def _normal(joint: JointCells) -> str:
     """The displacement along which a joint opens, most."""
     normal = np.abs(joint.frames[..., -1, :]).reshape(-1, joint.frames.shape[-1]).mean(axis=0)
     return displacement_names(joint.zone)[int(normal.argmax())]

@@ -24,6 +24,12 @@ _NAMES = {
     "GLISSEMENT": "report.verdict-sliding",
 }
 """How curves are called."""
+_DRAWN = (
+    ("report.toe-pressure", " (Pa)", ("PRESSION",)),
+    ("report.motions", "", ("OUVERTURE", "ENFONCEMENT")),
+    ("report.factors", "", ("RENVERSEMENT", "GLISSEMENT")),
+)
+"""Pictures: title, unit, curves."""
 LEFT = ("ROTATION", "ENFONCEMENT")
 _TOP = 1000.0
 """Value at which @BILANSSI cuts its factors: there is no moment or shear."""
@@ -105,11 +111,7 @@ def _pictures(given: Table, found: Table, told: Teller) -> list[dict[str, Any]]:
     t = cast(ListReel, histories.get("TEMPS")).values
     time = f"{told('report.time')} (s)"
     made = []
-    for code, unit, names in (
-        ("report.toe-pressure", " (Pa)", ("PRESSION",)),
-        ("report.motions", "", ("OUVERTURE", "ENFONCEMENT")),
-        ("report.factors", "", ("RENVERSEMENT", "GLISSEMENT")),
-    ):
+    for code, unit, names in _DRAWN:
         lines = [
             _line(told(_NAMES[n]), t, _known(n, cast(ListReel, histories.get(n)).values))
             for n in names
