@@ -195,10 +195,16 @@ def _repeated(blocks: list[ElementMatrices]) -> IntArray:
     if not len(again):
         return np.zeros(0, np.int64)
     before = order[:-1][keys[order][1:] == keys[order][:-1]]
-    sums = np.concatenate([np.trace(b.values, axis1=1, axis2=2) for b in blocks])
-    same = np.abs(sums[again] - sums[before]) <= SAME * np.abs(sums[again])
+    sums = np.concatenate([_diagonal_sums(b) for b in blocks])
+    same = np.abs(sums[again] - sums[before]) < SAME * np.abs(sums[again])
     firsts: IntArray = np.concatenate([b.nodes[:, 0] for b in blocks])[again[same]]
     return firsts
+
+
+def _diagonal_sums(block: ElementMatrices) -> FloatArray:
+    """Sums of diagonals that tell the unknowns apart, whatever the order of a cell's nodes."""
+    weights = np.array([1.0 + block.unknowns.index(name) for name in block.unknowns])
+    return np.asarray(np.diagonal(block.values, axis1=1, axis2=2) @ weights)
 
 
 def face_keys(nodes: IntArray) -> IntArray:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 import numpy as np
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -182,10 +180,6 @@ def support_nodes(support: Point | Mesh) -> IntArray:
     return support.node_ids
 
 
-def _component_names(field: NodeField) -> Collection[str]:
-    return getattr(field, "components", ())
-
-
 @EXTR.form(
     main("field", "CHPOINT", en="field at nodes"),
     select(
@@ -203,7 +197,7 @@ def _component_names(field: NodeField) -> Collection[str]:
             "NATU": [],
         },
         optional=False,
-        unless=_component_names,
+        unless=lambda field: getattr(field, "components", ()),
         en="values as a list, mesh of points, names of components, title, type or nature",
     ),
     gives=by("what", {"VALE": "LISTREEL", "MAIL": "MAILLAGE", "COMP": "LISTMOTS"}, "MOT"),

@@ -101,16 +101,12 @@ def _texte(text: str) -> Texte:
     return Texte(tuple(item for s in statements for item in s.items))
 
 
-def _text_of(value: Texte) -> str:
-    return print_items(value.items)
-
-
 for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
     register_packing(_cls, _cls.__name__, _list_packing(_cls))
 register_packing(Mot, "Mot", Packing(str, Mot))
 register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, _configuration))
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
-register_packing(Texte, "Texte", Packing(_text_of, _texte))
+register_packing(Texte, "Texte", Packing(lambda v: print_items(v.items), _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
 for _table in (Table, LazyTable, LazyRows):  # what is made later is made to be saved
     register_packing(

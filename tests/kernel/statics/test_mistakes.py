@@ -1,5 +1,7 @@
 """Supports beside their body, bodies apart, cells twice, hinges, free motions: what is told."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -120,6 +122,12 @@ def test_cells_and_blocks_that_are_there_twice():
     assert repeated_cells(place.matrix).tolist() == [place.ids[8]]
     stiffer = on_box().cells("CUB8", [range(8)], "CUB8", **SOLID | {"YOUN": 6e7})
     assert not len(repeated_cells(stiffer.matrix))  # two matters in one place are meant
+    heavy = replace(
+        stiffer.blocks[0], zone=None, kind="MASSE", values=np.diag([1.0, 0, 0] * 8)[None]
+    )
+    across = replace(heavy, values=np.diag([0.0, 1, 0] * 8)[None])
+    assert not len(repeated_cells(replace(stiffer.matrix, blocks=(heavy, across))))
+    assert len(repeated_cells(replace(stiffer.matrix, blocks=(heavy, replace(heavy)))))
     assert repeated_blocks(place.matrix) == []
     place.blocks.append(place.blocks[0])
     assert repeated_blocks(place.matrix) == [place.blocks[0]]
