@@ -35,7 +35,8 @@ def axes_of(problem: Problem) -> list[str]:
 def translations(problem: Problem) -> FloatArray:
     """Motions (n, d) of the whole along its axes."""
     numbering = problem.numbering
-    return np.column_stack([numbering.codes == numbering.code(a) for a in axes_of(problem)]) * 1.0
+    rows = [numbering.codes == numbering.code(a) for a in axes_of(problem)]
+    return np.array(rows, dtype=float).reshape(-1, numbering.size).T
 
 
 def shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:

@@ -65,7 +65,7 @@ def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
     axes = axes_of(problem)
     found = [] if not axes else [*_Entering(problem, inputs, axes).told(entries)]
     if (joints := problem.interface) is not None:
-        found += [*_held_footings(problem, joints), *_sheared(problem, joints)]
+        found += [*_held_footings(problem, joints), *(_sheared(problem, joints) if axes else ())]
     for code, told in found:
         entries.warn(code, **told)
 
@@ -183,8 +183,9 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
         return
     own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
     springs = [b for b in own.blocks if b.raw_nodes.shape[1] <= PAIR]
-    loose = bool(loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))))
-    damping = inputs.damping.blocks if inputs.damping and loose else ()
+    damping = () if inputs.damping is None else inputs.damping.blocks
+    if damping and not loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
+        damping = ()
     for joint in joints.joints:
         resolve = joint.zone.cells.nodes.resolve
         lower, upper = resolve(joint.lower).ravel(), resolve(joint.upper).ravel()
