@@ -38,7 +38,7 @@ def test_a_script_without_a_guard_gets_a_frame_and_leaves_nothing(tmp_path):
     begins, table, told = done.stdout.splitlines()
     assert begins == "begins"
     made = json.loads(table)
-    head = ["AG", "N", "MOTION", "square", "peak", "exit_code", "seconds", "error"]
+    head = ["AG", "N", "MOTION", "square", "peak", "exit_code", "seconds", "error", "warnings"]
     assert made["columns"] == head
     rows = [dict(zip(head, row, strict=True)) for row in made["data"]]
     assert [row["square"] for row in rows] == [0.5, 0.5, None, None]
