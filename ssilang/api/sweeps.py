@@ -70,8 +70,8 @@ def sweep(
     -------
     pandas.DataFrame
         A row a run, by its number: its values, a column for each figure that the script reports,
-        `exit_code`, `seconds`, `error` ('' of a run that ended well), and `folder` if one was asked
-        for. Runs that fail are warned of.
+        `exit_code`, `seconds`, `error` ('' of a run that ended well), `warnings` (their codes),
+        and `folder` if one was asked for. Runs that fail are warned of.
 
     Raises
     ------
