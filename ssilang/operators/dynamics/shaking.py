@@ -183,15 +183,17 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
         return
     own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
     springs = [b for b in own.blocks if b.raw_nodes.shape[1] <= PAIR]
-    damping = () if inputs.damping is None else inputs.damping.blocks
-    if damping and not loose_bodies(problem, np.zeros((joints.n_points, joints.dimension))):
-        damping = ()
+    damping = without_zones(inputs.damping or own, tuple(j.zone for j in joints.joints))
+    if inputs.damping and damping is not inputs.damping:
+        yield "operators.dynamics.joints-undamped", {}
+    none = np.zeros((joints.n_points, joints.dimension))
+    dashpots = damping.blocks if inputs.damping and loose_bodies(problem, none) else ()
     for joint in joints.joints:
         resolve = joint.zone.cells.nodes.resolve
         lower, upper = resolve(joint.lower).ravel(), resolve(joint.upper).ravel()
         axis = _normal(joint)
         for code, blocks, few in (
-            ("operators.dynamics.joints-bridged", damping, 1),
+            ("operators.dynamics.joints-bridged", dashpots, 1),
             ("operators.dynamics.joints-sprung", springs, FEW),
         ):
             acting = [_across(b, lower, upper, axis) for b in blocks if b.kind != "MASSE"]
