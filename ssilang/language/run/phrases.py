@@ -123,9 +123,9 @@ MADE_LISTS = {
 }  # fmt: skip
 """Types whose first four letters are an operator's, with the operators that make them."""
 _SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
-# how numpy begins to refuse an array that no memory holds
 _PASSED = (SsiError, SeveralErrors, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft)
 """What errors and jumps of scripts are."""
+# how numpy begins to refuse an array that no memory holds
 _BEYOND_MEMORY = ("array is too big", "Maximum allowed")
 _PART = 255  # operands of a long chain `a + b + c ...` that are run together, an odd number
 

@@ -183,11 +183,11 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
         return
     own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
     springs = [b for b in own.blocks if b.raw_nodes.shape[1] <= PAIR]
-    damping = without_zones(inputs.damping or own, tuple(j.zone for j in joints.joints))
-    if inputs.damping and damping is not inputs.damping:
+    given, none = inputs.damping, np.zeros((joints.n_points, joints.dimension))
+    damping = given and without_zones(given, tuple(j.zone for j in joints.joints))
+    if damping is not given:
         yield "operators.dynamics.joints-undamped", {}
-    none = np.zeros((joints.n_points, joints.dimension))
-    dashpots = damping.blocks if inputs.damping and loose_bodies(problem, none) else ()
+    dashpots = damping.blocks if damping and loose_bodies(problem, none) else ()
     for joint in joints.joints:
         resolve = joint.zone.cells.nodes.resolve
         lower, upper = resolve(joint.lower).ravel(), resolve(joint.upper).ravel()

@@ -131,11 +131,11 @@ def _closest_point(points: _Return) -> tuple[FloatArray, FloatArray]:
     """Stresses (m, 6), NaN where none is found, and tangents (m, 6, 6)."""
     unknown = np.pad(points.trial, ((0, 0), (0, 1)))
     jacobian, lost = points.newton(unknown)
-    rows = np.flatnonzero(lost)
+    rows = np.flatnonzero(lost & (points.far() <= FAR))
     if len(rows):  # far beyond a sharp tip: along ever sharper ones
         some = points.at(rows)
-        found, ratio = np.pad(some.trial, ((0, 0), (0, 1))), min(some.far().max(), FAR) / TIP
-        for halvings in range(int(np.log2(ratio)), -1, -1):
+        found = np.pad(some.trial, ((0, 0), (0, 1)))
+        for halvings in range(int(np.log2(some.far().max() / TIP)), -1, -1):
             tipped = replace(some, tip=TIP * 2.0**halvings)
             jacobian[rows], lost[rows] = tipped.newton(found)
         unknown[rows] = found
