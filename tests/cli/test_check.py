@@ -134,6 +134,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "T = TABL ; T . FOO = 1 ; MESS T . FOO ;",
         "DEBP P A*ENTIER ; B = A + GLOBAL ; FINP B ; GLOBAL = 2 ; X = P 1 ; MESS X ;",
         "REPE B 3 ; SI (&B > 1) ; X = X + 1 ; SINON ; X = 0 ; FINSI ; FIN B ; MESS X ;",
+        "L = PROG 1. ; SI VRAI ; MESS 1 ; SINON ; X = 2. * L ; FINSI ; Y = X * L ; LIST Y ;",
         "OPTI 'ACQU' 'f' ; ACQU N*ENTIER ; X = N + 1 ; MESS X ;",
         "REST ; X = RESTORED + 1 ; MESS X ;",
         "FIN ; X = PORG 1. ;",

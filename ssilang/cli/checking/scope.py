@@ -35,7 +35,7 @@ class Scope:
     def join(self, other: Scope) -> None:
         """Keep what holds whichever of two branches was taken."""
         for name, value in other.values.items():
-            mine = self.values.get(name, UNKNOWN)
+            mine = self.values.setdefault(name, UNKNOWN)
             if mine is not value:
                 self.values[name] = same(mine, value)
         self.forget(self.values.keys() - other.values.keys())
