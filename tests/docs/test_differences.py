@@ -19,9 +19,10 @@ RUNS = {
     "The exit code": [("FIN ; X = 1 / 0 ;", 0, "X", None), ("X = 1. / 0. ;", 1, "X", None)],
     "The first error ends": [("X = 1 ; X = 1 + VRAI ; X = 2 ;", 1, "X", 1)],
     "Calculation is in double precision": [("X = 3 * (10 ** 30) ;", 0, "X", 3 * 10**30)],
-    "What an operator (EXP": [
-        ("X = SINH 1000. ;", 1, "X", None),
+    "What passes the largest real": [
+        ("X = 1. / (SINH 1000.) ;", 0, "X", 0.0),
         ("X = VERI (1.E200 * 1.E200) ;", 0, "X", False),
+        ("X = 10 ** 4000 ;", 1, "X", None),
     ],
     "A procedure that a deck defines": [
         ("DEBP @VERIFIE A*ENTIER ; FINP (A + 1) ; X = @VERIFIE 2 ;", 0, "X", 3)
