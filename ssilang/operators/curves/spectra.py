@@ -15,6 +15,7 @@ from ssilang.operators.curves.words import (
     check_together,
     warn_of_damping,
     warn_of_motions,
+    warn_of_rate,
     warn_of_steps,
 )
 from ssilang.operators.mesh.selection.boundaries import enve
@@ -95,6 +96,7 @@ def spo(
     warn_of_damping(call, *map(float, values))
     if frequencies is not None:
         warn_of_steps(call, signal, float(np.min(frequencies.values, initial=np.inf)))
+        warn_of_rate(call, signal, float(np.max(frequencies.values, initial=0.0)))
     if second is not None or percentiles is not None:
         if second is None or percentiles is None or times is not None:
             raise call.error("operators.curves.rotd-incomplete")

@@ -17,12 +17,12 @@ from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
-from ssilang.kernel.interface.interface import joint_zones, without_zones
+from ssilang.kernel.interface.interface import is_macro, joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.plausibility import MOST_BODIES, Bodies
+from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
@@ -230,7 +230,7 @@ def _sheared(problem: Problem, joints: Interface) -> Told:
     """Weights that joints carry by their shear alone: none of them is pressed."""
     bodies, loading = Bodies(problem), problem.loading
     force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
-    for body in range(min(int(bodies.label.max(initial=-1)) + 1, MOST_BODIES)):
+    for body in bodies.moving:
         ways = {a: bodies.along(body, a) for a in axes_of(problem)}
         axis = max(ways, key=lambda a: abs(float(ways[a] @ force)))
         w = np.zeros((joints.n_points, joints.dimension))
@@ -255,6 +255,8 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
     alone = np.diff(rows.indptr) == 1
     held, ties = rows[alone].indices, abs(rows[~alone])
     for joint in joints.joints:
+        if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
+            continue
         upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
         along = _normal(joint)

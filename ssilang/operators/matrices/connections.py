@@ -56,7 +56,8 @@ def warn_connections(
     matrix.cache[_KEY] = True
 
     def tell(code: str, **data: object) -> None:
-        session.warn(code, span, operator=operator, **data)
+        if not session.warned(code, **data):  # of a part of it, in front of another operator
+            session.warn(code, span, operator=operator, **data)
 
     if matrix.blocks and all(b.kind == "MASSE" for b in matrix.blocks):
         tell("operators.matrices.mass-for-stiffness")
