@@ -25,6 +25,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.doubled import terms_of
@@ -86,6 +87,23 @@ def drawn_gaps(
             size = float(np.ptp(zone.cells.nodes.coordinates[upper].reshape(-1, 3), axis=0).max())
             if (gap := _overlap(joints)) > _DRAWN * size:
                 yield int(upper.min()), gap
+
+
+def repeated_joints(model: Model | None, characteristics: CellField | None) -> IntArray:
+    """Upper node (n,) of joints on the nodes of others, with their law, axes and parameters."""
+    groups: dict[object, list[FloatArray]] = {}
+    for zone in () if model is None or characteristics is None else joint_zones(model):
+        given = zone_field(zone, characteristics)
+        joints, resolve = joint_cells(zone, given), zone.cells.nodes.resolve
+        count, sides = len(joints.upper), [resolve(joints.upper), resolve(joints.lower)]
+        parts = [*sides, joints.frames.round(9), joint_parameters(joints, given)]
+        key = zone.element, zone.behaviour
+        groups.setdefault(key, []).append(np.hstack([p.reshape(count, -1) for p in parts]))
+    found = [np.zeros(0, np.int64)]
+    for rows in map(np.concatenate, groups.values()):
+        kinds, times = np.unique(rows, axis=0, return_counts=True)
+        found.append(kinds[times > 1, 0].astype(np.int64))
+    return np.concatenate(found)
 
 
 def inclinations(

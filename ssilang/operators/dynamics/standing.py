@@ -48,7 +48,7 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
     begins, ends = loading.at(problem.times[[0, -1]])
     for k in np.flatnonzero(np.abs(begins - share) > OFF * share).tolist():
         still = changing(problem)[k] or share[k] > NEAR * begins[k]
-        if share[k] > 0.0 and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
+        if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
             told = {"begins": float(begins[k]), "held": float(share[k])}
             yield "operators.dynamics.out-of-balance", told
 

@@ -25,7 +25,9 @@ from ssilang.kernel.statics.doubled import (
     repeated_cells,
     springs_apart,
 )
+from ssilang.kernel.statics.linear_motion import wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
+from ssilang.kernel.statics.swapped_joints import repeated_joints
 from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
@@ -81,6 +83,8 @@ def warn_connections(
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": idle_nodes(springs, matrix),
+        "operators.matrices.relation-sign": wrong_signs(matrix),
+        "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
     if operator != "VIBR":  # whose modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
