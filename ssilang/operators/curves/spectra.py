@@ -140,12 +140,8 @@ def _valp(
     call: Call, diagonal: ListReel, below: ListReel, accuracy: list[tuple[str, float]]
 ) -> ListReel:
     if len(below) != len(diagonal) - 1:
-        raise call.error(
-            "operators.curves.terms-below-diagonal",
-            n_diagonal=len(diagonal),
-            needed=len(diagonal) - 1,
-            n_below=len(below),
-        )
+        told = {"n_diagonal": len(diagonal), "needed": len(diagonal) - 1, "n_below": len(below)}
+        raise call.error("operators.curves.terms-below-diagonal", **told)
     matrix = np.diag(diagonal.values) + np.diag(below.values, -1) + np.diag(np.ones(len(below)), 1)
     values = np.linalg.eigvals(matrix)
     if np.abs(values.imag).max(initial=0.0) > 1e-9 * np.abs(values).max(initial=1.0):
@@ -282,12 +278,8 @@ def _spectra(call: Call, table: Table) -> list[tuple[Curve, list[float]]]:
         if not isinstance(curve, Curve) or not isinstance(dampings, ListReel):
             raise call.error("operators.curves.spectrum-and-dampings-wanted", table, index=index)
         if len(dampings) != len(curve.parts):
-            raise call.error(
-                "operators.curves.curves-and-dampings-differ",
-                index=index,
-                n_parts=len(curve.parts),
-                n_dampings=len(dampings),
-            )
+            told = {"index": index, "n_parts": len(curve.parts), "n_dampings": len(dampings)}
+            raise call.error("operators.curves.curves-and-dampings-differ", **told)
         found.append((curve, [float(v) for v in dampings.values]))
     if not found:
         raise call.error("operators.curves.table-has-no-spectrum", table)

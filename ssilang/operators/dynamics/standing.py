@@ -22,11 +22,12 @@ from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.waves.shaken import LARGE, axes_of, changing, shares
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.base.arrays import BoolArray, FloatArray
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
+OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 OFF = 1e-3  # of a load's factor: less is no other one
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
@@ -67,11 +68,8 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
             most = float(np.abs(push).max(initial=0.0))
             if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, problem.C):
-                told = {"stops": problem.contact is not None, "below": borne[1]}
-                yield (
-                    "operators.dynamics.held-from-the-other-side",
-                    {**told, "axis": axis, "node": node},
-                )
+                told = {"node": node, "axis": axis, "stops": problem.contact is not None}
+                yield OTHER_SIDE, {**told, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
@@ -79,22 +77,23 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
                 told = {"mass": mass, "weight": weight, "times": mass * G / weight}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
             if not bodies.touches(up) and problem.interface is not None:
-                yield from _beside_its_base(bodies, own, up, force, problem.interface)
+                for code, told in _beside_its_base(bodies, own, up, force, problem.interface):
+                    yield code, {**told, "node": node}
 
 
 def _beside_its_base(
-    bodies: Bodies, own: FloatArray, up: FloatArray, force: FloatArray, joints: Interface
+    bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray, joints: Interface
 ) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
     lifts = _normal_jumps(joints, up)[0]
     under = lifts > 1.0 - BESIDE
     if np.any(~under & (lifts != 0.0)) or not under.any():
         return
-    table = bodies.problem.numbering.table
-    upper = np.concatenate([table.resolve(j.upper).ravel() for j in joints.joints])
-    upper = upper[np.isin(upper, bodies.problem.numbering.nodes[own])]
-    centre = table.coordinates[upper].mean(axis=0)
-    for turn in (rigid_motions(bodies.problem.numbering, centre)[:, 3:] * own[:, None]).T:
+    numbering = bodies.problem.numbering
+    upper = np.concatenate([numbering.table.resolve(j.upper).ravel() for j in joints.joints])
+    upper = upper[np.isin(upper, numbering.nodes[own])]
+    centre = numbering.table.coordinates[upper].mean(axis=0)
+    for turn in (rigid_motions(numbering, centre)[:, 3:] * own[:, None]).T:
         if bodies.holds(turn):
             continue
         levers, half = (x[under] for x in _normal_jumps(joints, turn))
@@ -102,9 +101,7 @@ def _beside_its_base(
         at, width = float(turn @ force) / float(up @ force), high - low
         off = max(low - at, at - high)
         if width > 0.0 and off > BESIDE * width:
-            node = int(bodies.problem.numbering.nodes[own.argmax()])
-            told = {"node": table.told(node), "width": width, "off": off}
-            yield "operators.dynamics.weight-beside", told
+            yield "operators.dynamics.weight-beside", {"width": width, "off": off}
 
 
 def _normal_jumps(joints: Interface, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -137,23 +134,16 @@ def unequal_joints(problem: Problem, _: Inputs) -> Told:
 
 def ground_twice(problem: Problem, inputs: Inputs) -> Told:
     """Macro-elements on ground that is meshed: the cells give way, and the element again."""
-    joints = problem.interface
-    macros = [] if joints is None else [j for j in joints.joints if is_macro(j.zone)]
-    if not macros:
+    if (joints := problem.interface) is None:
         return
+    macros = [j for j in joints.joints if is_macro(j.zone)]
     label, numbering = Bodies(problem).label, problem.numbering
-    zoned = [b for b in inputs.stiffness.blocks if b.zone is not None and not is_joint(b.zone)]
-    solid = np.unique(
-        np.concatenate(
-            [b.nodes.ravel() for b in zoned if b.zone and b.zone.cells.kind.dimension > 1]
-            or [label[:0]]
-        )
-    )
+    zoned = [(b.nodes.ravel(), b.zone) for b in inputs.stiffness.blocks if b.zone is not None]
+    solid = [n for n, z in zoned if z.cells.kind.dimension > 1 and not is_joint(z)]
     for joint in macros:
         node = int(joint.zone.cells.nodes.resolve(joint.lower).ravel()[0])
         below = label == label[(numbering.nodes == node).argmax()]
-        cells = below & np.isin(numbering.nodes, solid)
+        cells = below & np.isin(numbering.nodes, np.concatenate([label[:0], *solid]))
         stiff = float(np.median(problem.K.diagonal()[cells])) if cells.any() else 0.0
-        kn = float(joints.parameters[:, Parameter.KN].max()) if joints is not None else 0.0
-        if 0.0 < kn < STIFF * stiff:
+        if float(joints.parameters[:, Parameter.KN].max()) < STIFF * stiff:
             yield "operators.dynamics.ground-twice", {"node": numbering.table.told(node)}
