@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import chain, combinations, permutations
+from typing import cast
 
 import numpy as np
 
@@ -32,8 +33,8 @@ Solids = list[tuple[ElementMatrices, Zone, list[BoolArray]]]
 
 def bordered_solids(matrix: Matrix) -> Solids:
     """Blocks of cells of two or three dimensions; by face, which cells have it for themselves."""
-    if (kept := matrix.cache.get("solids")) is not None:
-        return kept
+    if "solids" in matrix.cache:
+        return cast(Solids, matrix.cache["solids"])
     blocks = {id(b.raw_nodes): b for b in matrix.blocks if b.zone and not is_joint(b.zone)}.values()
     solids = [(b, b.zone) for b in blocks if b.zone and b.zone.cells.kind.dimension >= 2]
     keys = [[face_keys(b.nodes[:, list(x)]) for _, x in z.cells.kind.faces] for b, z in solids]
@@ -42,7 +43,8 @@ def bordered_solids(matrix: Matrix) -> Solids:
     alone = known[times == 1]
     borders = [[np.isin(k, alone) for k in own] for own in keys]
     made = [(b, zone, border) for (b, zone), border in zip(solids, borders, strict=True)]
-    return matrix.cache.setdefault("solids", made)
+    matrix.cache["solids"] = made
+    return made
 
 
 def hanging_nodes(matrix: Matrix, solids: Solids) -> IntArray:

@@ -65,7 +65,9 @@ def swapped_joints(
     """
     found = []
     for joints in made_joints(model, characteristics):
-        cosine, middle = _cosines(joints, stiffness) if not is_macro(joints.zone) else ((), None)
+        if is_macro(joints.zone):
+            continue
+        cosine, middle = _cosines(joints, stiffness)
         if len(cosine) and (cosine < AGAINST).all():
             found.append(SwappedJoints(middle, joints.zone.element == "JOI1", _overlap(joints)))
     return tuple(found)
@@ -94,13 +96,10 @@ def repeated_joints(model: Model | None, characteristics: CellField | None) -> I
     """Upper node (n,) of joints on the nodes of others, with their law, axes and parameters."""
     groups: dict[object, list[FloatArray]] = {}
     for joints in made_joints(model, characteristics) if characteristics is not None else ():
-        zone, sides = (
-            joints.zone,
-            [joints.zone.cells.nodes.resolve(x) for x in (joints.upper, joints.lower)],
-        )
-        parts = [*sides, joints.frames.round(9)]
+        zone, resolve = joints.zone, joints.zone.cells.nodes.resolve
+        parts = [resolve(joints.upper), resolve(joints.lower), joints.frames.round(9)]
         parts.append(joint_parameters(joints, zone_field(zone, characteristics)))
-        rows = np.hstack([p.reshape(len(joints.upper), -1) for p in parts])
+        rows = np.hstack([p.reshape(len(joints.upper), -1) for p in parts]).astype(float)
         groups.setdefault((zone.element, zone.behaviour), []).append(rows)
     found = [np.zeros(0, np.int64)]
     for rows in map(np.concatenate, groups.values()):

@@ -96,8 +96,7 @@ class _Entering:
             shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
-        looks = self._sides(), self._masses_one_way(), self._long_cells(), self._columns()
-        yield from chain(*looks)
+        yield from chain(self._sides(), self._masses_one_way(), self._long_cells(), self._columns())
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load

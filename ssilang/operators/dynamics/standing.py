@@ -85,9 +85,9 @@ def _beside_its_base(
     bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray, joints: Interface
 ) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    lifts = _normal_jumps(joints, up)[0]
-    under = lifts > 1.0 - BESIDE
-    if np.any(~under & (lifts != 0.0)) or not under.any():
+    lifts = (joints.J @ up).reshape(-1, joints.dimension)
+    under = lifts[:, -1] > 1.0 - BESIDE
+    if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
         return
     numbering = bodies.problem.numbering
     upper = np.concatenate([numbering.table.resolve(j.upper).ravel() for j in joints.joints])
@@ -96,8 +96,10 @@ def _beside_its_base(
     for turn in (rigid_motions(numbering, centre)[:, 3:] * own[:, None]).T:
         if bodies.holds(turn):
             continue
-        levers, half = (x[under] for x in _normal_jumps(joints, turn))
-        low, high = float((levers - half).min()), float((levers + half).max())
+        middle, half = _normal_jumps(joints, turn)
+        levers = np.append((joints.J @ turn).reshape(-1, joints.dimension)[under, -1], middle)
+        ends = np.append(np.zeros(int(under.sum())), half)
+        low, high = float((levers - ends).min()), float((levers + ends).max())
         at, width = float(turn @ force) / float(up @ force), high - low
         off = max(low - at, at - high)
         if width > 0.0 and off > BESIDE * width:
@@ -136,12 +138,11 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
     """Macro-elements on ground that is meshed: the cells give way, and the element again."""
     if (joints := problem.interface) is None:
         return
-    macros = [j for j in joints.joints if is_macro(j.zone)]
     label, numbering = Bodies(problem).label, problem.numbering
     zoned = [(b.nodes.ravel(), b.zone) for b in inputs.stiffness.blocks if b.zone is not None]
     solid = [n for n, z in zoned if z.cells.kind.dimension > 1 and not is_joint(z)]
-    for joint in macros:
-        node = int(joint.zone.cells.nodes.resolve(joint.lower).ravel()[0])
+    for zone, lower in ((j.zone, j.lower) for j in joints.joints if is_macro(j.zone)):
+        node = int(zone.cells.nodes.resolve(lower).ravel()[0])
         below = label == label[(numbering.nodes == node).argmax()]
         cells = below & np.isin(numbering.nodes, np.concatenate([label[:0], *solid]))
         stiff = float(np.median(problem.K.diagonal()[cells])) if cells.any() else 0.0

@@ -86,7 +86,10 @@ def warn_connections(
         "operators.matrices.relation-sign": wrong_signs(matrix),
         "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
-    if operator != "VIBR":  # whose modes DYNE may bring into contact
+    if operator == "VIBR":
+        sides = [r.nodes[r.row_start[:-1]][r.sense != 0] for r in matrix.relations]
+        found["operators.matrices.unilateral-held"] = np.concatenate([used[:0], *sides])
+    else:  # modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
             found["operators.matrices.beside-joints"] = beside_joints(matrix, joints)

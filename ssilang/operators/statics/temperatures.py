@@ -14,6 +14,7 @@ from ssilang.operators.tables.entries import Entries
 EXPANDS = frozenset(
     ["ALPH", "ALP1", "ALP2", "ALP3", "ALPN", "ALPS", "ALQS", "ALQN", "ALQ1", "ALQ2"]
 )
+_COLD = ("TALP", "TREF")  # temperatures from which bodies expand
 NOUGHT = 1e-3  # of the largest temperature: less is none
 
 
@@ -21,10 +22,8 @@ def warn_of_temperatures(entries: Entries, times: FloatArray) -> None:
     """Warn of temperatures in time that bodies lack, and of a rise from nought at the start."""
     load, model, material = (entries.get(w) for w in ("CHARGEMENT", "MODELE", "CARACTERISTIQUES"))
     parts = [p for p in load.parts if p.name.strip() == "T"] if load and model and material else []
-    if not parts:
-        return
     fields = [part_at(p, float(times[0])) for p in parts]
-    if any(not isinstance(f, NodeField) for f in fields):
+    if not fields or any(not isinstance(f, NodeField) for f in fields):
         return
     nodes = np.concatenate([f.node_ids for f in fields])
     if len(lost := without(model, material, nodes)):
@@ -40,7 +39,7 @@ def without(model: Model, material: CellField, nodes: IntArray) -> IntArray:
     """Nodes (n,) of bodies that expand from another temperature than nought, beside `nodes`."""
     found = [nodes[:0]]
     for zone, seen in _expanding(model, material):
-        if "TALP" in seen and np.any(seen.at("TALP", "STRESSES")):
+        if any(np.any(seen.at(n, "STRESSES", 0.0)) for n in _COLD):
             own = np.unique(zone.cells.connectivity)
             found.append(np.setdiff1d(own, zone.cells.nodes.resolve(nodes)))
     return np.unique(np.concatenate(found))
@@ -48,7 +47,7 @@ def without(model: Model, material: CellField, nodes: IntArray) -> IntArray:
 
 def _risen(model: Model, material: CellField) -> IntArray:
     """Nodes (n,) of bodies whose expansion counts from nought, that of no parameter."""
-    cold = [z for z, s in _expanding(model, material) if not {"TALP", "TREF"} & {*s.names}]
+    cold = [z for z, s in _expanding(model, material) if not {*_COLD} & {*s.names}]
     return np.unique(
         np.concatenate([np.zeros(0, int), *(z.cells.connectivity.ravel() for z in cold)])
     )
