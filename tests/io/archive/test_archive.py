@@ -182,7 +182,8 @@ def test_all_kinds_of_objects_of_the_last_release_are_restored_and_used(tmp_path
 def test_classes_have_their_homes():
     for name, module in HOMES.items():
         assert class_name(getattr(importlib.import_module(module), name)) == f":{name}"
-        assert class_named(f":{name}").__module__ == module
+        for place in ("", "ssilang.kernel.gone", "ssilang.kernel.gone.below"):
+            assert class_named(f"{place}:{name}").__module__ == module, place
 
 
 def _crafted(path: Path, arrays: dict[int, int], format_of: Path) -> None:
