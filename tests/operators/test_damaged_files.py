@@ -197,8 +197,10 @@ _HEADS = [  # what is said, the damage
     ("object of unknown kind 'nothing'", class_name("nothing")),
     ("'ssilang.kernel.mesh.mesh:No', which does not", class_name("ssilang.kernel.mesh.mesh:No")),
     *((f"'{name}', which is no saved", class_name(name)) for name in (
-        ":Nothing", "os:system", "ssilang.kernel.mesh.mesh:CELL_TYPES",
+        ":Nothing", "os:system", "ssilang.cli.main:main", "ssilang.kernel.mesh.mesh:CELL_TYPES",
         "ssilang.kernel.mesh.mesh:Mesh.of")),
+    ("later version of ssilang, 7.0.0; this is 0.1.0",
+     lambda head: head.update(version=99, ssilang="7.0.0")),
 ]  # fmt: skip
 
 

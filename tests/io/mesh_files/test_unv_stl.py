@@ -71,7 +71,8 @@ def held(read: FileMesh, name: str = "base side") -> tuple[dict[str, list[int]],
 
 
 @together("read, text, said", [
-    (read_unv, "    -1\n   164\n    -1\n", "no nodes"), (read_stl, "solid a\nendsolid a\n", "no tri"),
+    (read_unv, "    -1\n   164\n    -1\n", "no nodes"),
+    (read_stl, "solid a\nendsolid a\n", "no triangles"),
 ])  # fmt: skip
 def test_a_file_that_holds_nothing_is_refused(
     read: Callable[[Path], object], text: str, said: str, tmp_path: Path

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.soil_block import soil_block
-from references.whole_and_reduced import both, relative
+from references.whole_and_reduced import both, check, relative
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
@@ -58,21 +58,6 @@ def shaken(problem, height=0.06, start=0.0):
     loading, u = replace(loading, forces=forces, imposed=imposed, curves=curves), problem.u.copy()
     u[problem.numbering.where("UX")] += start
     return replace(problem, loading=loading, u=u)
-
-
-def check(problem, tolerance, energy=10.0):
-    whole, exact, reduced, history = both(problem, tolerance)
-    found = history.reduction
-    assert found.refused is None
-    assert history.loop == "reduced"
-    assert 0 < found.vectors <= 0.5 * len(whole.of("u")[0])
-    assert found.estimate <= tolerance
-    assert whole.of("w")[..., 1].max() > 1e-4  # it lifts off
-    errors = [relative(reduced.of(x), whole.of(x)) for x in ("u", "w")]
-    assert max(errors) <= tolerance
-    assert max(errors) <= 2 * found.estimate
-    scale = np.abs(exact.energies).max()
-    assert np.abs(history.energies - exact.energies).max() <= energy * tolerance * scale
 
 
 MODELS = {
