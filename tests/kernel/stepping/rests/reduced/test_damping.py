@@ -56,8 +56,10 @@ def shaken(problem, height=0.06, start=0.0):
     motion = start + height * np.sin(4 * np.pi * t) * np.minimum(1.0, 2 * t) ** 3
     curves = (loading.curves[0], (t, motion))
     loading, u = replace(loading, forces=forces, imposed=imposed, curves=curves), problem.u.copy()
-    u[problem.numbering.where("UX")] += start
-    return replace(problem, loading=loading, u=u)
+    at, v = problem.numbering.where("UX"), problem.v.copy()
+    u[at] += start
+    v[at] += start * (u[problem.numbering.where("UY")] > 0)
+    return replace(problem, loading=loading, u=u, v=v)
 
 
 MODELS = {
