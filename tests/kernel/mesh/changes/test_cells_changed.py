@@ -97,6 +97,8 @@ def test_sharp_edges_of_a_box_are_its_twelve_edges() -> None:
         assert total_measure(found) == pytest.approx(4 * (1 + 2 + 3))
         pairs = np.sort(found.single_block().connectivity, axis=1)
         assert len(np.unique(pairs, axis=0)) == len(pairs)
+    first = Mesh.of(found.nodes, "TRI6", np.array([[1, 0, 2, 3, 4, 5]]))  # a middle of number 0
+    assert sharp_edges(first).n_cells == 6
 
 
 def test_edges_are_sharp_by_the_vectors_of_areas_of_faces_that_are_not_plane() -> None:

@@ -53,12 +53,12 @@ def shaken(problem, height=0.06, start=0.0):
     forces[:, 1] = 0.0
     rows = abs(problem.constraints.C)[:, problem.numbering.where("UX")].sum(axis=1)
     imposed[np.asarray(rows).ravel() > 0, 1] = 1.0
-    motion = start + height * np.sin(4 * np.pi * t) * np.minimum(1.0, 2 * t) ** 3
+    motion = start * (1.0 + t) + height * np.sin(4 * np.pi * t) * np.minimum(1.0, 2 * t) ** 3
     curves = (loading.curves[0], (t, motion))
     loading, u = replace(loading, forces=forces, imposed=imposed, curves=curves), problem.u.copy()
     at, v = problem.numbering.where("UX"), problem.v.copy()
     u[at] += start
-    v[at] += start * (u[problem.numbering.where("UY")] > 0)
+    v[at] += start
     return replace(problem, loading=loading, u=u, v=v)
 
 
