@@ -270,7 +270,7 @@ class _Scene:
 
     def frames(self) -> Iterator[bytes]:
         """Pictures of all instants, colours and scale common."""
-        self._range = _common_range([self._coloured(k) for k in range(len(self.series.times))])
+        self._range = _common_range([self._found(k)[2] for k in range(len(self.series.times))])
         for row in range(len(self.series.times)):
             yield self.picture(row)
 
@@ -336,9 +336,6 @@ class _Scene:
         rows = {self.last, len(self.series.times) - 1, len(self.series.times) // 2}
         found = [_steps(self.series.at(k)) for k in rows]
         return max(float(np.linalg.norm(s, axis=1).max(initial=0)) for s in found if s is not None)
-
-    def _coloured(self, row: int) -> Any:
-        return self._found(row)[2]
 
     def _found(self, row: int) -> tuple[Any, str, Any]:
         """Data set, name and values (n,) of what colours it at an instant."""

@@ -184,7 +184,10 @@ def interpolate_cloud(
 ) -> NodeField | CellField:
     """Evaluate the cloud at the values of a field; settings 'PID' and 'ELIM' of the method."""
     if isinstance(field, NodeField):
-        return _at_nodes(cloud, field, method, settings)
+        nodes = field.node_ids
+        given = {k: v.at(nodes) for k, v in field.components.items()}
+        made = _evaluated(cloud, given, method, settings)
+        return node_algebra.rebuilt(field, {k: NodeValues(nodes, v) for k, v in made.items()})
     blocks = []
     for block in field.blocks:
         width = max((v.shape[1] for v in block.components.values()), default=1)
@@ -195,13 +198,6 @@ def interpolate_cloud(
         made = _evaluated(cloud, given, method, settings)
         blocks.append(cell_algebra.rebuilt(block, {k: v.reshape(shape) for k, v in made.items()}))
     return CellField(tuple(blocks), field.title)
-
-
-def _at_nodes(cloud: Cloud, field: NodeField, method: str, settings: dict[str, float]) -> NodeField:
-    nodes = field.node_ids
-    given = {k: v.at(nodes) for k, v in field.components.items()}
-    made = _evaluated(cloud, given, method, settings)
-    return node_algebra.rebuilt(field, {k: NodeValues(nodes, v) for k, v in made.items()})
 
 
 def _evaluated(

@@ -151,20 +151,14 @@ def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) ->
     for block in faces.blocks:
         of = require_parents(block, model)
         for zone, rows in zones_of_faces(of, model):
-            part, geometry, vectors = _oriented(block, rows, of, model, zone)
+            part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
+            geometry = face_geometry(part, zone.mode, harmonic(zone))
+            mine = Parents(of.zone[rows], of.cell[rows])
+            vectors = outward(part, geometry, model, mine)
             p = _face_values(part, geometry, value)
             forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
             out.append(_scatter(zone, part, forces))
     return total(faces.nodes, out)
-
-
-def _oriented(
-    block: CellBlock, rows: IntArray, of: Parents, model: Model, zone: Zone
-) -> tuple[CellBlock, SurfaceGeometry, FloatArray]:
-    part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
-    geometry = face_geometry(part, zone.mode, harmonic(zone))
-    mine = Parents(of.zone[rows], of.cell[rows])
-    return part, geometry, outward(part, geometry, model, mine)
 
 
 def _face_values(
