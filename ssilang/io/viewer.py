@@ -134,18 +134,14 @@ class _OneFile:
         self._reader.Update()
         found = pyvista.wrap(self._reader.GetOutput())
         for part in found if isinstance(found, pyvista.MultiBlock) else (found,):
-            _name_components(part)
+            # names of components stand in the field data of our files
+            for told in part.field_data:
+                array, sign, name = told.rpartition(COMPONENT)
+                for place in (part.point_data, part.cell_data):
+                    if sign and array in place:
+                        column = int(part.field_data[told][0]) - 1
+                        place.VTKObject.GetAbstractArray(array).SetComponentName(column, name)
         return found
-
-
-def _name_components(data: Any) -> None:
-    """Give arrays the names of their components, which stand in the field data of our files."""
-    for told in data.field_data:
-        array, sign, name = told.rpartition(COMPONENT)
-        for place in (data.point_data, data.cell_data):
-            if sign and array in place:
-                column = int(data.field_data[told][0]) - 1
-                place.VTKObject.GetAbstractArray(array).SetComponentName(column, name)
 
 
 def _other(path: Path) -> Any:

@@ -98,8 +98,8 @@ class Painter:
         )  # fmt: skip
         # each pixel is the mean of four
         wide = seen.image.astype(np.uint16)
-        rows = wide[0::2] + wide[1::2]
-        _put_pixels(axes, ((rows[:, 0::2] + rows[:, 1::2] + 2) >> 2).astype(np.uint8), bounds)
+        pairs = wide[0::2] + wide[1::2]
+        _put_pixels(axes, ((pairs[:, 0::2] + pairs[:, 1::2] + 2) >> 2).astype(np.uint8), bounds)
         return seen
 
 

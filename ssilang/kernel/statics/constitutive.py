@@ -109,11 +109,11 @@ def probing_step(
     """
     _no_fibres(zone)
     if is_joint(zone):
-        points = joint_points(zone, material)
-        raised = points.local(stress) * precision
-        raised[:, -1] = np.maximum(raised[:, -1], 0.0)
+        joints = joint_points(zone, material)
+        trial = joints.local(stress) * precision
+        trial[:, -1] = np.maximum(trial[:, -1], 0.0)
         step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
-        step[:, : points.dimension] = points.named(points.jumps(raised))
+        step[:, : joints.dimension] = joints.named(joints.jumps(trial))
         return step
     if not is_plastic(zone):
         return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))

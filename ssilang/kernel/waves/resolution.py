@@ -66,7 +66,8 @@ def pressure_speed(zone: Zone, material: CellField) -> FloatArray:
         for name in ("YOUN", "NU", "RHO")
     )
     modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
-    return np.sqrt(modulus / density)
+    speed: FloatArray = np.sqrt(modulus / density)
+    return speed
 
 
 #: a face whose middle lies so far above its cell's, as a share of the way, is the surface's
