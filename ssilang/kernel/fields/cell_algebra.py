@@ -68,13 +68,6 @@ def applied(
     return CellField(tuple(blocks), field.title)
 
 
-def _fitted(name: str, a: CellFieldBlock, b: CellFieldBlock) -> None:
-    x, y = a.components[name], b.components[name]
-    if a.support != b.support and 1 not in (x.shape[1], y.shape[1]):
-        told = {"name": name, "support": a.support, "support_2": b.support}
-        raise FieldError("kernel.fields.component-stands-field", **told)
-
-
 def _support(a: CellFieldBlock, b: CellFieldBlock, names: Iterable[str]) -> CellFieldBlock:
     """The block whose points a result stands at: the one with more points."""
     count = [max((v.shape[1] for v in block.components.values()), default=1) for block in (a, b)]
@@ -108,7 +101,10 @@ def _added_block(
         if name not in made:
             made[name] = _scaled(values, factor)
             continue
-        _fitted(name, a, b)
+        x, y = a.components[name], b.components[name]
+        if a.support != b.support and 1 not in (x.shape[1], y.shape[1]):
+            told = {"name": name, "support": a.support, "support_2": b.support}
+            raise FieldError("kernel.fields.component-stands-field", **told)
         if made[name].dtype == object or values.dtype == object:
             sign = "+" if factor == 1.0 else "-"
             made[name] = _of_objects(name, sign, made[name], values, objects)

@@ -98,7 +98,7 @@ def split_strains(
         for zone, material in zones
         for strain, curve in free_terms(load, zone, material)
     ]
-    parts = [_force(s, _of(zones, s.zone)) for s in stresses]
+    parts = [_force(s, next(material for z, material in zones if z is s.zone)) for s in stresses]
     return Load((*kept, *parts)), stresses
 
 
@@ -133,10 +133,6 @@ def _restrained(zone: Zone, material: CellField, strain: FloatArray) -> CellFiel
     """Stress of a strain that is held back."""
     block = cell_block(zone, family_of(zone).strain_names(zone), strain)
     return elastic_stress(zone, material, CellField((block,), "DEFORMATIONS"))
-
-
-def _of(zones: list[tuple[Zone, CellField]], zone: Zone) -> CellField:
-    return next(material for z, material in zones if z is zone)
 
 
 def _force(stress: ThermalStress, material: CellField) -> LoadPart:

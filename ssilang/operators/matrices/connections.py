@@ -10,7 +10,6 @@ import numpy as np
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.cells_amiss import (
-    Solids,
     bent_layer,
     bordered_solids,
     hanging_nodes,
@@ -74,7 +73,9 @@ def warn_connections(
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
     solids = bordered_solids(matrix)
-    _warn_layers(tell, matrix, solids)
+    if (layer := bent_layer(matrix, solids)) is not None:
+        told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
+        tell("operators.matrices.layer-bends", **told)
     zones = () if model is None else model.zones
     others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
@@ -171,12 +172,6 @@ def _warn_footings(
             tell("operators.matrices.footing-turned", node=matrix.table.told(node))
         elif _UPRIGHT < angle < 90.0 - _UPRIGHT:
             tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
-
-
-def _warn_layers(tell: Tell, matrix: Matrix, solids: Solids) -> None:
-    if (layer := bent_layer(matrix, solids)) is not None:
-        told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
-        tell("operators.matrices.layer-bends", **told)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

@@ -155,7 +155,8 @@ class _Flow:
             if (np.abs(step) <= 1e-14 * (np.abs(trace) + np.abs(self.trace))).all():
                 break
         slope = self.hardening(self.rows, grown)[1]
-        return _spherical(trace), grown, self._apex_tangent(slope, rate, shear, grown - p)
+        found: FloatArray = trace[:, None] / 3 * UNIT
+        return found, grown, self._apex_tangent(slope, rate, shear, grown - p)
 
     def _apex_tangent(
         self, slope: FloatArray, rate: FloatArray, shear: FloatArray, dp: FloatArray
@@ -167,11 +168,6 @@ class _Flow:
         change = slope / (self.alpha + slope * rate / (3 * self.B))
         found: FloatArray = UNIT[:, None] / 3 * (change[:, None] * strain)[:, None, :]
         return found
-
-
-def _spherical(trace: FloatArray) -> FloatArray:
-    found: FloatArray = trace[:, None] / 3 * UNIT
-    return found
 
 
 def perfect(
