@@ -166,11 +166,23 @@ def _row_products(
 def subtract(
     builder: Any, values: Value, pos: Value, w: Value, m: Value, x: Value, at: Value, to: Value
 ) -> None:
-    """y -= P^T b."""
+    """y -= P^T b, some rows of P at a time: they are read from one end to the other."""
     writer = _Writer(builder)
     rows, b, y = writer.place(values, pos), writer.place(x, at), writer.place(x, to)
-    for piece in writer.in_pieces(m, TOGETHER):
-        _combine_rows(writer, rows, m, (_i(0), w), b, piece, y, True)
+    many = writer.whole(w, TOGETHER)
+    for start, stop, together in ((_i(0), many, TOGETHER), (many, w, 1)):
+        with writer.loop(start, stop, together) as (j, _):
+            begin, factors = writer.place(rows, builder.mul(j, m)), []
+            for c in range(together):
+                factor = builder.fneg(builder.load(writer.place(b, j, _i(c))))
+                factors.append(writer.spread(factor, _VECTOR))
+            for column, _, mask in writer.in_pieces(m, 1):
+                total = writer.read(writer.place(y, column), mask)
+                for c, factor in enumerate(factors):
+                    row = writer.place(begin, builder.mul(m, _i(c)), column)
+                    product = builder.fmul(writer.read(row, mask), factor, flags=_FUSED)
+                    total = builder.fadd(total, product, flags=_FUSED)
+                writer.write(total, writer.place(y, column), mask)
 
 
 def subtract_transposed(
