@@ -248,8 +248,6 @@ def run_reduced(
         if q:  # solve: Newton's method on the interface
             copy_state(dashpots.y[:q], trial.y0)
             copy_state(trial.y0, trial.y)
-            if is_factorised(room.factors):  # starts where the last tangents lead
-                solve_known(joints, condensed, room.factors, trial.y)
             turns, residual = solve_interface(joints, condensed, now, room)
             if turns <= 0:
                 return k, turns, residual
