@@ -22,7 +22,6 @@ from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.interface.condensed import Condensed, condensed_of
 from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.factors.kept import is_factorised, solve_known
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import (
     InterfaceState,
