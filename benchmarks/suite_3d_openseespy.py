@@ -6,11 +6,11 @@
 The model of `block_3d_openseespy.py` on 12^3 bricks with Rayleigh damping, under pushes of growing
 strength; by default 10 motions of 1 000 steps, of which the peer makes 5 steps of the first and
 last motion. Kept of a motion are the displacements of a corner of the block's top at all steps. The
-step's factor is kept from motion to motion, as `ssilang sweep` does. Each side is a process of its own, from its start to the last answer, as a user waits
-for it: imports, model, factor or basis, all motions. The peer's time for the suite is its time
-before the first step, for each motion, and its seconds a step times all steps. All run on one
-thread; seconds are those of the processor, which other work on the machine changes less, and by
-the clock for the whole suites.
+step's factor is kept from motion to motion, as `ssilang sweep` does. Each side is a process of its
+own, from its start to the last answer, as a user waits for it: imports, model, factor or basis, all
+motions. The peer's time for the suite is its time before the first step, for each motion, and its
+seconds a step times all steps. All run on one thread; seconds are those of the processor, which
+other work on the machine changes less, and by the clock for the whole suites.
 
 Ratios are printed only if the displacements of a corner of the block's top agree with the peer's
 within 1e-6 of the largest one (whole), and the reduced motions with the whole ones within the
