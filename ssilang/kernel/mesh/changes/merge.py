@@ -32,7 +32,15 @@ def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> int:
     if len(ids) < 2:
         return 0
     pairs = cKDTree(nodes.coordinates[ids]).query_pairs(tolerance, output_type="ndarray")
-    return _merge_groups(nodes, ids, pairs)
+    if not len(pairs):
+        return 0
+    label = parts_of(len(ids), pairs.T)
+    oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
+    np.minimum.at(oldest, label, ids)
+    kept = oldest[label]
+    gone = kept != ids
+    nodes.merge(kept[gone], ids[gone])
+    return int(gone.sum())
 
 
 def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance: float) -> int:
@@ -76,18 +84,6 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
 def _check(tolerance: float) -> None:
     if tolerance <= 0.0:
         raise MeshError("kernel.mesh.nodes-merged-within-positive")
-
-
-def _merge_groups(nodes: NodeTable, ids: IntArray, pairs: IntArray) -> int:
-    if not len(pairs):
-        return 0
-    label = parts_of(len(ids), pairs.T)
-    oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
-    np.minimum.at(oldest, label, ids)
-    kept = oldest[label]
-    gone = kept != ids
-    nodes.merge(kept[gone], ids[gone])
-    return int(gone.sum())
 
 
 # what a cell with one (or, for volumes, two) vanished edge becomes: type of the cell ->
