@@ -262,8 +262,8 @@ def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Pat
             ["operators.matrices.relation-sign"],
         ),
         (  # its lower node is the footing's
-            "{mast} J = MANU 'SEG2' P Q ; MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' "
-            "; T . 'MODELE' = MO ET MJ ; AJ = MATE MJ 'KN' 8.E7 'KS' 1.E8 'LARG' 4. ; "
+            "{mast} J = MANU 'SEG2' P Q ; "
+            "MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ; T . 'MODELE' = MO ET MJ ; AJ = MATE MJ 'KN' 8.E7 'KS' 1.E8 'LARG' 4. ; "
             "T . 'CARACTERISTIQUES' = A ET AJ ; T . 'CHAR' = CHAR 'MECA' G ; DYNAMIC T ;",
             ["operators.matrices.footing-turned"],
         ),
@@ -276,8 +276,8 @@ def test_one_mistake_is_told_once(script: str, codes: list[str], tmp_path: Path)
 def test_a_motion_that_its_scheme_takes_leaves_all_of_its_energy_out_of_balance(tmp_path: Path):
     script = written_out(
         "{oscillator} {table} T . 'CHAR' = CHAR (FORC (0. 0.) P) EV ; T . 'DEPL' = "
-        "MANU 'CHPO' P 1 'UX' 1. ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.05 9. ; T . 'RHO_INF' = 0. ; "
-        "DYNAMIC T ;"
+        "MANU 'CHPO' P 1 'UX' 1. ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.05 9. ; "
+        "T . 'RHO_INF' = 0. ; DYNAMIC T ;"
     )
     session = run_text(script, output_directory=tmp_path).session
     (calculation,) = session.statistics["calculations"]
