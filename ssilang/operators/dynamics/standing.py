@@ -17,6 +17,7 @@ from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.statics.linear_motion import rigid_motions
+from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.waves.shaken import LARGE, axes_of, changing, shares
@@ -119,7 +120,7 @@ def unequal_joints(problem: Problem, _: Inputs) -> Told:
     """Joints of one law and kind under one body, one part of them far stiffer than another."""
     if (joints := problem.interface) is None:
         return
-    label, numbering = Bodies(problem).label, problem.numbering
+    label, numbering = bodies_of(problem), problem.numbering
     known: dict[object, tuple[float, int]] = {}
     ends = np.cumsum([0, *(j.weights.size for j in joints.joints)])
     for joint, first, last in zip(joints.joints, ends, ends[1:], strict=False):
@@ -138,7 +139,7 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
     """Macro-elements on ground that is meshed: the cells give way, and the element again."""
     if (joints := problem.interface) is None:
         return
-    label, numbering = Bodies(problem).label, problem.numbering
+    label, numbering = bodies_of(problem), problem.numbering
     zoned = [(b.nodes.ravel(), b.zone) for b in inputs.stiffness.blocks if b.zone is not None]
     solid = [n for n, z in zoned if z.cells.kind.dimension > 1 and not is_joint(z)]
     for zone, lower in ((j.zone, j.lower) for j in joints.joints if is_macro(j.zone)):
