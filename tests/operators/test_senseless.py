@@ -263,8 +263,9 @@ def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Pat
         ),
         (  # its lower node is the footing's
             "{mast} J = MANU 'SEG2' P Q ; "
-            "MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ; T . 'MODELE' = MO ET MJ ; "
-            "AJ = MATE MJ 'KN' 8.E7 'KS' 1.E8 'LARG' 4. ; T . 'CARACTERISTIQUES' = A ET AJ ; T . 'CHAR' = CHAR 'MECA' G ; DYNAMIC T ;",
+            "MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ; "
+            "T . 'MODELE' = MO ET MJ ; AJ = MATE MJ 'KN' 8.E7 'KS' 1.E8 'LARG' 4. ; "
+            "T . 'CARACTERISTIQUES' = A ET AJ ; T . 'CHAR' = CHAR 'MECA' G ; DYNAMIC T ;",
             ["operators.matrices.footing-turned"],
         ),
     ],
