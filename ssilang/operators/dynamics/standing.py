@@ -20,7 +20,7 @@ from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Bodies
-from ssilang.kernel.waves.shaken import LARGE, axes_of, changing, shares
+from ssilang.kernel.waves.shaken import LARGE, accelerations, axes_of, changing, shares
 
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import BoolArray, FloatArray
@@ -63,18 +63,18 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
         own = bodies.label == body
         node = problem.numbering.table.told(int(problem.numbering.nodes[own.argmax()]))
         ways = {a: bodies.along(body, a) for a in axes}
-        for axis, way in ways.items():
+        # joints that open for good are told behind the motion
+        for axis, way in ways.items() if problem.contact is not None else ():
             borne = [bodies.touches(s * way) for s in (1.0, -1.0)]
             push = bodies.factors @ (loading.forces.T @ way)
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
             most = float(np.abs(push).max(initial=0.0))
             if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, problem.C):
-                told = {"node": node, "axis": axis, "stops": problem.contact is not None}
-                yield OTHER_SIDE, {**told, "below": borne[1]}
+                yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
-            if mass * G > TIMES * weight:
+            if mass * G > TIMES * weight and (accelerations(problem) * changing(problem)).any():
                 told = {"mass": mass, "weight": weight, "times": mass * G / weight}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
             if not bodies.touches(up) and problem.interface is not None:
