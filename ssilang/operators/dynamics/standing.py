@@ -46,13 +46,14 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
     held = problem.K @ problem.u
     if problem.interface is not None:
         held = held + problem.interface.J.T @ joint_state(problem).f
-    share = shares(T.T @ loading.forces, (T.T @ held)[:, None])[:, 0]
+    held, forces = T.T @ held, T.T @ loading.forces
+    share = shares(forces, held[:, None])[:, 0]
     begins, ends = loading.at(problem.times[[0, -1]])
-    for k in np.flatnonzero(np.abs(begins - share) > OFF * share).tolist():
+    off = np.abs(forces @ begins - held).max(initial=0.0) > OFF * np.abs(held).max(initial=0.0)
+    for k in np.flatnonzero(off & (np.abs(begins - share) > OFF * share)).tolist():
         still = changing(problem)[k] or share[k] > NEAR * begins[k]
         if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
-            told = {"begins": float(begins[k]), "held": float(share[k])}
-            yield "operators.dynamics.out-of-balance", told
+            yield "operators.dynamics.out-of-balance", {"begins": begins[k], "held": share[k]}
 
 
 def bodies_stand(problem: Problem, _: Inputs) -> Told:
@@ -77,8 +78,9 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
             if mass * G > TIMES * weight and (accelerations(problem) * changing(problem)).any():
                 told = {"mass": mass, "weight": weight, "times": mass * G / weight}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
-            if not bodies.touches(up) and problem.interface is not None:
-                for code, told in _beside_its_base(bodies, own, up, force, problem.interface):
+            joints = problem.interface if problem.contact is None else None
+            if joints is not None and not bodies.touches(up):
+                for code, told in _beside_its_base(bodies, own, up, force, joints):
                     yield code, {**told, "node": node}
 
 
@@ -86,11 +88,10 @@ def _beside_its_base(
     bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray, joints: Interface
 ) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    lifts = (joints.J @ up).reshape(-1, joints.dimension)
+    lifts, numbering = (joints.J @ up).reshape(-1, joints.dimension), bodies.problem.numbering
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
         return
-    numbering = bodies.problem.numbering
     upper = np.concatenate([numbering.table.resolve(j.upper).ravel() for j in joints.joints])
     upper = upper[np.isin(upper, numbering.nodes[own])]
     centre = numbering.table.coordinates[upper].mean(axis=0)
