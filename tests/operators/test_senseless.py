@@ -251,6 +251,40 @@ def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Pat
     assert bent / session.root.find("X") == pytest.approx(layer.data["stiffer"], rel=1e-3)
 
 
+@together(
+    "script, codes",
+    [
+        (  # what RESO has told, DYNAMIC does not tell again
+            "{beam} K = K ET (BLOQ 'UY' (P ET Q)) ET (RELA 1. 'UX' P + 1. 'UX' Q) ; "
+            "U = RESO K G ; T = TABL ; T . 'RIGI' = K ET (APPU 'RZ' 1.E3 P) ; T . 'MASS' = M ; "
+            "T . 'CHAR' = CHAR 'MECA' G ; T . 'DEPL' = U ; T . 'TEMPS_CALCULES' = PROG 0. 0.001 ; "
+            "DYNAMIC T ;",
+            ["operators.matrices.relation-sign"],
+        ),
+        (  # its lower node is the footing's
+            "{mast} J = MANU 'SEG2' P Q ; "
+            "MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ; "
+            "T . 'MODELE' = MO ET MJ ; AJ = MATE MJ 'KN' 8.E7 'KS' 1.E8 'LARG' 4. ; "
+            "T . 'CARACTERISTIQUES' = A ET AJ ; T . 'CHAR' = CHAR 'MECA' G ; DYNAMIC T ;",
+            ["operators.matrices.footing-turned"],
+        ),
+    ],
+)
+def test_one_mistake_is_told_once(script: str, codes: list[str], tmp_path: Path) -> None:
+    assert told(script, tmp_path) == codes
+
+
+def test_a_motion_that_its_scheme_takes_leaves_all_of_its_energy_out_of_balance(tmp_path: Path):
+    script = written_out(
+        "{oscillator} {table} T . 'CHAR' = CHAR (FORC (0. 0.) P) EV ; T . 'DEPL' = "
+        "MANU 'CHPO' P 1 'UX' 1. ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.05 9. ; "
+        "T . 'RHO_INF' = 0. ; DYNAMIC T ;"
+    )
+    session = run_text(script, output_directory=tmp_path).session
+    (calculation,) = session.statistics["calculations"]
+    assert calculation["energy_imbalance"] == pytest.approx(1.0, rel=1e-3)
+
+
 def test_free_motions_have_no_frequency(tmp_path: Path) -> None:
     script = written_out("{moved} T = VIBR 'SIMU' 0.1 4 K M ;")
     modes = run_text(script, output_directory=tmp_path).session.root.find("T").get("MODES")

@@ -306,8 +306,8 @@ def _tell_warnings(
     """What runs were warned of, once each; names whose values change nothing."""
     told = [("cli.sweep-warning", vars(w)) for w in warnings_of(options.folder, rows)]
     code = options.deck.read_text(encoding="utf-8", errors="replace")
-    asked = [name for name in swept if not _chooses(name, code)]
-    idle = idle_names([row for row in rows if row["exit_code"] == 0], asked)
+    done = [row for row in rows if row["exit_code"] == 0]
+    idle = [name for name in idle_names(done, swept) if not _chooses(name, code)]
     for code, data in [*told, *(("cli.value-idle", {"name": name}) for name in idle)]:
         err.write(sentence(code, data, options.language) + "\n")
 

@@ -64,6 +64,17 @@ def wrong_signs(matrix: Matrix) -> IntArray:
     return np.concatenate(found)
 
 
+def crossed_lines(matrix: Matrix) -> IntArray:
+    """First node (n,) of ties of two lines alike, node by node from opposite ends."""
+    found = [np.zeros(0, np.int64)]
+    for r in matrix.relations:
+        if len(r.row_start) > 3 and (np.diff(r.row_start) == 2).all():
+            a, b = r.table.coordinates[r.table.resolve(r.nodes)].reshape(-1, 2, 3).swapaxes(0, 1)
+            apart, turned = (np.ptp(x - a, axis=0).max() for x in (b, b[::-1]))
+            found += [r.nodes[:1]] if turned < 1e-6 * apart else []
+    return np.concatenate(found)
+
+
 def tied(numbering: Numbering, relations: sp.csr_array, *matrices: sp.csr_array) -> IntArray:
     """Body (0, 1 ...) of each unknown (n,): those of a node, and those that are coupled.
 

@@ -22,6 +22,12 @@ ENERGY_LIMIT = 0.01
 """Imbalance of energy, as a part of the largest, above which it is told with what makes it."""
 _SHORTER_STEPS = "operators.dynamics.imbalance-step"
 _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
+ESTIMATES = {
+    "estimated_error": "estimate",
+    "estimated_error_of_velocities": "velocity",
+    "estimated_error_of_accelerations": "acceleration",
+}
+"""Keys of the summary, and what of a reduction they are."""
 PARTS, EXPLODES = 8, 1e5  # of a motion; times its energy that no load brings in five of them
 LASTING = 8  # steps in a row: what an impact leaves for good
 CHANGED = 0.05  # of the largest energy
@@ -80,9 +86,7 @@ def report(
         line |= {
             "reduced": history.reduction.vectors > 0,
             "vectors": history.reduction.vectors,
-            "estimated_error": none_if_nan(history.reduction.estimate),
-            "estimated_error_of_velocities": none_if_nan(history.reduction.velocity),
-            "estimated_error_of_accelerations": none_if_nan(history.reduction.acceleration),
+            **{k: none_if_nan(getattr(history.reduction, n)) for k, n in ESTIMATES.items()},
             "not_reduced_because": str(history.reduction.refused or ""),
             "seconds_preparing_the_basis": history.reduction.prepared,
         }

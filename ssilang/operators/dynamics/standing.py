@@ -17,9 +17,10 @@ from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.statics.linear_motion import rigid_motions
+from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Bodies
-from ssilang.kernel.waves.shaken import LARGE, axes_of, changing, shares
+from ssilang.kernel.waves.shaken import LARGE, accelerations, axes_of, changing, shares
 
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import BoolArray, FloatArray
@@ -45,13 +46,14 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
     held = problem.K @ problem.u
     if problem.interface is not None:
         held = held + problem.interface.J.T @ joint_state(problem).f
-    share = shares(T.T @ loading.forces, (T.T @ held)[:, None])[:, 0]
+    held, forces = T.T @ held, T.T @ loading.forces
+    share = shares(forces, held[:, None])[:, 0]
     begins, ends = loading.at(problem.times[[0, -1]])
-    for k in np.flatnonzero(np.abs(begins - share) > OFF * share).tolist():
+    off = np.abs(forces @ begins - held).max(initial=0.0) > OFF * np.abs(held).max(initial=0.0)
+    for k in np.flatnonzero(off & (np.abs(begins - share) > OFF * share)).tolist():
         still = changing(problem)[k] or share[k] > NEAR * begins[k]
         if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
-            told = {"begins": float(begins[k]), "held": float(share[k])}
-            yield "operators.dynamics.out-of-balance", told
+            yield "operators.dynamics.out-of-balance", {"begins": begins[k], "held": share[k]}
 
 
 def bodies_stand(problem: Problem, _: Inputs) -> Told:
@@ -62,22 +64,23 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
         own = bodies.label == body
         node = problem.numbering.table.told(int(problem.numbering.nodes[own.argmax()]))
         ways = {a: bodies.along(body, a) for a in axes}
-        for axis, way in ways.items():
+        # joints that open for good are told behind the motion
+        for axis, way in ways.items() if problem.contact is not None else ():
             borne = [bodies.touches(s * way) for s in (1.0, -1.0)]
             push = bodies.factors @ (loading.forces.T @ way)
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
             most = float(np.abs(push).max(initial=0.0))
             if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, problem.C):
-                told = {"node": node, "axis": axis, "stops": problem.contact is not None}
-                yield OTHER_SIDE, {**told, "below": borne[1]}
+                yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
-            if mass * G > TIMES * weight:
+            if mass * G > TIMES * weight and (accelerations(problem) * changing(problem)).any():
                 told = {"mass": mass, "weight": weight, "times": mass * G / weight}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
-            if not bodies.touches(up) and problem.interface is not None:
-                for code, told in _beside_its_base(bodies, own, up, force, problem.interface):
+            joints = problem.interface if problem.contact is None else None
+            if joints is not None and not bodies.touches(up):
+                for code, told in _beside_its_base(bodies, own, up, force, joints):
                     yield code, {**told, "node": node}
 
 
@@ -85,11 +88,10 @@ def _beside_its_base(
     bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray, joints: Interface
 ) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    lifts = (joints.J @ up).reshape(-1, joints.dimension)
+    lifts, numbering = (joints.J @ up).reshape(-1, joints.dimension), bodies.problem.numbering
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
         return
-    numbering = bodies.problem.numbering
     upper = np.concatenate([numbering.table.resolve(j.upper).ravel() for j in joints.joints])
     upper = upper[np.isin(upper, numbering.nodes[own])]
     centre = numbering.table.coordinates[upper].mean(axis=0)
@@ -119,7 +121,7 @@ def unequal_joints(problem: Problem, _: Inputs) -> Told:
     """Joints of one law and kind under one body, one part of them far stiffer than another."""
     if (joints := problem.interface) is None:
         return
-    label, numbering = Bodies(problem).label, problem.numbering
+    label, numbering = bodies_of(problem), problem.numbering
     known: dict[object, tuple[float, int]] = {}
     ends = np.cumsum([0, *(j.weights.size for j in joints.joints)])
     for joint, first, last in zip(joints.joints, ends, ends[1:], strict=False):
@@ -138,7 +140,7 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
     """Macro-elements on ground that is meshed: the cells give way, and the element again."""
     if (joints := problem.interface) is None:
         return
-    label, numbering = Bodies(problem).label, problem.numbering
+    label, numbering = bodies_of(problem), problem.numbering
     zoned = [(b.nodes.ravel(), b.zone) for b in inputs.stiffness.blocks if b.zone is not None]
     solid = [n for n, z in zoned if z.cells.kind.dimension > 1 and not is_joint(z)]
     for zone, lower in ((j.zone, j.lower) for j in joints.joints if is_macro(j.zone)):

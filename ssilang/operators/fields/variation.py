@@ -94,22 +94,16 @@ def _told(x: FloatArray, value: float, name: str, over: str) -> dict[str, Any]:
 
 
 def beyond_laws(laws: CellField, fields: CellField) -> Iterator[dict[str, Any]]:
-    """Each parameter that fields ask for outside of its curve, or of a cloud's first column."""
+    """Each parameter that fields ask for outside of its curve."""
     for block in laws.blocks:
         known = _known(block, fields)
         for name, values in block.components.items():
             held = values.ravel() if values.dtype == object else ()
-            for law in {id(v): v for v in held}.values():
-                over, x, y = "", np.zeros(0), np.zeros(0)
-                if isinstance(law, Curve):
-                    part = law.parts[0]
-                    over, x, y = part.abscissa_name.strip(), part.abscissas, part.ordinates
-                elif isinstance(law, Cloud):
-                    over = next(iter(law.columns))
-                    x = y = np.unique(law.numbers(over)) if over in known else x
-                value = beyond(x, y, known[over]) if over in known else None
-                if value is not None:
-                    yield _told(x, value, name, over)
+            for part in {id(v): v.parts[0] for v in held if isinstance(v, Curve)}.values():
+                over = part.abscissa_name.strip()
+                at = known.get(over, np.zeros(0))
+                if (value := beyond(part.abscissas, part.ordinates, at)) is not None:
+                    yield _told(part.abscissas, value, name, over)
 
 
 @vari.form(said("NUAG"))

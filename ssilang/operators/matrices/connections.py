@@ -24,7 +24,7 @@ from ssilang.kernel.statics.doubled import (
     repeated_cells,
     springs_apart,
 )
-from ssilang.kernel.statics.linear_motion import wrong_signs
+from ssilang.kernel.statics.linear_motion import crossed_lines, wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
 from ssilang.kernel.statics.swapped_joints import repeated_joints
 from ssilang.operators.prelude import *
@@ -85,6 +85,7 @@ def warn_connections(
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": idle_nodes(springs, matrix),
         "operators.matrices.relation-sign": wrong_signs(matrix),
+        "operators.matrices.lines-crossed": crossed_lines(matrix),
         "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
     if operator == "VIBR":
