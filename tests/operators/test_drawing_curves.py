@@ -123,6 +123,7 @@ def test_bars_of_a_histogram(tmp_path: Path) -> None:
         "T = TABL ; T . 'HPOS' = 10. ; T . 'DESS' = 'GRIL AXES' ; "
         "T . 'COUL' = MOTS ROUG VERT BLEU ; H P = @HISTOGR (PROG 3. -1. 2.) T ; "
         "N = DIME H ; A = EXTR H 'ABSC' 3 ; B = P . 'TITRE' . 2 ;"
+        "W = EVOL 'MANU' 'abscissas of W' (PROG 0. 1.) 'ordinates of W' (PROG 0. 1.) ;"
     )
     found = run(script, tmp_path).session.root
     assert len(list(tmp_path.glob("*.png"))) == 1
@@ -131,3 +132,5 @@ def test_bars_of_a_histogram(tmp_path: Path) -> None:
     assert found.find("B") == "2"
     assert [p.colour for p in found.find("H").parts] == [2, 4, 1]
     assert [p.colour for p in found.find("E").parts] == [1, 2]
+    (part,) = found.find("W").parts
+    assert (part.abscissa_name, part.ordinate_name) == ("abscissas of", "ordinates of")

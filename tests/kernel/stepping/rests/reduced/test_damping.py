@@ -9,6 +9,7 @@ from references.whole_and_reduced import both, check, relative
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
+from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.damping import States, split, square_roots
 from ssilang.kernel.stepping.rests.reduced.loop import Reduced, reduced_step
@@ -53,6 +54,11 @@ def shaken(problem, height=0.06, start=0.0):
     forces[:, 1] = 0.0
     rows = abs(problem.constraints.C)[:, problem.numbering.where("UX")].sum(axis=1)
     imposed[np.asarray(rows).ravel() > 0, 1] = 1.0
+    if start:  # one of its nodes follows the soil in part
+        tied, C = int(np.argmax(imposed[:, 1])), problem.constraints.C.tolil()
+        C[tied, problem.numbering.where("UX")[-1]] = -0.3 * C[tied].sum()
+        imposed[tied] *= 0.7
+        problem = replace(problem, constraints=EliminatedConstraints(sp.csr_array(C)))
     motion = start * (1.0 + t) + height * np.sin(4 * np.pi * t) * np.minimum(1.0, 2 * t) ** 3
     curves = (loading.curves[0], (t, motion))
     loading, u = replace(loading, forces=forces, imposed=imposed, curves=curves), problem.u.copy()
