@@ -36,11 +36,8 @@ class Cloud:
         if not self.columns or not other.columns:
             return other if not self.columns else self
         if set(self.columns) != set(other.columns):
-            raise FieldError(
-                "kernel.curves.clouds-of-other-components",
-                first=list(self.columns),
-                second=list(other.columns),
-            )
+            told = {"first": list(self.columns), "second": list(other.columns)}
+            raise FieldError("kernel.curves.clouds-of-other-components", **told)
         return Cloud({k: (*v, *other.columns[k]) for k, v in self.columns.items()})
 
     def numbers(self, name: str) -> FloatArray:
@@ -113,12 +110,9 @@ def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> Float
 
     sizes = [len(a) for a in axes]
     if int(np.prod(sizes)) != len(values):
-        raise FieldError(
-            "kernel.curves.grid-nodes-needs-values",
-            grid=" x ".join(map(str, sizes)),
-            wanted=np.prod(sizes),
-            n_values=len(values),
-        )
+        told = {"grid": " x ".join(map(str, sizes)), "wanted": np.prod(sizes)}
+        told |= {"n_values": len(values)}
+        raise FieldError("kernel.curves.grid-nodes-needs-values", **told)
     if any(np.any(np.diff(a) <= 0) for a in axes):
         raise FieldError("kernel.curves.coordinates-grid-must-increase")
     table = values.reshape(sizes, order="F")

@@ -106,12 +106,8 @@ def unknowns_of(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...]]:
         first = (share,) if share else (*NODE_TRANSLATIONS[zone.mode], *NODE_ROTATIONS[zone.mode])
     second = second or first
     if len(second) != len(first):
-        raise MaterialError(
-            "kernel.elements.impedance-joins-unknowns",
-            n_first=len(first),
-            first=first,
-            n_second=len(second),
-        )
+        told = {"n_first": len(first), "first": first, "n_second": len(second)}
+        raise MaterialError("kernel.elements.impedance-joins-unknowns", **told)
     return tuple(first), tuple(second)
 
 

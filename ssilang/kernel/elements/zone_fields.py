@@ -82,13 +82,8 @@ def carry(values: NDArray[Any], element: str, source: Support, target: Support) 
     if source == "NOEUD" and values.shape[1] == 2 * half:
         values = (values[:, :half] + values[:, half:]) / 2
     if half != values.shape[1]:
-        raise FieldError(
-            "kernel.elements.field-values-cell-element",
-            source=source,
-            n_values=values.shape[1],
-            element=element,
-            n_matrix=half,
-        )
+        told = {"source": source, "n_values": values.shape[1], "element": element, "n_matrix": half}
+        raise FieldError("kernel.elements.field-values-cell-element", **told)
     return values @ matrix.T
 
 

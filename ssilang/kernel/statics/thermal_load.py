@@ -79,11 +79,8 @@ def _check_names(fields: list[object], zones: tuple[Zone, ...]) -> None:
             raise FieldError("kernel.statics.given-strain-of-joints")
         found = {n for z in taking for n in zone_field(z, field).names}
         if not found or not found <= wanted:
-            raise FieldError(
-                "kernel.statics.given-strain-names",
-                given=sorted(found - wanted),
-                wanted=sorted(wanted),
-            )
+            told = {"given": sorted(found - wanted), "wanted": sorted(wanted)}
+            raise FieldError("kernel.statics.given-strain-names", **told)
 
 
 def split_strains(

@@ -24,7 +24,9 @@ from ssilang.kernel.statics.doubled import (
     repeated_cells,
     springs_apart,
 )
+from ssilang.kernel.statics.linear_motion import wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
+from ssilang.kernel.statics.swapped_joints import repeated_joints
 from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
@@ -55,7 +57,8 @@ def warn_connections(
     matrix.cache[_KEY] = True
 
     def tell(code: str, **data: object) -> None:
-        session.warn(code, span, operator=operator, **data)
+        if not session.warned(code, **data):  # of a part of it, in front of another operator
+            session.warn(code, span, operator=operator, **data)
 
     if matrix.blocks and all(b.kind == "MASSE" for b in matrix.blocks):
         tell("operators.matrices.mass-for-stiffness")
@@ -81,8 +84,13 @@ def warn_connections(
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": idle_nodes(springs, matrix),
+        "operators.matrices.relation-sign": wrong_signs(matrix),
+        "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
-    if operator != "VIBR":  # whose modes DYNE may bring into contact
+    if operator == "VIBR":
+        sides = [r.nodes[r.row_start[:-1]][r.sense != 0] for r in matrix.relations]
+        found["operators.matrices.unilateral-held"] = np.concatenate([used[:0], *sides])
+    else:  # modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
             found["operators.matrices.beside-joints"] = beside_joints(matrix, joints)

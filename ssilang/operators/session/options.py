@@ -244,12 +244,8 @@ def _inco(call: Call, word: str) -> None:
         for said in (primal, dual)
     ]
     if len(names[0]) != len(names[1]):
-        raise call.error(
-            "operators.session.unknowns-in-pairs",
-            dual,
-            n_primal=len(names[0]),
-            n_dual=len(names[1]),
-        )
+        told = {"n_primal": len(names[0]), "n_dual": len(names[1])}
+        raise call.error("operators.session.unknowns-in-pairs", dual, **told)
     earlier = workspace(call.session).options.get(word, {})
     _store(call, word, {**earlier, **dict(zip(*names, strict=True))})
 
@@ -306,12 +302,8 @@ def opti(call: Call) -> None:
         raise call.error("operators.session.no-option")
     ws = workspace(call.session)
     if ws.dimension and ws.mode.dimension != ws.dimension:
-        raise call.error(
-            "operators.session.mode-and-dimension",
-            mode=ws.mode.value,
-            dimension=ws.mode.dimension,
-            present=ws.dimension,
-        )
+        told = {"mode": ws.mode.value, "dimension": ws.mode.dimension, "present": ws.dimension}
+        raise call.error("operators.session.mode-and-dimension", **told)
 
 
 def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:

@@ -418,11 +418,8 @@ def body_force(
     blocks = [density] if isinstance(density, NodeField) else density.blocks
     given = [n for block in blocks for n in block.components]
     if not wanted.intersection(given):
-        raise FieldError(
-            "kernel.elements.volume-force-components-field",
-            wanted=sorted(wanted),
-            given=tuple(dict.fromkeys(given)),
-        )
+        told = {"wanted": sorted(wanted), "given": tuple(dict.fromkeys(given))}
+        raise FieldError("kernel.elements.volume-force-components-field", **told)
     out = [_body_force(zone, density, material) for zone in model.zones]
     return total(model.mesh.nodes, out)
 

@@ -152,10 +152,17 @@ def _quadratic_brick_collapses() -> _Collapse:
 
 _COLLAPSES: dict[str, _Collapse] = {
     "SEG2": {((0, 1),): ("POI1", (0,))},
+    "SEG3": {
+        ((0, 1),): ("SEG2", (1, 2)),
+        ((1, 2),): ("SEG2", (0, 1)),
+        ((0, 2),): ("SEG2", (0, 1)),
+    },
     "TRI3": _triangle_collapses(1),
     "TRI6": _triangle_collapses(2),
+    "TRI7": _triangle_collapses(2),
     "QUA4": _polygon_collapses(4, 1, "TRI3"),
     "QUA8": _polygon_collapses(4, 2, "TRI6"),
+    "QUA9": _polygon_collapses(4, 2, "TRI6"),
     "CUB8": _brick_collapses(),
     "CU20": _quadratic_brick_collapses(),
 }
