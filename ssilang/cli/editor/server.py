@@ -219,10 +219,14 @@ def start(language: str) -> None:
     with os.fdopen(os.dup(0), "rb") as reads, os.fdopen(os.dup(1), "wb") as writes:
         os.dup2(2, 1)
         server = make_server(language)
-        # no key waits for a search for garbage among operators and statements, which all stay
-        gc.freeze()
-        gc.set_threshold(200_000, 20, 100)
+        spare_collections()
         server.start_io(reads, writes)
+
+
+def spare_collections() -> None:
+    """No key waits for a search for garbage among operators and statements, which all stay."""
+    gc.freeze()
+    gc.set_threshold(200_000, 20, 100)
 
 
 def make_server(language: str = "en") -> Server:

@@ -40,8 +40,7 @@ def entries_text(declared: Declaration, language: str, width: int) -> list[str]:
         blocks = list(blocks_of(declared, argument.name, language))
         if not blocks:
             continue
-        subtype = next(a.subtype for a in declared.arguments if a.name == argument.name)
-        lines += ["", teller(language)("help.entries", name=argument.name, subtype=subtype)]
+        lines += ["", title_of(declared, argument.name, language)]
         rows = [row for _, rows in blocks for row in rows]
         widths = _widths([heads_of(language), *rows], width)
         lines += _laid_out(heads_of(language), widths)
@@ -68,6 +67,12 @@ def heads_of(language: str) -> Row:
     """Heads of the columns."""
     index, types, unit, default, meaning = map(teller(language), _COLUMNS)
     return index, types, unit, default, meaning
+
+
+def title_of(declared: Declaration, name: str, language: str) -> str:
+    """Title of the entries of an argument."""
+    subtype = next(a.subtype for a in declared.arguments if a.name == name)
+    return teller(language)("help.entries", name=name, subtype=subtype)
 
 
 def blocks_of(
