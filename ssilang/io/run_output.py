@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import errno
+import json
 import os
+import re
+import socket
+import stat
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -16,20 +20,12 @@ from ssilang.io.atomic import fault_on_windows, names_foreign_drive, portable, w
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.messages.message import Sentence
-from ssilang.system import POSIX, system_reason
-
-if TYPE_CHECKING:
-    from ssilang.io.vtk.series import Series
+from ssilang.system import AT_ONCE, GUARDED, POSIX, lock, read_at, system_reason, write_at
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Checkpoints, Deck
     from ssilang.io.recording import Recording
-import json
-import re
-import socket
-import stat
-
-from ssilang.system import AT_ONCE, GUARDED, lock, read_at, write_at
+    from ssilang.io.vtk.series import Series
 
 NAME = ".running"
 _PART = re.compile(r"\..+\.[a-z0-9_]{8}\.part")

@@ -9,13 +9,9 @@ from script_runs import failed, ran
 
 from ssilang.cli.run import RunResult
 from ssilang.io.vtk.series import read_pvd
+from tests.operators.test_drawing_scenes import PLATE as SHEET
 
-PLATE = (
-    "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; L = DROI 4 (0. 0.) (2. 0.) ; S = TRAN L 2 (0. 1.) ; "
-    "X = COOR 1 S ; U = (NOMC 'UX' (0.01 * X)) ET (NOMC 'UY' (-0.02 * X)) ; "
-    "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 1.E9 'NU' 0.3 ; "
-    "SG = SIGM MO MA U ; OPTI SORT 'out' ; "
-)
+PLATE = SHEET + "OPTI SORT 'out' ; "
 
 
 def run(text: str, folder: Path) -> RunResult:

@@ -43,12 +43,18 @@ def pushed():
     return ran(STRIP + PUSH + VERDICT)
 
 
-def test_contact_and_toe_pressure_of_a_strip_are_those_of_statics():
-    got = histories(pushed())
+def of_statics():
+    """The share of a strip in contact and the pressure at its toe, at rest and pushed."""
     e = np.array([0.0, *SHEARS]) / N
     lifted = e > B / 6
     share = np.where(lifted, 3.0 * (0.5 - e / B), 1.0)
     toe = np.where(lifted, 2.0 * N / (3.0 * (B / 2 - e)), N / B * (1.0 + 6.0 * e / B))
+    return share, toe
+
+
+def test_contact_and_toe_pressure_of_a_strip_are_those_of_statics():
+    got = histories(pushed())
+    share, toe = of_statics()
     np.testing.assert_allclose(got["TEMPS"], [1.0, 2.0, 3.0, 4.0])
     np.testing.assert_allclose(got["FORCE"], N, rtol=1e-9)
     np.testing.assert_allclose(got["MOMENT"], [0.0, *(-h for h in SHEARS)], atol=1e-3)
@@ -205,10 +211,7 @@ AT_BASE = PUSH.replace("(FORC (1. 0.) PC)", "((FORC (1. 0.) PC) ET (MOME 'MZ' -1
 def test_a_macro_element_has_the_statics_of_a_strip():
     stiff = f"'KN' {K * B} 'KS' {K} 'LARG' {B}"
     got = verdict(macro("MACRO_SEMELLE", stiff) + AT_BASE + VERDICT)
-    e = np.array([0.0, *SHEARS]) / N
-    lifted = e > B / 6
-    share = np.where(lifted, 3.0 * (0.5 - e / B), 1.0)
-    toe = np.where(lifted, 2.0 * N / (3.0 * (B / 2 - e)), N / B * (1.0 + 6.0 * e / B))
+    share, toe = of_statics()
     np.testing.assert_allclose(got["FORCE"], N, rtol=1e-9)
     assert got["ENFONCEMENT"][1] == pytest.approx(N / (K * B), rel=1e-9)
     np.testing.assert_allclose(got["MOMENT"], [0.0, *(-h for h in SHEARS)], atol=1e-3)

@@ -51,19 +51,24 @@ def script(rule, more=""):
     return text + more
 
 
+def damped(f):
+    """Dampings of modes by their frequencies, and the spectrum there."""
+    x = np.interp(f, [0, 10], [0.02, 0.1])
+    low, high = (  # curves are lines on logarithmic paper
+        np.exp(np.interp(np.log(f), np.log(FREQUENCIES), np.log(s))) for s in SPECTRA.values()
+    )
+    return x, low + (high - low) * (x - 0.02) / 0.08
+
+
 def combined(rule, scale, factor, n_modes=3):
     """Displacements and accelerations of the masses in one direction, and the modal data."""
     squares, shapes = np.linalg.eig(np.linalg.solve(MASS, scale * STIFFNESS))
     order = np.argsort(squares)
     w, shapes = np.sqrt(squares[order]), shapes[:, order]
     f = w / (2 * np.pi)
-    x = np.interp(f, [0, 10], [0.02, 0.1])
-    low, high = (  # curves are lines on logarithmic paper
-        np.exp(np.interp(np.log(f), np.log(FREQUENCIES), np.log(s))) for s in SPECTRA.values()
-    )
-    spectrum = factor * (low + (high - low) * (x - 0.02) / 0.08)
+    x, spectrum = damped(f)
     gamma = shapes.T @ MASS @ np.ones(3) / np.diag(shapes.T @ MASS @ shapes)
-    acceleration = shapes * gamma * spectrum
+    acceleration = shapes * gamma * factor * spectrum
     found = []
     for answers in (acceleration / w**2, acceleration):
         if rule == "DIX_POUR_CENT":
@@ -165,11 +170,7 @@ def test_reactions_and_the_domain():
         np.linalg.solve(MASS[np.ix_(part, part)], STIFFNESS[np.ix_(part, part)])
     )
     f = np.sqrt(squares) / (2 * np.pi)
-    x = np.interp(f, [0, 10], [0.02, 0.1])
-    low, high = (  # curves are lines on logarithmic paper
-        np.exp(np.interp(np.log(f), np.log(FREQUENCIES), np.log(s))) for s in SPECTRA.values()
-    )
-    spectrum = low + (high - low) * (x - 0.02) / 0.08
+    spectrum = damped(f)[1]
     mass = MASS[np.ix_(part, part)]
     gamma = shapes.T @ mass @ np.ones(2) / np.diag(shapes.T @ mass @ shapes)
     answers = shapes * gamma * spectrum / squares

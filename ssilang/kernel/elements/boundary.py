@@ -75,15 +75,10 @@ def require_parents(faces: CellBlock, model: Model) -> Parents:
     return found
 
 
-def space_coordinates(block: CellBlock, mode: Mode) -> FloatArray:
-    """Coordinates (n, k, dim) that a hypothesis uses."""
-    dim = 3 if mode is Mode.THREE_DIMENSIONAL else mode.dimension
-    return block.coordinates[..., :dim]
-
-
 def face_geometry(faces: CellBlock, mode: Mode, harmonic: int = 0) -> SurfaceGeometry:
     """Area vectors of faces (times 2 pi r in axisymmetry, pi r for a harmonic > 0)."""
-    x = space_coordinates(faces, mode)
+    dim = 3 if mode is Mode.THREE_DIMENSIONAL else mode.dimension
+    x = faces.coordinates[..., :dim]
     geometry = surface_geometry(faces.cell_type, x, face_rule(faces.cell_type))
     if mode not in (Mode.AXISYMMETRIC, Mode.FOURIER):
         return geometry

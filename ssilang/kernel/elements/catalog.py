@@ -190,7 +190,7 @@ def support_rule(element: str, support: Support) -> Rule:
     cell = kind.reference_cell
     if support == "NOEUD" or (support == "STRESSES" and kind.family in ("beam", "pipe")):
         n = len(cell.nodes)
-        return Rule(cell.nodes, np.full(n, cell_volume(cell.shape) / n))
+        return Rule(cell.nodes, np.full(n, float(quadrature(cell.shape, 1).weights.sum()) / n))
     if support == "GRAVITE":
         return quadrature(cell.shape, 1)
     if kind.nodal:
@@ -201,8 +201,3 @@ def support_rule(element: str, support: Support) -> Rule:
         return rule
     points, weights = np.tile(rule.points, (kind.layers, 1)), np.tile(rule.weights, kind.layers)
     return Rule(points, weights / kind.layers)
-
-
-def cell_volume(shape: str) -> float:
-    """Measure of a reference domain."""
-    return float(quadrature(shape, 1).weights.sum())

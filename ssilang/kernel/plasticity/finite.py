@@ -41,12 +41,6 @@ from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 
-def is_plane_shell(zone: Zone) -> bool:
-    """Whether a zone is a strip of shells in plane stress or strain."""
-    plane = zone.mode in (Mode.PLANE_STRAIN, Mode.PLANE_STRESS)
-    return plane and ELEMENTS[zone.element].family == "meridian"
-
-
 @dataclass(frozen=True, eq=False)
 class FinitePlaneShell:
     """Strips that are carried by their chords like beams of the plane.
@@ -286,7 +280,8 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
         return finite_beam(zone, material, weights.shape[1])
     if is_space_beam(zone):
         return finite_space_beam(zone, material, weights.shape[1])
-    if is_plane_shell(zone):
+    plane = zone.mode in (Mode.PLANE_STRAIN, Mode.PLANE_STRESS)
+    if plane and ELEMENTS[zone.element].family == "meridian":
         return finite_plane_shell(zone, material, weights.shape[1])
     if is_facet_shell(zone):
         return finite_plate(zone, material, weights.shape[1])

@@ -25,7 +25,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from pathlib import Path
 from typing import Any
 
 from ssilang.language.registry import find_operator
@@ -219,11 +218,6 @@ def is_declared_value(index: str, word: str) -> bool:
 # ---- reading the files ------------------------------------------------------------------------
 
 
-def declaration_file(name: str) -> Path:
-    """Where the entries of a procedure or operator are declared, whether or not they are."""
-    return resource("stdlib") / f"{name.lower()}.toml"
-
-
 def declared_names() -> list[str]:
     """Procedures and operators whose entries are declared."""
     return sorted(p.stem.upper() for p in resource("stdlib").glob("*.toml"))
@@ -234,7 +228,7 @@ def read_declaration(name: str) -> Declaration | None:
     """The declaration of a procedure or operator, None if it has none."""
     import tomllib
 
-    path = declaration_file(name)
+    path = resource("stdlib") / f"{name.lower()}.toml"
     if not path.is_file():
         return None
     data = tomllib.loads(path.read_text(encoding="utf-8"))

@@ -220,15 +220,6 @@ def _complex(call: Call, colours: list[int]) -> Curve:
 # ---- along lines --------------------------------------------------------------------------------
 
 
-def line_abscissas(line: Mesh) -> tuple[IntArray, FloatArray]:
-    """Nodes of a line in order, and their distance from its beginning along it."""
-    kinds = {b.cell_type for b in line.blocks}
-    nodes = line.node_ids if kinds == {"POI1"} else line_chain(line)
-    x = line.nodes.coordinates[nodes]
-    steps = np.linalg.norm(np.diff(x, axis=0), axis=1)
-    return nodes, np.concatenate(([0.0], np.cumsum(steps)))
-
-
 def _along_line(call: Call, colours: list[int]) -> Curve:
     field: NodeField = call.required("CHPOINT")
     said = call.read("MOT")
@@ -237,7 +228,11 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
         said = call.read("MOT")
     name = str(said.value).rstrip() if said is not None else _only(call, field)
     part = component(field, name)
-    nodes, s = line_abscissas(line)
+    kinds = {b.cell_type for b in line.blocks}
+    nodes = line.node_ids if kinds == {"POI1"} else line_chain(line)
+    x = line.nodes.coordinates[nodes]
+    steps = np.linalg.norm(np.diff(x, axis=0), axis=1)
+    s = np.concatenate(([0.0], np.cumsum(steps)))
     missing = ~np.isin(nodes, part.nodes)
     if np.all(missing):
         raise refused_place(call, [field], name, int(nodes[0]))

@@ -47,16 +47,11 @@ def _asked(entries: Entries, table: object, index: str, number: int) -> Asked:
         raise entries.error("operators.modal.component-wanted", place=place, word=word)
     component = words[0]
     title = own.get("TITRE")
+    name = str(table.get("COULEUR") or "").strip().upper()[:4]
     return Asked(
         table, point, component.rstrip(), str(title or component).rstrip(),
-        colour_of(table.get("COULEUR")),
+        (index_of(name) if name in NAMES else 0),
     )  # fmt: skip
-
-
-def colour_of(word: object) -> int:
-    """Index of a colour word, 0 without one."""
-    name = str(word or "").strip().upper()[:4]
-    return index_of(name) if name in NAMES else 0
 
 
 def curve(x: FloatArray, y: FloatArray, names: tuple[str, str], title: str, colour: int) -> Curve:

@@ -112,7 +112,10 @@ def date(
     if part == "CONV":
         if seconds is None:
             raise call.missing(("FLOTTANT",))
-        return Mot(converted(seconds))
+        minutes, rest = divmod(seconds, 60.0)
+        hours, minutes = divmod(int(minutes), 60)
+        days, hours = divmod(hours, 24)
+        return Mot(f"{days:9d}J {hours:02d}H {minutes:02d}min {rest:6.3f}sec".ljust(_WIDTH))
     if part is not None:
         if part == "MOIS" and letters:
             return Mot(_MONTHS[now.month - 1])
@@ -122,11 +125,3 @@ def date(
     if letters:
         said = f"{now.day} {_MONTHS[now.month - 1]} {now.year} - {now.hour:02d}H{now.minute:02d}min"
     return Mot(said.ljust(_WIDTH))
-
-
-def converted(seconds: float) -> str:
-    """Seconds as days, hours, minutes and seconds, as wide as a date."""
-    minutes, rest = divmod(seconds, 60.0)
-    hours, minutes = divmod(int(minutes), 60)
-    days, hours = divmod(hours, 24)
-    return f"{days:9d}J {hours:02d}H {minutes:02d}min {rest:6.3f}sec".ljust(_WIDTH)

@@ -3,44 +3,31 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.curves.curve import LoadPart
-from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
+from ssilang.kernel.elements.families import family_of, strain
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.matrices.assembly import Numbering, field_to_vector, vector_to_field
 from ssilang.operators.prelude import *
+from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.driven_load import Trace
-    from ssilang.kernel.plasticity.following import Control, PathRun
+    from ssilang.kernel.plasticity.following import Control, PathRun, Split
     from ssilang.kernel.plasticity.run import BulkRun
     from ssilang.kernel.stepping.run import History
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-from numpy.typing import NDArray
-
-from ssilang.kernel.elements.families import family_of, strain
-from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.matrices.assembly import vector_to_field
-from ssilang.operators.session.user_procedures import call_user
-
-if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.following import Control, Split
 
 
 FLAT = 1e-12
 """Slope over the greatest one that no longer moves a control."""
 SEARCHES = 30
-
-
-def users_own(entries: Entries, name: str) -> bool:
-    """Whether the script has its own procedure of this name."""
-    return isinstance(entries.call.session.frame.find(name), Procedure)
 
 
 # --- strains at points -----------------------------------------------------------------------
@@ -129,7 +116,7 @@ def ends_of(a: FloatArray, b: FloatArray, asked: float) -> list[float]:
 
 def indirect_control(entries: Entries, numbering: Numbering) -> Callable[[float], Control]:
     """The control of a step from what it must reach: the script's PILOINDI, or strains."""
-    if users_own(entries, "PILOINDI"):
+    if isinstance(entries.call.session.frame.find("PILOINDI"), Procedure):
         return lambda asked: _by_procedure(entries, numbering, asked)
     points = strain_points(entries, numbering)
 

@@ -6,7 +6,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -54,6 +54,18 @@ def line_zone(element, points, mode, behaviour=ELASTIC):
     ids = table.add(np.asarray(points, float))
     block = CellBlock.make(table, "SEG2", np.column_stack([ids[:-1], ids[1:]]))
     return Zone(block, "MECANIQUE", behaviour, element, mode)
+
+
+TILT = np.linalg.qr(np.random.default_rng(9).standard_normal((3, 3)))[0]
+
+
+def tilted_plate(element, behaviour=ELASTIC):
+    """Two triangles of one plane in space, the second walked the other way."""
+    table = NodeTable()
+    x = np.array([[0, 0, 0], [2, 0.3, 0], [1.7, 1.5, 0], [0.1, 1.2, 0]]) @ TILT.T
+    ids = table.add(x)
+    cells = CellBlock.make(table, "TRI3", ids[[[0, 1, 2], [0, 3, 2]]])
+    return Zone(cells, "MECANIQUE", behaviour, element, Mode.THREE_DIMENSIONAL)
 
 
 def material(zone, **values):

@@ -24,7 +24,7 @@ from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from tests.kernel.elements.samples import cell_zone, material
+from tests.kernel.elements.samples import TILT, cell_zone, material, tilted_plate
 
 WOOD = {"YG1": 12e9, "YG2": 1e9, "YG3": 0.8e9, "NU12": 0.3, "NU23": 0.4, "NU13": 0.25,
         "G12": 0.7e9, "G23": 0.1e9, "G13": 0.6e9}  # fmt: skip
@@ -181,22 +181,10 @@ def test_radial_axes_in_space_run_along_the_axis_then_towards_it():
         axis_parameters(zone, Directions(a, None, radial=True))
 
 
-TILT = np.linalg.qr(np.random.default_rng(9).standard_normal((3, 3)))[0]
-
-
-def plate(kind="ORTHOTROPE"):
-    """Two triangles of one plane in space, the second walked the other way."""
-    table = NodeTable()
-    x = np.array([[0, 0, 0], [2, 0.3, 0], [1.7, 1.5, 0], [0.1, 1.2, 0]]) @ TILT.T
-    ids = table.add(x)
-    cells = CellBlock.make(table, "TRI3", ids[[[0, 1, 2], [0, 3, 2]]])
-    return Zone(cells, "MECANIQUE", ("ELASTIQUE", kind), "DKT", SPACE)
-
-
 @pytest.mark.parametrize("radial", [False, True])
 @pytest.mark.parametrize("outside", [None, 1.0])
 def test_first_axes_of_shells_are_projections_turned_about_the_side_named(radial, outside):
-    zone = plate()
+    zone = tilted_plate("DKT", ("ELASTIQUE", "ORTHOTROPE"))
     up = TILT[:, 2]
     given = Directions(FIRST, None, radial, 25.0, None if outside is None else up + 0.1 * FIRST)
     values = axis_parameters(zone, given)[0]
@@ -214,7 +202,7 @@ def test_first_axes_of_shells_are_projections_turned_about_the_side_named(radial
 
 
 def test_moduli_of_shells_turn_with_their_axes():
-    zone = plate()
+    zone = tilted_plate("DKT", ("ELASTIQUE", "ORTHOTROPE"))
     given = {k: WOOD[k] for k in ("YG1", "YG2", "NU12", "G12", "G13", "G23")} | {"EPAI": 0.2}
     field = with_axes(zone, Directions(FIRST, None, angle=10.0), **given)
     seen = zone_field(zone, field)

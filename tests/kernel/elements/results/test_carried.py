@@ -21,7 +21,7 @@ from ssilang.kernel.materials.axes import integration_points
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from tests.kernel.elements.samples import ELASTIC, line_zone, model
+from tests.kernel.elements.samples import ELASTIC, TILT, line_zone, model, tilted_plate
 
 COARSE = np.array([[0, 0], [4, 0], [4, 3], [0, 3], [8, 0], [8, 3]])
 
@@ -109,17 +109,6 @@ def test_models_take_values_at_their_points_or_in_the_mean_of_squares(source, mo
 
 # --- axes in the surface of shells
 
-TILT = np.linalg.qr(np.random.default_rng(9).standard_normal((3, 3)))[0]
-
-
-def plate(element):
-    table = NodeTable()
-    x = np.array([[0, 0, 0], [2, 0.3, 0], [1.7, 1.5, 0], [0.1, 1.2, 0]]) @ TILT.T
-    ids = table.add(x)
-    cells = CellBlock.make(table, "TRI3", ids[[[0, 1, 2], [0, 3, 2]]])
-    return Zone(cells, "MECANIQUE", ELASTIC, element, Mode.THREE_DIMENSIONAL)
-
-
 FIRST, OTHER = np.array([1.0, 2.0, 0.5]), np.array([0.3, -1.0, 2.0])
 
 
@@ -127,7 +116,7 @@ FIRST, OTHER = np.array([1.0, 2.0, 0.5]), np.array([0.3, -1.0, 2.0])
 @pytest.mark.parametrize("said", ["plain", "toward", "normal", "otherwise"])
 @pytest.mark.parametrize("element", ["DKT", "DST"])
 def test_forces_and_strains_of_shells_turn_with_the_axes(strains, said, element):
-    zone = plate(element)
+    zone = tilted_plate(element)
     frames = flat_frames(zone)[0]
     names = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST", "GASN", "GATN") if strains else (
         "N11", "N22", "N12", "M11", "M22", "M12", "V1", "V2")  # fmt: skip

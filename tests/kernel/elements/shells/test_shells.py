@@ -219,24 +219,6 @@ def test_long_cylinder_under_pressure_and_clamped_at_one_end():
     np.testing.assert_allclose(stress.components["N22"][60], p * R, rtol=1e-3)
 
 
-def test_ring_buckles_at_n_squared_d_over_r_cubed_under_dead_pressure():
-    R, n, young = 1000.0, 2, 20000.0
-    z = np.linspace(0, 100, 5)
-    zone = line_zone("COQ2", np.column_stack([R + 0 * z, z]), Mode.FOURIER)
-    zone.options["harmonic"] = n
-    mat = material(zone, YOUN=young, NU=0.0, EPAI=1.0)
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
-    hoop = CellField((material(zone, N22=R).blocks[0],))
-    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, hoop),))
-    numbering = numbering_of(K, G)
-    ends = np.isin(numbering.nodes, [0, 4])
-    axial = np.array([numbering.name(i)[:2] in ("UZ", "RT") for i in range(numbering.size)])
-    free = ~(ends & axial)
-    k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
-    load = 1 / np.linalg.eigvals(np.linalg.solve(k, g)).real.max()
-    assert load == pytest.approx(n**2 * young / 12 / R**3, rel=1e-5)
-
-
 def test_strip_in_plane_stress_is_a_beam():
     zone = line_zone("COQ2", [(0, 0), (0.6, 0.8)], Mode.PLANE_STRESS)
     mat = material(zone, YOUN=E, NU=NU, EPAI=H, DIM3=0.2)
