@@ -4,7 +4,7 @@ RUN apt-get update && apt-get install -y --no-install-recommends libegl1 libgl1-
 WORKDIR /ssilang
 COPY . .
 FROM tree AS tests
-RUN python3 -m venv .venv && .venv/bin/pip install --no-compile -e '.[test]' && .venv/bin/python -m pytest
+RUN python3 -m venv .venv && .venv/bin/pip install uv && .venv/bin/uv pip install -p .venv -e '.[test]' && .venv/bin/python -m pytest
 FROM tree
 RUN python3 -m venv .venv && .venv/bin/pip install . && .venv/bin/ssilang cases/club_cast3m_2014/club_b_sdm.ssi
 ENTRYPOINT ["/ssilang/.venv/bin/ssilang"]

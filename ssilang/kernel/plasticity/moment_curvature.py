@@ -132,10 +132,5 @@ def _balanced(
         step = newton if low < newton < high else 0.5 * (low + high)
         if np.isfinite(high - low) and high - low <= 1e-15 * max(abs(low), abs(high), 1e-12):
             return step, answer(step)
-    raise ConvergenceError(
-        "kernel.plasticity.section-not-find-normal",
-        force=force,
-        row=row + 1,
-        rest=rest,
-        turns=TURNS,
-    )
+    told = {"force": force, "row": row + 1, "rest": rest, "turns": TURNS}
+    raise ConvergenceError("kernel.plasticity.section-not-find-normal", **told)

@@ -205,13 +205,14 @@ def as_written(word: str) -> str:
 
 
 def is_declared_value(index: str, word: str) -> bool:
-    """Whether some procedure's entry of that index takes the word, as it is written."""
+    """Whether some procedure's entry of that index takes the word, as it is written, or any."""
     declared = (read_declaration(name) for name in declared_names())
     return any(
-        entry.index == index and word in (*entry.values, *(entry.older or ()))
+        word in (*entry.values, *(entry.older or ())) if entry.values else "MOT" in entry.types
         for declaration in declared
         if declaration is not None
         for entry in declaration.entries
+        if entry.index == index
     )
 
 

@@ -235,10 +235,6 @@ def _older_times(entries: Entries) -> tuple[FloatArray, NDArray[np.bool_]]:
 
 
 def _inputs(entries: Entries, times: FloatArray) -> Inputs:
-    if entries.flag("ECON"):
-        entries.warn("operators.dynamics.results-stay-in-memory")
-    if entries.flag("SAUV"):
-        entries.warn("operators.dynamics.steps-not-written")
     get = entries.get
     return Inputs(
         entries.needed("RIGI"), times, get("MASS"), get("AMOR"), get("CHAR"), get("DEPL"),

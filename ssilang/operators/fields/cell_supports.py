@@ -51,6 +51,7 @@ def chan_support(
 
 @CHAN.form(said("CHAM"))
 def chan_cells(
+    call: Call,
     field: NodeField | CellField = _SOURCE,
     place: Model | Mesh = Arg("MMODEL", "MAILLAGE", en="model or mesh"),
     support: str = Choice(SUPPORTS, default="NOEUD", en="points of the result"),
@@ -58,6 +59,8 @@ def chan_cells(
 ) -> CellField:
     """Nodal field to field in cells."""
     if isinstance(place, Mesh):
+        if support != "NOEUD":
+            call.warn("operators.fields.mesh-has-nodes-alone", support=support)
         return cells_of_mesh(place, cast(NodeField, field), _trimmed(title) or "")
     if isinstance(field, CellField):
         return moved(place, field, cast(Support, support), _trimmed(title))

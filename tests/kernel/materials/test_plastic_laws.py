@@ -212,12 +212,15 @@ def test_saturating_bar_follows_simo_and_hughes_and_grows_both_ways() -> None:
     assert found == pytest.approx([0.5, strength(first), -strength(second)], rel=1e-9)
 
 
-def test_a_saturation_that_sinks_is_refused() -> None:
+def test_a_saturation_that_sinks_is_refused_and_none_that_never_comes() -> None:
     given = parameters("J2", 1)
-    sinking = PointParameters({**given.values, "SIGI": np.array([0.5])}, given.curves)
+    sinking = PointParameters({**given.values, "SIGI": np.array([0.0])}, given.curves)
     with pytest.raises(MaterialError) as caught:
         check_parameters(PLASTIC_LAWS["J2"], sinking)
     assert caught.value.code == "kernel.materials.saturation-sinks"
+    check_parameters(
+        PLASTIC_LAWS["J2"], replace(sinking, values={**sinking.values, "VELO": np.zeros(1)})
+    )
 
 
 def test_drucker_bar_has_the_strengths_given() -> None:

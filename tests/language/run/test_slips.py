@@ -12,6 +12,8 @@ SPELLINGS = ("'MASSE'", "MASSE", "masse", "(MOT 'MASSE')", "MOT 'MASSE'", "W")
 def test_an_entry_takes_its_declared_word_though_an_operator_has_that_name(value, run):
     script = run(f"W = MOT 'MASSE' ; T = TABL ; T . 'VITEUNIL' = {value} ;")
     assert script.at("T", "VITEUNIL").upper() == "MASSE"
+    free = run(f"W = MOT 'MASSE' ; T = TABL ; T . 'MOVA' = {value} ;")  # any variable's name
+    assert free.at("T", "MOVA").upper() == "MASSE"
 
 
 @pytest.mark.parametrize("value", ["'MASSE'", "MASSE"])

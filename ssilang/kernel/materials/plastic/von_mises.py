@@ -100,8 +100,9 @@ def check_saturating(parameters: PointParameters) -> None:
     ------
     MaterialError
     """
-    sinking = (parameters["KISO"] < 0) | (parameters["VELO"] < 0)
-    if sinking.any() or (parameters["SIGI"] < parameters["SIG0"]).any():
+    slope, rate = parameters["KISO"], parameters["VELO"]
+    falls = (rate > 0) & (parameters["SIGI"] < parameters["SIG0"])
+    if (falls | (slope < 0) | (rate < 0)).any():
         raise MaterialError("kernel.materials.saturation-sinks").about("SIGI", "KISO", "VELO")
 
 
