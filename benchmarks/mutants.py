@@ -70,6 +70,7 @@ WORD = 1.6  # what naming the operator counts, of naming the function
 OFTEN = 6  # operators that may share a word of theirs
 COMPILES = 3.0  # times the limit: what a fault changes, and all that calls it, is compiled first
 DATA = (".forms", ".ssi", ".toml", ".txt")
+WRITES = "_code.py"  # LLVM's code of functions that are `written`
 SERVED = "ssilang/cli/editor/"  # its tests speak to a server, a process that imports the copy
 CASE = 4  # files whose tests go before one more case of a test
 NONE = "none is near"
@@ -393,7 +394,9 @@ def near(fault: Fault, texts: dict[str, set[str]], callers: Callers) -> list[str
 
 
 def compiled(fault: Fault) -> bool:
-    """Whether it is in a function that is compiled: callers keep its machine code."""
+    """Whether it is in a function that is compiled, or writes code: callers keep what it makes."""
+    if fault.path.endswith(WRITES):
+        return True
     tree = ast.parse((ROOT / fault.path).read_text(encoding="utf-8"))
     return any(
         re.match("compiled|apart|seldom", ast.unparse(decorator))

@@ -15,6 +15,7 @@ from typing import Any
 import block_3d_openseespy as block
 import numpy as np
 
+from ssilang.kernel.contact import solver
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import InterfaceState
 from ssilang.kernel.stepping import choose
@@ -83,7 +84,7 @@ def main() -> None:
     """Both figures."""
     steps = int(sys.argv[1]) if sys.argv[1:] else 60
     block.joints, block.push_at = rubbing, lambda t: PUSH * np.cos(4 * np.pi * t)
-    choose.RULES, choose.step_solver = choose.only("condensed"), lambda p, e: Twice(p, e)
+    choose.RULES, solver.step_solver = choose.only("condensed"), Twice
     case = made(steps)
     integrate(make_problem(block.inputs_of(case)[0]), [])
     assert Twice.gap < 1e-8, Twice.gap

@@ -5,11 +5,12 @@
 
 The model of `block_3d_openseespy.py` on 12^3 bricks with Rayleigh damping, under pushes of growing
 strength; by default 10 motions of 1 000 steps, of which the peer makes 5 steps of the first and
-last motion. Each side is a process of its own, from its start to the last answer, as a user waits
-for it: imports, model, factor or basis, all motions. The peer's time for the suite is its time
-before the first step, for each motion, and its seconds a step times all steps. All run on one
-thread; seconds are those of the processor, which other work on the machine changes less, and by
-the clock for the whole suites.
+last motion. Kept of a motion are the displacements of a corner of the block's top at all steps. The
+step's factor is kept from motion to motion, as `ssilang sweep` does. Each side is a process of its
+own, from its start to the last answer, as a user waits for it: imports, model, factor or basis, all
+motions. The peer's time for the suite is its time before the first step, for each motion, and its
+seconds a step times all steps. All run on one thread; seconds are those of the processor, which
+other work on the machine changes less, and by the clock for the whole suites.
 
 Ratios are printed only if the displacements of a corner of the block's top agree with the peer's
 within 1e-6 of the largest one (whole), and the reduced motions with the whole ones within the
@@ -25,11 +26,22 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from block_3d_openseespy import AGREEMENT, DT, PEER_SOLVERS, Top, inputs_of, make_case, peer_model
+from block_3d_openseespy import (
+    AGREEMENT,
+    AXES,
+    DT,
+    PEER_SOLVERS,
+    Case,
+    inputs_of,
+    make_case,
+    peer_model,
+)
 
 from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.solvers.backends import keep_factors
 from ssilang.kernel.stepping.problem.problem import Problem, make_problem
 from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.track import Track
 
 CELLS, ALPHA, BETA = 12, 0.3, 1e-3  # bricks a side; Rayleigh's damping, 1/s and s
 TOLERANCE = 1e-2
@@ -40,14 +52,20 @@ def strength(number: int, count: int) -> float:
     return 0.4 + 0.6 * number / max(count - 1, 1)
 
 
-def problem_of(steps: int) -> tuple[Problem, Top]:
-    """The damped model under a push of strength 1, and what watches its corner."""
+def corner(case: Case) -> int:
+    """The node of a corner of the block's top."""
+    return int(case.block[0, 0, -1])
+
+
+def problem_of(steps: int) -> tuple[Problem, np.ndarray]:
+    """The damped model under a push of strength 1, and the unknowns of its corner."""
     case = make_case(CELLS, steps)
     inputs = inputs_of(case)[0]
     K, M = inputs.stiffness, inputs.mass
     assert M is not None
     C = Matrix(case.table, M.scaled(ALPHA).blocks + K.scaled(BETA).blocks)
-    return make_problem(replace(inputs, damping=C)), Top(case)
+    problem = make_problem(replace(inputs, damping=C))
+    return problem, np.array([problem.numbering.index_of(corner(case), name) for name in AXES])
 
 
 def motion(problem: Problem, factor: float) -> Problem:
@@ -61,20 +79,21 @@ def own(way: str, count: int, steps: int) -> dict[str, Any]:
     """All motions here, `reduced` or `whole`."""
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 
-    problem, top = problem_of(steps)
+    keep_factors(1)
+    problem, at = problem_of(steps)
     values, seconds, said = [], [], []
     for i in range(count):
         started = time.process_time()
-        top.values = []
+        track = Track(np.ones(steps + 1, bool), np.sort(at))
         of_motion = motion(problem, strength(i, count))
         if way == "reduced":
-            made = integrate_reduced(of_motion, TOLERANCE, [top]).reduction
+            made = integrate_reduced(of_motion, TOLERANCE, [track]).reduction
             assert made is not None
             said.append([made.vectors, made.estimate, str(made.refused or "")])
         else:
-            integrate(of_motion, [top])
+            integrate(of_motion, [track])
+        values.append(track.values("u", at).tolist())
         seconds.append(time.process_time() - started)
-        values.append(top.values)
     return {"values": values, "seconds": seconds, "said": said, "unknowns": problem.numbering.size}
 
 
@@ -85,7 +104,7 @@ def peer(solver: str, factor: float, steps: int) -> dict[str, Any]:
     case = make_case(CELLS, steps)
     peer_model(case, inputs_of(case)[1], solver, factor)
     ops.rayleigh(ALPHA, 0.0, BETA, 0.0)
-    node = int(case.block[0, 0, -1]) + 1
+    node = corner(case) + 1
     values, seconds = [[0.0] * 3], []
     for _ in range(steps):
         started = time.process_time()

@@ -34,14 +34,9 @@ def one_blas_thread() -> None:
         os.environ.setdefault(name, "1")
     numpy = sys.modules.get("numpy")
     if numpy is not None and getattr(numpy, "__file__", None):
-        _tell_loaded(Path(str(numpy.__file__)).parent)
-
-
-def _tell_loaded(package: Path) -> None:
-    """Set the threads of the OpenBLAS that came with a package already imported."""
-    for library in _openblas(package):
-        if setter := _first_of(library, _SETTERS):
-            setter(1)
+        for library in _openblas(Path(str(numpy.__file__)).parent):
+            if setter := _first_of(library, _SETTERS):
+                setter(1)
 
 
 def blas(package: Path) -> tuple[str, int]:

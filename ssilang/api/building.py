@@ -82,14 +82,8 @@ class Part:
         ends = {2: ("left", "right", "bottom", "top"), 3: _SIDES}[max(self.ids.ndim, 2)]
         if side not in ends:
             near = nearest(side, ends, SHORT_LIKE)
-            raise refused(
-                "api.no-such-side",
-                self.language,
-                MissingKey,
-                side=side,
-                near=near,
-                known=list(ends),
-            )
+            told = {"side": side, "near": near, "known": list(ends)}
+            raise refused("api.no-such-side", self.language, MissingKey, **told)
         axis, last = divmod(ends.index(side), 2)
         found: IntArray = np.take(self.ids, -1 if last else 0, axis=self.ids.ndim - 1 - axis)
         return found
@@ -466,10 +460,6 @@ def _nearest(builder: Builder, nodes: IntArray, at: FloatArray) -> int:
     distance = np.linalg.norm(x - np.pad(at, (0, 3 - len(at))), axis=1)
     i = int(distance.argmin())
     if distance[i] > _SAME_PLACE * np.ptp(x, axis=0).max():
-        raise refused(
-            "api.no-node-there",
-            builder.language,
-            nearest=table.told(int(nodes[i])),
-            distance=distance[i],
-        )
+        told = {"nearest": table.told(int(nodes[i])), "distance": distance[i]}
+        raise refused("api.no-node-there", builder.language, **told)
     return int(nodes[i])

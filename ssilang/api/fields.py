@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from pyvista import UnstructuredGrid
     from xarray import Dataset
 
-    from ssilang.io.vtk.grid import Grid
-
 
 class PointView(View[Point]):
     """A POINT."""
@@ -93,23 +91,20 @@ class MeshView(View[Mesh]):
 
         nodal = {n: f.held for n, f in fields.items() if isinstance(f, FieldView)}
         inside = {n: f.held for n, f in fields.items() if isinstance(f, CellFieldView)}
-        return _grid(grid_of(self.held, nodal, inside), self.language)
+        made = grid_of(self.held, nodal, inside)
+        pv = library("pyvista", self.language)
+        sizes = np.diff(made.offsets, prepend=0)
+        starts = made.offsets - sizes
+        cells = np.insert(made.connectivity, starts, sizes)
+        grid = pv.UnstructuredGrid(cells, made.types, made.points)
+        for data, arrays in ((grid.point_data, made.point_data), (grid.cell_data, made.cell_data)):
+            for name, array in arrays.items():
+                data[name] = array.values
+        return grid
 
     def __repr__(self) -> str:
         kinds = ", ".join(f"{len(b)} {b.cell_type}" for b in self.held.blocks)
         return f"<MAILLAGE {kinds or 'empty'}, {len(self.nodes)} nodes>"
-
-
-def _grid(made: Grid, language: str) -> UnstructuredGrid:
-    pv = library("pyvista", language)
-    sizes = np.diff(made.offsets, prepend=0)
-    starts = made.offsets - sizes
-    cells = np.insert(made.connectivity, starts, sizes)
-    grid = pv.UnstructuredGrid(cells, made.types, made.points)
-    for data, arrays in ((grid.point_data, made.point_data), (grid.cell_data, made.cell_data)):
-        for name, array in arrays.items():
-            data[name] = array.values
-    return grid
 
 
 class FieldView(View[NodeField]):

@@ -40,7 +40,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if named:
             reader.refuse("cli.usage-no-file")
         options.command, options.file = ("repl" if sys.stdin.isatty() else "run"), "-"
-    _open_streams()
+    # streams that were closed before (`>&-`): printing to them is an error
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, _Closed())
     if (gone := _folder_gone(getattr(options, "lang", "en"))) is not None:
         return gone
     for stream in (sys.stdout, sys.stderr):  # a terminal without accents must not stop a run
@@ -94,13 +97,6 @@ def _command_first(words: list[str]) -> list[str]:
     if not leads or words[length : length + 1] == [] or words[length] not in _LEADING:
         return words
     return [words[length], *words[:length], *words[length + 1 :]]
-
-
-def _open_streams() -> None:
-    """Streams in place of those that were closed before (`>&-`); printing to them is an error."""
-    for name in ("stdout", "stderr"):
-        if getattr(sys, name) is None:
-            setattr(sys, name, _Closed())
 
 
 class _Closed(io.TextIOBase):

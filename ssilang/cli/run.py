@@ -260,13 +260,15 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     _tell_refused_folders(session)
     if options.verbose:
         _tell_plain_numba(session)
+    from ssilang.operators.files.outputs import run_output
+
     refused = any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
         with session.hold():  # files end whole
             _end_recording(session, errors)
             _close_files(session, errors)
             if not errors:
-                _forget_checkpoints(session)
+                run_output(session).forget_checkpoints()  # the deck came to its end
     _flush(out, errors)
     left = any(e.code == "reader-left" for e in errors)
     names = session.frame.names() | session.library.standard_names
@@ -282,7 +284,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         _summarise(result, source, err, options.quiet, again["warning"])
         if options.report:
             _report(result, err, options.quiet)
-    _release_folder(session)
+    run_output(session).release()
     return result
 
 
@@ -381,19 +383,6 @@ def _tell_checkpoints(session: Session) -> None:
     told = any(w.code == "operators.dynamics.checkpoint-left" for w in session.warnings)
     if kept is not None and kept.kept and not told:
         session.warn("cli.checkpoints-left", None, folder=kept.folder)
-
-
-def _forget_checkpoints(session: Session) -> None:
-    """A deck that came to its end needs them no more; the others may be gone on with."""
-    from ssilang.operators.files.outputs import run_output
-
-    run_output(session).forget_checkpoints()
-
-
-def _release_folder(session: Session) -> None:
-    from ssilang.operators.files.outputs import run_output
-
-    run_output(session).release()
 
 
 def _flush(out: TextIO, errors: list[SsiError]) -> None:

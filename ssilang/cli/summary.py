@@ -53,7 +53,16 @@ def write_summary(
         "warnings": [_message(w, session.language) for w in session.warnings],
         "errors": [_message(e, session.language) for e in errors],
         "pictures": [p.as_posix() for p in pictures_among(Path(f["path"]) for f in files)],
-        "figures": [_figure(c) for c in session.checks],
+        "figures": [
+            {
+                "name": c.name,
+                "value": c.value,
+                "expected": c.expected,
+                "tolerance": c.tolerance,
+                "ok": is_within(c),
+            }
+            for c in session.checks
+        ],
         "units": None if units is None else {"system": units.name, **units.base()},
         "statistics": session.statistics,
     }
@@ -90,16 +99,6 @@ def is_within(check: Check) -> bool | None:
     if check.expected is None or check.tolerance is None:
         return None
     return abs(check.value - check.expected) <= check.tolerance
-
-
-def _figure(check: Check) -> dict[str, Any]:
-    return {
-        "name": check.name,
-        "value": check.value,
-        "expected": check.expected,
-        "tolerance": check.tolerance,
-        "ok": is_within(check),
-    }
 
 
 def plain(value: Any) -> Any:

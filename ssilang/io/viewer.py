@@ -134,18 +134,14 @@ class _OneFile:
         self._reader.Update()
         found = pyvista.wrap(self._reader.GetOutput())
         for part in found if isinstance(found, pyvista.MultiBlock) else (found,):
-            _name_components(part)
+            # names of components stand in the field data of our files
+            for told in part.field_data:
+                array, sign, name = told.rpartition(COMPONENT)
+                for place in (part.point_data, part.cell_data):
+                    if sign and array in place:
+                        column = int(part.field_data[told][0]) - 1
+                        place.VTKObject.GetAbstractArray(array).SetComponentName(column, name)
         return found
-
-
-def _name_components(data: Any) -> None:
-    """Give arrays the names of their components, which stand in the field data of our files."""
-    for told in data.field_data:
-        array, sign, name = told.rpartition(COMPONENT)
-        for place in (data.point_data, data.cell_data):
-            if sign and array in place:
-                column = int(data.field_data[told][0]) - 1
-                place.VTKObject.GetAbstractArray(array).SetComponentName(column, name)
 
 
 def _other(path: Path) -> Any:
@@ -270,7 +266,7 @@ class _Scene:
 
     def frames(self) -> Iterator[bytes]:
         """Pictures of all instants, colours and scale common."""
-        self._range = _common_range([self._coloured(k) for k in range(len(self.series.times))])
+        self._range = _common_range([self._found(k)[2] for k in range(len(self.series.times))])
         for row in range(len(self.series.times)):
             yield self.picture(row)
 
@@ -336,9 +332,6 @@ class _Scene:
         rows = {self.last, len(self.series.times) - 1, len(self.series.times) // 2}
         found = [_steps(self.series.at(k)) for k in rows]
         return max(float(np.linalg.norm(s, axis=1).max(initial=0)) for s in found if s is not None)
-
-    def _coloured(self, row: int) -> Any:
-        return self._found(row)[2]
 
     def _found(self, row: int) -> tuple[Any, str, Any]:
         """Data set, name and values (n,) of what colours it at an instant."""

@@ -24,21 +24,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if words[:1] in (["install"], ["-h"], ["--help"]):
             return _install(words)
-        _launch(words)
+        from ipykernel.kernelapp import IPKernelApp
+
+        from ssilang.jupyter.kernel import GibianeKernel
+
+        IPKernelApp.launch_instance(argv=words, kernel_class=GibianeKernel)
     except ModuleNotFoundError as missing:
         if str(missing.name).partition(".")[0] not in ("ipykernel", "jupyter_client"):
             raise
         sys.stderr.write(render(SsiError("jupyter.extra", None)) + "\n")
         return 2
     return 0
-
-
-def _launch(words: list[str]) -> None:
-    from ipykernel.kernelapp import IPKernelApp
-
-    from ssilang.jupyter.kernel import GibianeKernel
-
-    IPKernelApp.launch_instance(argv=words, kernel_class=GibianeKernel)
 
 
 def _install(words: list[str]) -> int:

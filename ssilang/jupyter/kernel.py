@@ -224,7 +224,9 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         for picture in made[self._pictures :]:
             data: dict[str, Any] = {"text/plain": picture.path.name}
             if (png := picture._repr_png_()) is not None:
-                data["image/png"] = _base64(png)
+                from base64 import b64encode
+
+                data["image/png"] = b64encode(png).decode("ascii")
             elif (svg := picture._repr_svg_()) is not None:
                 data["image/svg+xml"] = svg
             self._display(data)
@@ -311,9 +313,3 @@ def _goes_on(code: str) -> bool:
 
 def _begins(candidate: Candidate, typed: str) -> bool:
     return candidate.text.lstrip("'").upper().startswith(typed.lstrip("'").upper())
-
-
-def _base64(data: bytes) -> str:
-    from base64 import b64encode
-
-    return b64encode(data).decode("ascii")

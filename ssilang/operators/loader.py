@@ -55,7 +55,8 @@ def prepare_operators() -> None:
     if any(index_of_all().values()):
         load_operators()
         return
-    tables = remembered("operators", _state(), _index)
+    # names, times and sizes tell of a change of any module
+    tables = remembered("operators", " ".join(_stamps(package.__path__[0])), _index)
     modules = [f"{package.__name__}.{name}" for name in tables.pop("modules")]
     Filled.expect(
         {
@@ -90,11 +91,6 @@ def index_of_all() -> Index:
         ours = {k: tuple(m for m in v if m.startswith(package.__name__)) for k, v in orders.items()}
         found[name] = {key: order for key, order in ours.items() if order}
     return found
-
-
-def _state() -> str:
-    """What tells of a change of any module: names, times and sizes."""
-    return " ".join(_stamps(package.__path__[0]))
 
 
 def _stamps(folder: str) -> Iterator[str]:

@@ -17,7 +17,7 @@ from ssilang.io.atomic import write_text
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.messages.message import Teller, teller
-from ssilang.report.charts import Chart, charts_html, charts_of
+from ssilang.report.charts import charts_html, charts_of
 from ssilang.report.html import (
     Colours,
     asset,
@@ -59,7 +59,7 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
     pictures = _pictures(results, told)
     rest = [
         section("verdict", told("report.verdict"), verdict_html(results, charts, told)),
-        *_chart_sections(charts, told),
+        *[section(g, told(c), charts_html(charts, g, told)) for g, c in _SECTIONS.items()],
         section("largest", told("report.largest"), _largest(results, told)),
         section("pictures", told("report.pictures"), pictures),
         section("runs", told("report.calculations"), _calculations(results, told)),
@@ -281,10 +281,6 @@ _SECTIONS = {
     "curves": "report.curves",
     "tables": "report.tables",
 }
-
-
-def _chart_sections(charts: list[Chart], told: Teller) -> list[str]:
-    return [section(g, told(c), charts_html(charts, g, told)) for g, c in _SECTIONS.items()]
 
 
 _KINDS = {

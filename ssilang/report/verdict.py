@@ -44,24 +44,22 @@ def verdict_html(results: Results, charts: Sequence[Chart], told: Teller) -> str
     for i, verdict in enumerate(verdicts, 1):
         if len(verdicts) > 1:
             made.append(f"<h3>{text(told('report.footing-number', number=i))}</h3>")
-        made.append(_figures(verdict, told))
+        rows = []
+        for name, peak in verdict["peaks"].items():
+            rows.append(
+                (text(told(_PEAKS[name])), _marked(name, peak["value"]), number(peak["time"]))
+            )
+        for name, value in verdict["left"].items():
+            rows.append((text(told(_LEFT[name])), number(value), ""))
+        rows.append((text(told("report.area")), number(verdict["area"]), ""))
+        for key, code in _GIVEN.items():
+            if verdict[key] is not None:
+                rows.append((text(told(code)), number(verdict[key]), ""))
+        heads = (told("report.quantity"), told("report.value"), told("report.time"))
+        made.append(table(heads, rows, (1, 2)))
         if verdict["floors"]:
             made.append(_floors(verdict["floors"], told))
     return "".join(made) + charts_html(charts, "verdict", told)
-
-
-def _figures(verdict: dict[str, Any], told: Teller) -> str:
-    rows = []
-    for name, peak in verdict["peaks"].items():
-        rows.append((text(told(_PEAKS[name])), _marked(name, peak["value"]), number(peak["time"])))
-    for name, value in verdict["left"].items():
-        rows.append((text(told(_LEFT[name])), number(value), ""))
-    rows.append((text(told("report.area")), number(verdict["area"]), ""))
-    for key, code in _GIVEN.items():
-        if verdict[key] is not None:
-            rows.append((text(told(code)), number(verdict[key]), ""))
-    heads = (told("report.quantity"), told("report.value"), told("report.time"))
-    return table(heads, rows, (1, 2))
 
 
 def _marked(name: str, value: float | None) -> str:

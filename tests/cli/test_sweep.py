@@ -294,7 +294,7 @@ def test_motions_of_other_units_are_told_by_their_peaks(deck, tmp_path, peaks, r
 def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     motions = tmp_path / "motions"
     motions.mkdir()
-    for name, unit in (("a.csv", "g"), ("b.csv", "g"), ("c.csv", "cm/s^2")):
+    for name, unit in (("a.csv", "g"), ("b.csv", "g"), ("c_UP.csv", "cm/s^2")):
         (motions / name).write_text(f"t (s);a ({unit})\n0;0\n1;1\n")
     deck.write_text(
         "AG = 1. ; MOTION = 'a.csv' ; MESS MOTION ; H = 1. ;\n"
@@ -309,20 +309,22 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     assert [line.split()[0] for line in wrong.splitlines() if "line 3 gives" in line] == ["B"]
     assert "H is set from outside" not in wrong
     assert "a.csv and b.csv hold the same motion" in wrong
-    assert "different units (a.csv G, b.csv G and c.csv CM/S2)" in wrong
+    assert "different units (a.csv G, b.csv G and c_UP.csv CM/S2)" in wrong
+    assert "c_UP.csv is a vertical component among horizontal ones" in wrong
     assert "no run has a figure" in wrong
     deck.write_text(
-        "AG = 1. ; B = 1. ; X = SPO (EVOL 'MANU' (PROG 0. 1.) (PROG AG B)) 'AMOR' (B * 5.) "
+        "N = 1 ; SI (N EGA 2) ; MESS 'the other way' ; FINSI ; AG = 1. ; B = 1. ;\n"
+        "X = SPO (EVOL 'MANU' (PROG 0. 1.) (PROG AG B)) 'AMOR' (B * 5.) "
         "'FREQ' (PROG 1.) 'ACCE' ; SORT 'BILA' 'twice' (2. * AG) ;"
     )
-    given = ["AG=1.,2.", "B=3.,4."]
+    given = ["AG=1.,2.", "B=3.,4.", "N=1,2"]
     code, _, wrong = run(replace(options, settings=given, motions=None, report=True))
     said = wrong.splitlines()
-    assert (code, sum("4 runs were warned" in line for line in said) > 0) == (0, True)
+    assert (code, sum("8 runs were warned" in line for line in said) > 0) == (0, True)
     assert [line.split(":")[0] for line in said if "no figure" in line] == [
         "no figure depends on B"
     ]
-    assert "4 runs were warned" in (options.out / "report.html").read_text()
+    assert "8 runs were warned" in (options.out / "report.html").read_text()
     code, _, wrong = run(replace(options, out=deck))
     assert (code, "is a file" in wrong) == (2, True)
     code, _, wrong = run(replace(options, settings=["MOTION=a"]))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.text.source import Source
@@ -160,39 +161,60 @@ def point_to_itself(head):
     head["objects"][number][1]["sides"] = ["t", [["o", number]]]
 
 
-_HEADS = {
-    "type of a field": lambda h: part_of(h, "Mesh").update(blocks=3),
-    "class inside": lambda h: part_of(h, "Mesh").update(blocks=["t", ["text"]]),
-    "cells unknown": lambda h: part_of(h, "CellBlock").update(cell_type="QUA5"),
-    "other cells": lambda h: part_of(h, "CellBlock").update(cell_type="TRI3"),
-    "element unknown": lambda h: part_of(h, "Zone").update(element="QUA5"),
-    "a field is missing": lambda h: part_of(h, "CellBlock").pop("raw"),
-    "unknowns too few": lambda h: part_of(h, "ElementMatrices").update(unknowns=["t", ["UX"]]),
-    "a load without a field": lambda h: part_of(h, "LoadPart").update(space=None),
-    "endless": point_to_itself,
-    "settings": lambda h: h["settings"].update(DIME=[3]),
-    "unknowns of INCO": lambda h: h["settings"].update(INCO=3),
-    "no settings": lambda h: h.update(settings=3),
-    "no records": lambda h: h.update(records=[3]),
-    "no names": lambda h: h["records"][0].update(names=3),
-    "no objects": lambda h: h.update(objects="x"),
-    "a curve of no colour": lambda h: part_of(h, "CurvePart").update(colour=99),
-    "words of fewer points": lambda h: part_of(h, "CurvePart").update(words=["t", ["a"]]),
-    "no such array": lambda h: part_of(h, "NodeValues").update(values=["a", 999]),
-}
+def fields(name, **changed):
+    return lambda head: part_of(head, name).update(changed)
 
 
-@pytest.mark.parametrize("damage", _HEADS)
-def test_an_archive_whose_head_is_damaged_fails_when_it_is_read(damage, files, tmp_path):
-    (tmp_path / "all.sauv").write_bytes(archive_of(files, _HEADS[damage]))
+def class_name(name):
+    return lambda head: head["objects"][-1].__setitem__(0, name)
+
+
+_HEADS = [  # what is said, the damage
+    ("blocks of an object 'Mesh'", fields("Mesh", blocks=3)),
+    ("blocks of an object 'Mesh'", fields("Mesh", blocks=["t", ["text"]])),
+    ("cell_type of an object 'CellBlock'", fields("CellBlock", cell_type="QUA5")),
+    ("cell_type of an object 'CellBlock'", fields("CellBlock", cell_type=["o", 1])),
+    ("raw of an object 'CellBlock'", fields("CellBlock", cell_type="TRI3")),
+    ("raw of an object 'CellBlock'", fields("CellBlock", raw=3)),
+    ("components of an object 'CellFieldBlock'", fields("CellFieldBlock", components=3)),
+    ("element of an object 'Zone'", fields("Zone", element="QUA5")),
+    ("local of an object 'ElementMatrices'", fields("ElementMatrices", unknowns=["t", ["UX"]])),
+    ("space of an object 'LoadPart'", fields("LoadPart", space=None)),
+    ("colour of an object 'CurvePart'", fields("CurvePart", colour=99)),
+    ("words of an object 'CurvePart'", fields("CurvePart", words=["t", ["a"]])),
+    (":Mesh of an object 'class'", fields("CellBlock", cell_type=["e", ":Mesh", "X"])),
+    ("DIME of an object 'OPTI'", lambda head: head["settings"].update(DIME=[3])),
+    ("INCO of an object 'OPTI'", lambda head: head["settings"].update(INCO=3)),
+    ("all.sauv is damaged: 'raw'", lambda head: part_of(head, "CellBlock").pop("raw")),
+    ("all.sauv is damaged: maximum recursion", point_to_itself),
+    ("SAUV of ssilang wrote: objects", lambda head: head.update(settings=3)),
+    ("SAUV of ssilang wrote: objects", lambda head: head.update(objects="x")),
+    ("SAUV of ssilang wrote: 'int' object", lambda head: head.update(records=[3])),
+    ("SAUV of ssilang wrote: records", lambda head: head["records"][0].update(names=3)),
+    ("SAUV of ssilang wrote: format 'x'", lambda head: head.update(format="x")),
+    ("'arrays/999.npy'", fields("NodeValues", values=["a", 999])),
+    ("unknown kind of data 'z'", fields("NodeValues", values=["z", 999])),
+    ("object of unknown kind 'nothing'", class_name("nothing")),
+    ("'ssilang.kernel.mesh.mesh:No', which does not", class_name("ssilang.kernel.mesh.mesh:No")),
+    *((f"'{name}', which is no saved", class_name(name)) for name in (
+        ":Nothing", "os:system", "ssilang.cli.main:main", "ssilang.kernel.mesh.mesh:CELL_TYPES",
+        "ssilang.kernel.mesh.mesh:Mesh.of")),
+    ("later version of ssilang, 7.0.0; this is 0.1.0",
+     lambda head: head.update(version=99, ssilang="7.0.0")),
+]  # fmt: skip
+
+
+@together("said, damage", _HEADS)
+def test_an_archive_whose_head_is_damaged_fails_when_it_is_read(said, damage, files, tmp_path):
+    (tmp_path / "all.sauv").write_bytes(archive_of(files, damage))
     result = run("OPTI REST 'all.sauv' ; REST ; MESS 'read' ;", tmp_path)
     assert [e.code.split(".")[0] for e in result.errors] == ["io"]
-    assert "all.sauv" in result.message
+    assert said in result.message
     (tmp_path / "all.sauv").write_bytes(archive_of(files, lambda head: None))
     assert run("OPTI REST 'all.sauv' ; REST ; LIST S1 ;", tmp_path).exit_code == 0
 
 
-@pytest.mark.parametrize("array", ["raw", "colours"])
+@pytest.mark.parametrize("array", ["raw", "colours", "alias"])
 @pytest.mark.parametrize(
     ("name", "text"),
     [("all.sauv", "OPTI REST 'all.sauv' ; REST ;"), ("mesh", "OPTI LECT 'mesh' ; LIRE S1 ;")],
@@ -201,10 +223,11 @@ def test_an_archive_names_nodes_and_colours_that_are_there(name, text, array, fi
     with zipfile.ZipFile(io.BytesIO(files[name])) as z:
         members = {n: z.read(n) for n in z.namelist()}
     head = json.loads(members["objects.json"])
-    number = part_of(head, "CellBlock")[array][1]
+    nodes = {"alias": next(parts for kind, parts in head["objects"] if kind == "nodes")[2]}
+    number = (nodes if array == "alias" else part_of(head, "CellBlock"))[array][1]
     sound = np.load(io.BytesIO(members[f"arrays/{number}.npy"]))
     for first, codes in (
-        ({"raw": 10**6, "colours": 99}[array], ["io.damaged-object"]),
+        (99 if array == "colours" else 10**6, ["io.damaged-object"]),
         (-1, ["io.damaged-object"]),
         (sound.flat[0], []),
     ):

@@ -10,7 +10,7 @@ from together import together
 from ssilang.cli.run import RunResult
 
 CURVES = (
-    "E1 = EVOL 'BLEU' 'MANU' 't (s)' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; "
+    "E1 = EVOL 'MANU' 'BLEU' 't (s)' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; "
     "E2 = EVOL 'ROUG' 'MANU' 't (s)' (PROG 0. 1. 2.) 'v' (PROG 1. 1. 4.) ; E = E1 ET E2 ; "
 )
 
@@ -130,3 +130,4 @@ def test_bars_of_a_histogram(tmp_path: Path) -> None:
     assert list(found.find("A").values) == pytest.approx([12.1, 12.1, 12.9, 12.9])
     assert found.find("B") == "2"
     assert [p.colour for p in found.find("H").parts] == [2, 4, 1]
+    assert [p.colour for p in found.find("E").parts] == [1, 2]

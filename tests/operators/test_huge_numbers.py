@@ -1,4 +1,4 @@
-"""Numbers past what a calculation can hold are told, wherever they come in; signs go on."""
+"""Numbers past what a calculation can hold are told, wherever they come in; results go on."""
 
 import pytest
 from script_runs import failed, ran
@@ -89,19 +89,19 @@ _LARGE = (
         ("Z = A * 1.E300 ;", INFINITE),
         ("Z = E * E ;", INFINITE),
         ("Z = 1.E300 * E ;", INFINITE),
-        ("Z = K * C ;", "arithmetic"),
-        ("Z = C * K ;", "arithmetic"),
+        ("Z = K * C ;", INFINITE),
+        ("Z = C * K ;", INFINITE),
         ("Z = L * L ;", INFINITE),
         ("Z = L ** 2 ;", INFINITE),
-        ("Z = SINH L ;", "number-too-large"),
-        ("Z = SINH 1000. ;", "number-too-large"),
-        ("Z = PSCA C C U U ;", "number-too-large"),
-        ("Z = PSCA A A U U ;", "number-too-large"),
-        ("Z = RESU (C * 1.7E8) ;", "number-too-large"),
-        ("Z = XTX C ;", "number-too-large"),
-        ("Z = XTY C C U U ;", "number-too-large"),
-        ("Z = SOMM (L * 0. + 1.E308) ;", "number-too-large"),
-        ("Z = INTG (E * 0. + 1.5E308) ;", "number-too-large"),
+        ("Z = SINH L ;", INFINITE),
+        ("Z = SINH 1000. ;", INFINITE),
+        ("Z = PSCA C C U U ;", INFINITE),
+        ("Z = PSCA A A U U ;", INFINITE),
+        ("Z = RESU (C * 1.7E8) ;", INFINITE),
+        ("Z = XTX C ;", INFINITE),
+        ("Z = XTY C C U U ;", INFINITE),
+        ("Z = SOMM (L * 0. + 1.E308) ;", INFINITE),
+        ("Z = INTG (E * 0. + 1.5E308) ;", INFINITE),
         ("Z = NORM ((1.E99 0.) * 1.) ;", ""),
         ("Z = L * 1.E8 + 1. ;", ""),
         ("Z = C * 1.E-300 * C ;", ""),

@@ -8,6 +8,7 @@ import meshio
 import numpy as np
 import pytest
 from meshio import _mesh
+from together import together
 
 from ssilang.cli.run import RunOptions, RunResult, run_file
 from ssilang.kernel.mesh.changes.degree import middle_places
@@ -197,12 +198,17 @@ ABAQUS = """*HEADING
 6, 2., 1.
 *Element, type=cpe4r
 10, 1, 2, 3, 4
-*ELEMENT, TYPE=CPS4, ELSET=right
+*ELEMENT, TYPE=CPS4,
+ELSET=right
 20, 2, 5, 6,
 3
 *ELEMENT, TYPE=CONN3D2, ELSET=links
 30, 1, 2
 31, 1, 3
+*ELEMENT, TYPE=STRI3, ELSET=ramp
+40, 5, 3, 4
+*ELEMENT, TYPE=S
+41, 1
 *ELSET, ELSET=both, GENERATE
 10, 20, 10
 *ELSET, ELSET=Again
@@ -218,33 +224,32 @@ def test_sets_of_an_abaqus_deck(tmp_path: Path) -> None:
     (tmp_path / "more.inc").write_text("*NSET, NSET=top\n3, 4, 6\n")
     result = run("OPTI DIME 2 ; T = LIRE 'm.inp' ;", tmp_path)
     found = parts(result)
-    assert lengths(found, "right", "both", "Again", "low", "top") == [
-        [("QUA4", 1)], [("QUA4", 2)], [("QUA4", 2)], [("POI1", 3)], [("POI1", 3)],
+    assert lengths(found, "right", "both", "Again", "low", "top", "ramp") == [
+        [("QUA4", 1)], [("QUA4", 2)], [("QUA4", 2)], [("POI1", 3)], [("POI1", 3)], [("TRI3", 1)],
     ]  # fmt: skip
     assert found["right"].blocks[0].coordinates[0].mean(axis=0) == pytest.approx([1.5, 0.5, 0.0])
     told = [w for w in result.session.warnings if w.code == "operators.files.cells-left-out"]
-    assert [w.data["told"] for w in told] == [["2 CONN3D2"]]
+    assert [w.data["told"] for w in told] == [["2 CONN3D2", "1 S"]]
 
 
-@pytest.mark.parametrize(
-    ("change", "code"),
-    [
-        (("*NODE\n3", "*NGEN\n3"), "io.abaqus-keyword-not-read"),
-        (("10, 1, 2, 3, 4", "10, 1, 2, 3, 9"), "io.no-readable-mesh-file"),
-        (("both\n", "none\n"), "io.no-readable-mesh-file"),
-        (("both\n", "again\n"), "io.no-readable-mesh-file"),
-        (("more.inc", "/etc/passwd"), "forbidden-path"),
-        (("more.inc", "m.inp"), "io.mesh-number-twice"),
-        (("*HEADING", "*PART, NAME=a\n*PART, NAME=b"), "io.abaqus-several-parts"),
-    ],
-)
+@together("old, new, said", [
+    ("*NODE\n3", "*NGEN\n3", "*NGEN"),
+    ("10, 1, 2, 3, 4", "10, 1, 2, 3, 9", "m.inp cannot be read as ABAQUS: 9\n"),
+    ("5, 6,\n3", "5, 6", "m.inp cannot be read as ABAQUS: *ELEMENT, TYPE=CPS4\n"),
+    ("*HEADING", "*INCLUDE, INPUT=m.inp", "m.inp cannot be read as ABAQUS: *INCLUDE\n"),
+    (ABAQUS, "*HEADING", "m.inp holds no nodes"),
+    ("both\n", "none\n", "m.inp cannot be read as ABAQUS: 'NONE'\n"),
+    ("both\n", "again\n", "m.inp cannot be read as ABAQUS: again\n"),
+    ("more.inc", "/etc/passwd", "/etc/passwd is outside"),
+    ("more.inc", "m.inp", "two elements bear the number 10"),
+    ("*HEADING", "*PART, NAME=a\n*PART, NAME=b", "m.inp has several *PART"),
+])  # fmt: skip
 def test_an_abaqus_deck_that_is_not_read_says_why(
-    change: tuple[str, str], code: str, tmp_path: Path
+    old: str, new: str, said: str, tmp_path: Path
 ) -> None:
-    (tmp_path / "m.inp").write_text(ABAQUS.replace(*change))
+    (tmp_path / "m.inp").write_text(ABAQUS.replace(old, new))
     (tmp_path / "more.inc").write_text("*NSET, NSET=top\n3, 4, 6\n")
-    result = run("OPTI DIME 2 ; T = LIRE 'm.inp' ;", tmp_path)
-    assert [e.code for e in result.errors] == [code]
+    assert said in run("OPTI DIME 2 ; T = LIRE 'm.inp' ;", tmp_path).message
 
 
 # ---- out and back --------------------------------------------------------------------------------

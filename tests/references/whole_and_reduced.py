@@ -19,3 +19,20 @@ def both(problem, tolerance):
     history = integrate_reduced(problem, tolerance, [reduced])
     assert reduced.closed
     return whole, exact, reduced, history
+
+
+def check(problem, tolerance, energy=10.0):
+    """Recorders of the two; the reduced one is small, and as good as it says and was asked for."""
+    whole, exact, reduced, history = both(problem, tolerance)
+    found = history.reduction
+    assert found.refused is None
+    assert history.loop == "reduced"
+    assert 0 < found.vectors <= 0.5 * len(whole.of("u")[0])
+    assert found.estimate <= tolerance
+    assert whole.of("w")[..., 1].max() > 1e-4  # it lifts off
+    errors = [relative(reduced.of(x), whole.of(x)) for x in ("u", "w")]
+    assert max(errors) <= tolerance
+    assert max(errors) <= 2 * found.estimate
+    scale = np.abs(exact.energies).max()
+    assert np.abs(history.energies - exact.energies).max() <= energy * tolerance * scale
+    return whole, reduced

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 import pyvista
+from together import together
 
 from ssilang.cli.main import main
 from ssilang.cli.run import RunOptions, run_file, run_text, write_report
@@ -151,13 +152,27 @@ def test_instants_that_are_damaged_or_have_another_mesh_are_left_out(
     assert capfd.readouterr().err == ""
 
 
-@pytest.mark.parametrize("part", [0.02, 0.4, 0.9, 0.999])
-def test_half_a_series_in_one_file_is_told(rocking: Path, tmp_path: Path, part: float) -> None:
+def listed(*parts: str) -> str:
+    return f"<VTKFile type='Collection'><Collection>{''.join(parts)}</Collection></VTKFile>"
+
+
+@together("name, content, code", [
+    *(("a.vtkhdf", part, "series-damaged") for part in (0.02, 0.4, 0.9, 0.999)),
+    ("a.pvd", "<VTKFile", "series-damaged"), ("a.pvd", listed(), "nothing-to-see"),
+    ("a.pvd", listed("<DataSet timestep='nan' file='a.vtu'/>"), "series-damaged"),
+    ("a.pvd", listed("<DataSet timestep='1' file='a.vtu'/>"), "nothing-to-see"),
+    ("b.pvd", listed(), "series-gone"),
+])  # fmt: skip
+def test_half_a_series_or_none_is_told(
+    rocking: Path, tmp_path: Path, name: str, content: float | str, code: str
+) -> None:
+    pyvista.UnstructuredGrid().save(tmp_path / "a.vtu")
     data = (rocking / "report" / "scene_1.vtkhdf").read_bytes()
-    (tmp_path / "a.vtkhdf").write_bytes(data[: int(part * len(data))])
+    cut = content.encode() if isinstance(content, str) else data[: int(content * len(data))]
+    (tmp_path / name.replace("b", "a")).write_bytes(cut)
     with pytest.raises(SceneError) as told:
-        packed_scene(tmp_path / "a.vtkhdf", 10**7)
-    assert told.value.code == "report.series-damaged"
+        packed_scene(tmp_path / name, 10**7)
+    assert told.value.code == f"report.{code}"
 
 
 def test_joints_in_a_part_of_their_own_are_found(tmp_path: Path) -> None:

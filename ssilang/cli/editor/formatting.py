@@ -158,7 +158,8 @@ def format_files(
         if name == "-" and not (check or diff):
             out.write(text)
         elif changes and diff:
-            out.writelines(_differences(source, text))
+            before, after = source.text.splitlines(True), text.splitlines(True)
+            out.writelines(difflib.unified_diff(before, after, source.name, source.name))
         elif changes and not check:
             _write(source, text)
             out.write(told("cli.formatted", file=name) + "\n")
@@ -173,11 +174,6 @@ def _read(name: str) -> Source:
     if name == "-":
         return Source.decode("standard input", sys.stdin.buffer.read())
     return read_source(Path(name))
-
-
-def _differences(source: Source, text: str) -> list[str]:
-    before, after = source.text.splitlines(True), text.splitlines(True)
-    return list(difflib.unified_diff(before, after, source.name, source.name))
 
 
 def _write(source: Source, text: str) -> None:

@@ -16,7 +16,7 @@ Holder = tuple[Declaration, str]
 def holders(table: str, document: Document, library: Library) -> list[Holder]:
     """The procedures that the script gives a table to; else those that have all its entries."""
     called = list(_called(table, document, library))
-    return called or list(_fitting(table, document, library))
+    return called or list(suiting(_given(document).get(table, set()), library))
 
 
 def entries_at(
@@ -59,10 +59,6 @@ def _given(document: Document) -> dict[str, set[str]]:
         elif len(tokens) == 1 and value and value[0].name in ("TABL", "TABLE"):
             found.setdefault(tokens[0].name, set())
     return found
-
-
-def _fitting(table: str, document: Document, library: Library) -> Iterator[Holder]:
-    return suiting(_given(document).get(table, set()), library)
 
 
 def suiting(indices: set[str], library: Library) -> Iterator[Holder]:

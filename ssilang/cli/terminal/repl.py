@@ -90,18 +90,14 @@ def _readline(complete: Complete, kept: bool) -> Ask:
 
     readline.set_completer(candidate)
     if kept:
-        _readline_history(readline)
+        import atexit
+
+        path = history_file()
+        with contextlib.suppress(OSError):  # the first session has none
+            readline.read_history_file(path)
+        readline.set_history_length(HISTORY_LENGTH)
+        atexit.register(readline.write_history_file, path)
     return input
-
-
-def _readline_history(readline: Any) -> None:
-    import atexit
-
-    path = history_file()
-    with contextlib.suppress(OSError):  # the first session has none
-        readline.read_history_file(path)
-    readline.set_history_length(HISTORY_LENGTH)
-    atexit.register(readline.write_history_file, path)
 
 
 def completions(text: str, session: Session) -> tuple[str, list[str]]:

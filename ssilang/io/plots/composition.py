@@ -110,7 +110,9 @@ def _add_field(made: Composition, subjects: Subjects, moved: DeformedPart | None
     assert values is not None
     meshes = list(subjects.meshes)
     if isinstance(values, CellField):
-        mesh = _cells(values)
+        blocks: dict[int, CellBlock] = {id(b.cells): b.cells for b in values.blocks}
+        first = next(iter(blocks.values()))
+        mesh = Mesh(first.nodes, tuple(blocks.values()))
     elif moved is not None:
         mesh = moved.mesh
     else:
@@ -141,12 +143,6 @@ def _present(values: NodeField | CellField, mesh: Mesh) -> tuple[str, ...]:
     ids = mesh.sorted_node_ids
     found = tuple(n for n in names if np.isin(values.components[n].nodes, ids).any())
     return found or names
-
-
-def _cells(values: CellField) -> Mesh:
-    blocks: dict[int, CellBlock] = {id(b.cells): b.cells for b in values.blocks}
-    first = next(iter(blocks.values()))
-    return Mesh(first.nodes, tuple(blocks.values()))
 
 
 def _add_deformed(made: Composition, part: DeformedPart) -> None:

@@ -63,7 +63,9 @@ def _paint(f: Faces, inks: Inks, solid: bool, options: PictureOptions) -> tuple[
     """Inks of faces and of their edges."""
     edge = inks.copy()
     if options.filled:
-        fill = _filled(f, inks)
+        plain = (f.colours == 0)[:, None] & (inks[:, :3].max(axis=1) < 0.2)[:, None]
+        base = np.where(plain, _DEFAULT_FILL, 0.25 * _PAPER + 0.75 * inks[:, :3])
+        fill = np.column_stack([base, np.ones(len(base))])
         edge[:, :3] = 0.45 * fill[:, :3] if options.filled == "FACE" else 1.0
         return fill, edge
     if solid:
@@ -77,12 +79,6 @@ def _inks(f: Faces, layer: Layer) -> Inks:
     own = f.colours if layer.colour is None else np.full(len(f.nodes), layer.colour)
     table = {int(c): to_rgba(shade(int(c))) for c in np.unique(own)}
     return np.array([table[int(c)] for c in own], dtype=float).reshape(-1, 4)
-
-
-def _filled(f: Faces, inks: Inks) -> Inks:
-    plain = (f.colours == 0)[:, None] & (inks[:, :3].max(axis=1) < 0.2)[:, None]
-    base = np.where(plain, _DEFAULT_FILL, 0.25 * _PAPER + 0.75 * inks[:, :3])
-    return np.column_stack([base, np.ones(len(base))])
 
 
 def _mixed(inks: Inks, share: float) -> Inks:

@@ -96,7 +96,10 @@ class Painter:
             things, self.view.axes, bounds, (_FINER * columns, _FINER * rows),
             _FINER * axes.figure.dpi / 72.0, deep,
         )  # fmt: skip
-        _put_pixels(axes, _halved(seen.image), bounds)
+        # each pixel is the mean of four
+        wide = seen.image.astype(np.uint16)
+        pairs = wide[0::2] + wide[1::2]
+        _put_pixels(axes, ((pairs[:, 0::2] + pairs[:, 1::2] + 2) >> 2).astype(np.uint8), bounds)
         return seen
 
 
@@ -121,13 +124,6 @@ def _put_pixels(axes: Axes, image: NDArray[np.uint8], bounds: FloatArray) -> Non
     shown.set_data(image)
     shown.set_clip_path(axes.patch)
     axes.add_image(shown)
-
-
-def _halved(image: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """An image of half the width and height: each pixel is the mean of four."""
-    wide = image.astype(np.uint16)
-    rows = wide[0::2] + wide[1::2]
-    return ((rows[:, 0::2] + rows[:, 1::2] + 2) >> 2).astype(np.uint8)
 
 
 def _things(batch: _Batch) -> Iterator[Polygons]:

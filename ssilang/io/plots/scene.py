@@ -34,7 +34,7 @@ from ssilang.io.plots.painter import Painter
 from ssilang.io.plots.patches import Faces, visible_faces
 from ssilang.io.plots.stage import Stage
 from ssilang.io.plots.values import values_on
-from ssilang.io.plots.view import Plane, View, plane_view
+from ssilang.io.plots.view import View, plane_view
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.fields.deformed import Arrows
 
@@ -218,7 +218,10 @@ def _prepared(
 ) -> list[tuple[Layer, list[Faces]]]:
     """What is shown of the layers, with the faces that are drawn."""
     if options.beyond is not None:
-        layers = [_behind(layer, options.beyond, view) for layer in layers]
+        layers = [
+            replace(layer, mesh=behind(layer.mesh, options.beyond, view, layer.positions()))
+            for layer in layers
+        ]
     return [(layer, _faces(layer, options)) for layer in layers]
 
 
@@ -240,10 +243,6 @@ def _paint(
         add_points(painter, faces, layer, levels)
         if layer.arrows is not None:
             notes.add_arrows(painter, layer.arrows, size, layer.positions())
-
-
-def _behind(layer: Layer, plane: Plane, view: View) -> Layer:
-    return replace(layer, mesh=behind(layer.mesh, plane, view, layer.positions()))
 
 
 def _faces(layer: Layer, options: PictureOptions) -> list[Faces]:

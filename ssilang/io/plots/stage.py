@@ -150,7 +150,9 @@ class Stage:
             If this system has nothing that draws in space.
         """
         sheet = _Sheet(axes, bounds.mean(axis=0), float(bounds[1, 1] - bounds[0, 1]) / 2)
-        plotter = self._opened()
+        if self._plotter is None:
+            self._plotter = _open()
+        plotter = self._plotter
         plotter.clear_actors()
         plotter.render_window.SetSize(*pixels)  # pyvista's own way draws once more
         for thing in things:
@@ -169,11 +171,6 @@ class Stage:
         if self._plotter is not None:
             self._plotter.close()
             self._plotter = None
-
-    def _opened(self) -> Any:
-        if self._plotter is None:
-            self._plotter = _open()
-        return self._plotter
 
 
 @dataclass(frozen=True, eq=False)

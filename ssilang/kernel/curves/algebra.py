@@ -189,6 +189,19 @@ def interpolated(x: FloatArray, y: FloatArray, at: FloatArray) -> FloatArray:
     return np.interp(at, x, y)
 
 
+def beyond(x: FloatArray, y: FloatArray, at: FloatArray) -> float | None:
+    """The value of `at` that is farthest outside of a curve, where that does not end flat."""
+    order = np.argsort(x, kind="stable")
+    x, y = x[order], y[order]
+    if len(x) < 2 or not np.size(at):
+        return None
+    slack = 1e-9 * (x[-1] - x[0])
+    low, high = float(np.min(at)), float(np.max(at))
+    below = x[0] - low if y[1] != y[0] else 0.0
+    above = high - x[-1] if y[-2] != y[-1] else 0.0
+    return None if max(below, above) <= slack else low if below > above else high
+
+
 def crossings(x: FloatArray, y: FloatArray, at: float) -> FloatArray:
     """All ordinates of a line of points where its abscissa is `at`."""
     found: list[float] = []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
@@ -37,11 +36,8 @@ class Cloud:
         if not self.columns or not other.columns:
             return other if not self.columns else self
         if set(self.columns) != set(other.columns):
-            raise FieldError(
-                "kernel.curves.clouds-of-other-components",
-                first=list(self.columns),
-                second=list(other.columns),
-            )
+            told = {"first": list(self.columns), "second": list(other.columns)}
+            raise FieldError("kernel.curves.clouds-of-other-components", **told)
         return Cloud({k: (*v, *other.columns[k]) for k, v in self.columns.items()})
 
     def numbers(self, name: str) -> FloatArray:
@@ -110,30 +106,15 @@ def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> Float
 
     Points outside of the grid take the value at its border.
     """
+    from scipy.interpolate import RegularGridInterpolator
+
     sizes = [len(a) for a in axes]
     if int(np.prod(sizes)) != len(values):
-        raise FieldError(
-            "kernel.curves.grid-nodes-needs-values",
-            grid=" x ".join(map(str, sizes)),
-            wanted=np.prod(sizes),
-            n_values=len(values),
-        )
+        told = {"grid": " x ".join(map(str, sizes)), "wanted": np.prod(sizes)}
+        told |= {"n_values": len(values)}
+        raise FieldError("kernel.curves.grid-nodes-needs-values", **told)
     if any(np.any(np.diff(a) <= 0) for a in axes):
         raise FieldError("kernel.curves.coordinates-grid-must-increase")
     table = values.reshape(sizes, order="F")
-    low, share = [], []
-    for a, x in zip(axes, at.T, strict=True):
-        inside = np.clip(x, a[0], a[-1])
-        k = np.clip(np.searchsorted(a, inside, side="right") - 1, 0, max(len(a) - 2, 0))
-        width = a[np.minimum(k + 1, len(a) - 1)] - a[k]
-        low.append(k)
-        share.append((inside - a[k]) / np.where(width > 0, width, 1.0))
-    total = np.zeros(len(at))
-    for corner in product((0, 1), repeat=len(axes)):
-        weight = np.ones(len(at))
-        index = []
-        for side, k, s, n in zip(corner, low, share, sizes, strict=True):
-            weight = weight * (s if side else 1.0 - s)
-            index.append(np.minimum(k + side, n - 1))
-        total += weight * table[tuple(index)]
-    return total
+    inside = np.clip(at, [a[0] for a in axes], [a[-1] for a in axes])
+    return RegularGridInterpolator(axes, table)(inside)

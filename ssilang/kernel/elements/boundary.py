@@ -70,13 +70,8 @@ def require_parents(faces: CellBlock, model: Model) -> Parents:
     lost = int((found.zone < 0).sum())
     if lost:
         inside = any(zone.cells.cell_type == faces.cell_type for zone in model.zones)
-        raise MeshError(
-            "kernel.elements.cells-no-side-cell",
-            lost=lost,
-            n_faces=len(faces),
-            cell_type=faces.cell_type,
-            inside=inside,
-        )
+        told = {"lost": lost, "n_faces": len(faces), "cell_type": faces.cell_type, "inside": inside}
+        raise MeshError("kernel.elements.cells-no-side-cell", **told)
     return found
 
 

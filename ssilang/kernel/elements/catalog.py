@@ -177,12 +177,8 @@ def default_element(cell_type: str, mode: Mode) -> str:
     for kind in fitting:
         if kind.default:
             return kind.name
-    raise MeshError(
-        "kernel.elements.cells-no-default-element",
-        cell_type=cell_type,
-        mode=mode.value,
-        names=[k.name for k in fitting],
-    )
+    told = {"cell_type": cell_type, "mode": mode.value, "names": [k.name for k in fitting]}
+    raise MeshError("kernel.elements.cells-no-default-element", **told)
 
 
 def support_rule(element: str, support: Support) -> Rule:

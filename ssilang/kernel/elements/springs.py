@@ -106,12 +106,8 @@ def unknowns_of(zone: Zone) -> tuple[tuple[str, ...], tuple[str, ...]]:
         first = (share,) if share else (*NODE_TRANSLATIONS[zone.mode], *NODE_ROTATIONS[zone.mode])
     second = second or first
     if len(second) != len(first):
-        raise MaterialError(
-            "kernel.elements.impedance-joins-unknowns",
-            n_first=len(first),
-            first=first,
-            n_second=len(second),
-        )
+        told = {"n_first": len(first), "first": first, "n_second": len(second)}
+        raise MaterialError("kernel.elements.impedance-joins-unknowns", **told)
     return tuple(first), tuple(second)
 
 
@@ -302,12 +298,6 @@ def _curves(parameters: ZoneField) -> dict[str, dict[int, CurvePart]]:
     return found
 
 
-def _only_in_frequency(zone: Zone) -> MaterialError:
-    return MaterialError(
-        "kernel.elements.impedance-changes-frequency-no", law_of_impedance=law_of_impedance(zone)
-    )
-
-
 class _ImpedanceFamily(StrainlessFamily):
     """Springs and dashpots: matrices, no strains."""
 
@@ -328,7 +318,10 @@ class _ImpedanceFamily(StrainlessFamily):
         if kind == "AMORTISSEMENT":
             return dashpots(zone, given), layout
         if law_of_impedance(zone) == "COMPLEXE" and _curves(given):
-            raise _only_in_frequency(zone)
+            raise MaterialError(
+                "kernel.elements.impedance-changes-frequency-no",
+                law_of_impedance=law_of_impedance(zone),
+            )
         return spread(zone, layout, _values(zone, given, "RIGIDITE", required=True)), layout
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -83,13 +82,8 @@ def carry(values: NDArray[Any], element: str, source: Support, target: Support) 
     if source == "NOEUD" and values.shape[1] == 2 * half:
         values = (values[:, :half] + values[:, half:]) / 2
     if half != values.shape[1]:
-        raise FieldError(
-            "kernel.elements.field-values-cell-element",
-            source=source,
-            n_values=values.shape[1],
-            element=element,
-            n_matrix=half,
-        )
+        told = {"source": source, "n_values": values.shape[1], "element": element, "n_matrix": half}
+        raise FieldError("kernel.elements.field-values-cell-element", **told)
     return values @ matrix.T
 
 
@@ -117,9 +111,6 @@ class ZoneField:
         parts = tuple(p for p in self.parts if p[0].element in ("", self.zone.element))
         return ZoneField(self.zone, parts)
 
-    def _pieces(self, name: str) -> Iterator[tuple[CellFieldBlock, IntArray | None]]:
-        return ((b, rows) for b, rows in self.parts if name in b.components)
-
     def raw(self, name: str) -> tuple[NDArray[Any], Support]:
         """Values (n_cells or 1, n_points) as stored, and their support.
 
@@ -131,7 +122,9 @@ class ZoneField:
         result: NDArray[Any] | None = None
         support: Support = "NOEUD"
         known = np.zeros(len(self.zone.cells), dtype=bool)
-        for block, rows in self._pieces(name):
+        for block, rows in self.parts:
+            if name not in block.components:
+                continue
             values = np.asarray(block.components[name])
             if rows is None:
                 return values, block.support

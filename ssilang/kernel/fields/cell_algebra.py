@@ -68,17 +68,6 @@ def applied(
     return CellField(tuple(blocks), field.title)
 
 
-def _fitted(name: str, a: CellFieldBlock, b: CellFieldBlock) -> None:
-    x, y = a.components[name], b.components[name]
-    if a.support != b.support and 1 not in (x.shape[1], y.shape[1]):
-        raise FieldError(
-            "kernel.fields.component-stands-field",
-            name=name,
-            support=a.support,
-            support_2=b.support,
-        )
-
-
 def _support(a: CellFieldBlock, b: CellFieldBlock, names: Iterable[str]) -> CellFieldBlock:
     """The block whose points a result stands at: the one with more points."""
     count = [max((v.shape[1] for v in block.components.values()), default=1) for block in (a, b)]
@@ -112,7 +101,10 @@ def _added_block(
         if name not in made:
             made[name] = _scaled(values, factor)
             continue
-        _fitted(name, a, b)
+        x, y = a.components[name], b.components[name]
+        if a.support != b.support and 1 not in (x.shape[1], y.shape[1]):
+            told = {"name": name, "support": a.support, "support_2": b.support}
+            raise FieldError("kernel.fields.component-stands-field", **told)
         if made[name].dtype == object or values.dtype == object:
             sign = "+" if factor == 1.0 else "-"
             made[name] = _of_objects(name, sign, made[name], values, objects)
@@ -189,11 +181,8 @@ def multiplied(
     for mine in a.blocks:
         other = next((o for o in b.blocks if same_cells(mine.cells, o.cells)), None)
         if other is None:
-            raise FieldError(
-                "kernel.fields.zone-first-field-not",
-                n_cells=len(mine.cells),
-                cell_type=mine.cells.cell_type,
-            )
+            told = {"n_cells": len(mine.cells), "cell_type": mine.cells.cell_type}
+            raise FieldError("kernel.fields.zone-first-field-not", **told)
         blocks.append(_multiplied_block(mine, other, divide, objects))
     return CellField(tuple(blocks), a.title)
 
@@ -216,11 +205,8 @@ def _multiplied_block(
     elif set(a.components) == set(b.components):
         made = {k: run(k, v, b.components[k]) for k, v in a.components.items()}
     else:
-        raise FieldError(
-            "kernel.fields.cells-field-by-field-not-defined",
-            components=a.components,
-            components_2=b.components,
-        )
+        told = {"components": a.components, "components_2": b.components}
+        raise FieldError("kernel.fields.cells-field-by-field-not-defined", **told)
     return rebuilt(_support(a, b, made), made)
 
 

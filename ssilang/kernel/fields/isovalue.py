@@ -88,11 +88,8 @@ def _of_simplices(cells: CellBlock, values: FloatArray) -> _Pieces:
     elif cells.cell_type in _TO_TETRAHEDRA:
         parts = tetrahedra(cells)
     else:
-        raise MeshError(
-            "kernel.fields.no-value-looked-cells",
-            cell_type=cells.cell_type,
-            value=(*_SIMPLICES, "QUA4", *_TO_TETRAHEDRA),
-        )
+        told = {"cell_type": cells.cell_type, "value": (*_SIMPLICES, "QUA4", *_TO_TETRAHEDRA)}
+        raise MeshError("kernel.fields.no-value-looked-cells", **told)
     at_node = np.zeros(len(cells.nodes))
     at_node[cells.connectivity] = values
     return _Pieces(parts.connectivity, at_node[parts.connectivity], parts.colours)

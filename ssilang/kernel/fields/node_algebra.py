@@ -80,11 +80,8 @@ def united(a: NodeField, b: NodeField, check: bool = True) -> NodeField:
     """
     a, b = a.after_merges(), b.after_merges()
     if a.components and b.components and a.nature != b.nature:
-        raise FieldError(
-            "kernel.fields.fields-natures-cannot-joined",
-            nature=a.nature or "INDETERMINE",
-            nature_2=b.nature or "INDETERMINE",
-        )
+        told = {"nature": a.nature or "INDETERMINE", "nature_2": b.nature or "INDETERMINE"}
+        raise FieldError("kernel.fields.fields-natures-cannot-joined", **told)
     if a.nature == "DISCRET" or not a.components or not b.components:
         return added(a, b)
     made = dict(a.components)
@@ -101,13 +98,9 @@ def _merged(table: NodeTable, name: str, a: NodeValues, b: NodeValues, check: bo
     wrong = np.flatnonzero(gap > 1e-6 * scale)
     if check and len(wrong):
         k = wrong[0]
-        raise FieldError(
-            "kernel.fields.component-field-node",
-            name=name,
-            values=a.values[ia[k]],
-            values_2=b.values[ib[k]],
-            both=table.told(both[k]),
-        )
+        told = {"name": name, "values": a.values[ia[k]], "values_2": b.values[ib[k]]}
+        told |= {"both": table.told(both[k])}
+        raise FieldError("kernel.fields.component-field-node", **told)
     nodes = np.union1d(a.nodes, b.nodes)
     values = np.zeros(len(nodes))
     values[np.searchsorted(nodes, b.nodes)] = b.values

@@ -94,11 +94,8 @@ def with_rule(element: str, rule: str) -> str:
     for other in _SURFACES.values():
         if other.cell_type == here.cell_type and other.rule == rule:
             return other.name
-    raise MeshError(
-        "kernel.interface.joint-cannot-integrated-nodes",
-        element=element,
-        nodal_weights=NODAL_WEIGHTS,
-    )
+    told = {"element": element, "nodal_weights": NODAL_WEIGHTS}
+    raise MeshError("kernel.interface.joint-cannot-integrated-nodes", **told)
 
 
 def joint_element(zone: Zone) -> JointElement:
@@ -162,12 +159,8 @@ def face_rule(face: str, rule: str = "GAUSS") -> Rule:
         return quadrature(cell.shape, GAUSS[face])
     if rule == "LOBATTO" and face in NODAL_WEIGHTS:
         return Rule(cell.nodes, np.array(NODAL_WEIGHTS[face]))
-    raise MaterialError(
-        "kernel.interface.joints-faces-no-integration",
-        face=face,
-        rule=rule,
-        nodal_weights=NODAL_WEIGHTS,
-    )
+    told = {"face": face, "rule": rule, "nodal_weights": NODAL_WEIGHTS}
+    raise MaterialError("kernel.interface.joints-faces-no-integration", **told)
 
 
 register_joints()

@@ -106,8 +106,7 @@ class Footing:
     def normal(self) -> FloatArray:
         """Mean normal (3,), from the soil to the structure."""
         n = _in_space(np.einsum("g,gi->i", self.weights, self.frames[:, -1]))
-        unit: FloatArray = n / np.linalg.norm(n)
-        return unit
+        return n / np.linalg.norm(n)
 
     def loads(self, w: FloatArray, t: FloatArray, u: FloatArray) -> Loads:
         """What it carries at instants.
@@ -170,8 +169,7 @@ class Footing:
         closed = np.where(high <= 0.0, 1.0, 0.0)
         partly = (low < 0.0) & (high > 0.0)
         closed[partly] = low[partly] / (low - high)[partly]
-        share: FloatArray = closed @ self.lengths / self.area
-        return share
+        return closed @ self.lengths / self.area
 
 
 def footings_of(interface: Interface, numbering: Numbering) -> tuple[Footing, ...]:

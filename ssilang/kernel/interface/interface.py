@@ -308,11 +308,8 @@ def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int
     found = [numbering.index_of(node, name) for name in names]
     if min(found) < 0:
         missing = names[found.index(min(found))]
-        raise FieldError(
-            "kernel.interface.joint-needs-node-matrices",
-            missing=missing,
-            node=numbering.table.told(node),
-        )
+        told = {"missing": missing, "node": numbering.table.told(node)}
+        raise FieldError("kernel.interface.joint-needs-node-matrices", **told)
     return found
 
 
@@ -347,11 +344,8 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
     columns = numbering.index(keys[:, :, None], codes[None, None, :])  # (pairs, side, d)
     if columns.size and columns.min() < 0:
         pair, side, i = np.argwhere(columns < 0)[0]
-        raise FieldError(
-            "kernel.interface.joint-needs-node-matrices",
-            missing=names[i],
-            node=numbering.table.told(keys[pair, side]),
-        )
+        told = {"missing": names[i], "node": numbering.table.told(keys[pair, side])}
+        raise FieldError("kernel.interface.joint-needs-node-matrices", **told)
     rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
     signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)
     shape = (n_pairs * d, numbering.size)

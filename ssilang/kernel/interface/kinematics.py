@@ -200,11 +200,8 @@ def _refuse_folded(zone: Zone, normal: FloatArray) -> None:
     """Refuse cells whose normal turns round between their points: corners in a wrong order."""
     folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
     if folded.any():
-        raise MeshError(
-            "kernel.interface.joint-folded-part-negative",
-            cells=_cells(folded),
-            element=zone.element,
-        )
+        told = {"cells": _cells(folded), "element": zone.element}
+        raise MeshError("kernel.interface.joint-folded-part-negative", **told)
 
 
 def _refuse_negative(zone: Zone, weights: FloatArray) -> None:
@@ -214,12 +211,8 @@ def _refuse_negative(zone: Zone, weights: FloatArray) -> None:
     )
     if negative.any():
         axisymmetric = zone.mode is Mode.AXISYMMETRIC
-        raise MeshError(
-            "kernel.interface.joint-negative-area",
-            cells=_cells(negative),
-            element=zone.element,
-            axisymmetric=axisymmetric,
-        )
+        told = {"cells": _cells(negative), "element": zone.element, "axisymmetric": axisymmetric}
+        raise MeshError("kernel.interface.joint-negative-area", **told)
 
 
 def _thickness(
@@ -249,11 +242,8 @@ def point_values(
         return None
     values, support = given.raw(name)
     if values.dtype == object:
-        raise MaterialError(
-            "kernel.interface.joint-parameter-must-number",
-            name=name,
-            name_2=type(values.flat[0]).__name__,
-        )
+        told = {"name": name, "name_2": type(values.flat[0]).__name__}
+        raise MaterialError("kernel.interface.joint-parameter-must-number", **told)
     g, m = shape.shape
     values = np.broadcast_to(values.astype(float, copy=False), (n_cells, values.shape[1]))
     if values.shape[1] == 2 * m and support == "NOEUD":

@@ -15,7 +15,13 @@ from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed, residual
 from ssilang.kernel.interface.copies import copy_rows, copy_state, largest
 from ssilang.kernel.interface.factors.inverse import VANISHING, solve_small
-from ssilang.kernel.interface.factors.kept import FORCING, Factors, new_factors, solve_tangent
+from ssilang.kernel.interface.factors.kept import (
+    FORCING,
+    Factors,
+    is_factorised,
+    new_factors,
+    solve_tangent,
+)
 from ssilang.kernel.interface.laws.columns import (
     CLOSED_SHEAR,
     OPEN_SHEAR,
@@ -306,6 +312,9 @@ def solve_interface(
             shares[0, 0] = 1.0  # looked at; the others stay no number, which is not stiff
     if is_stiff(shares):
         find_start(joints, condensed, now, trial, work.factors, shares)
+    elif is_factorised(work.factors) and len(trial.mean) == 0:
+        # starts where the last tangents lead, which is the end if no point changes
+        solve_tangent(joints, condensed, work.factors, trial.D, y, FORCING)
     size = evaluate(joints, condensed, now, trial)
     scale = max(largest(trial.y0), largest(now.delta), 1e-300)
     turns = -MOST_TURNS

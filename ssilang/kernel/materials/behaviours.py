@@ -186,12 +186,8 @@ def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str,
     if (family == "fibre" and law not in FIBRE_LAWS) or (
         family not in UNIAXIAL_FAMILIES and law in UNIAXIAL_LAWS
     ):
-        raise MaterialError(
-            "kernel.materials.elements-family-no-plastic",
-            family=family,
-            law=law,
-            fibre_laws=FIBRE_LAWS,
-        )
+        told = {"family": family, "law": law, "fibre_laws": FIBRE_LAWS}
+        raise MaterialError("kernel.materials.elements-family-no-plastic", **told)
     if family not in PLASTIC_FAMILIES:
         raise MaterialError("kernel.materials.elements-family-no-plastic-law", family=family)
     if family in SECTION_FAMILIES and law not in SECTION_LAWS:

@@ -288,20 +288,13 @@ def may_be_positive(matrix: sp.csr_array) -> bool:
     diagonal = matrix.diagonal()
     if diagonal.size and diagonal.min() < -NEGATIVE * np.abs(diagonal).max():
         return False
-    return not _has_negative_minor(matrix)
-
-
-def _has_negative_minor(matrix: sp.csr_array) -> bool:
-    """Whether some `a_ii a_jj - a_ij^2` is negative by more than rounding.
-
-    Such a matrix is of both signs, whatever its diagonal.
-    """
+    # a_ii a_jj - a_ij^2 negative by more than rounding: of both signs, whatever the diagonal
     terms, diagonal = matrix.tocoo(), np.abs(matrix.diagonal())
     off = terms.row != terms.col
     squares = terms.data[off] ** 2
     products = diagonal[terms.row[off]] * diagonal[terms.col[off]]
     floor = (NEGATIVE * np.abs(matrix.data).max(initial=0.0)) ** 2
-    return bool((squares > (1.0 + 1e-9) * products + floor).any())
+    return not (squares > (1.0 + 1e-9) * products + floor).any()
 
 
 def refuse_negative_mass(

@@ -38,7 +38,9 @@ def assemble_rows(
         run = _run(block)
         order = _by_node(block, run)
         heads = np.ascontiguousarray(block[:, order[::run]])
-        users = _users(heads, n)
+        start = np.zeros(n + 1, dtype=np.int64)
+        np.cumsum(np.bincount(heads.ravel(), minlength=n), out=start[1:])
+        users = _Users(start, _sorted_users(heads.ravel(), start))
         lengths = _row_lengths(heads, users, heads.shape[1], n)
         if run > 1:
             lengths = run * _spread(lengths, run)
@@ -105,12 +107,6 @@ class _Elements(NamedTuple):
     order: NDArray[np.int64]
     run: int
     values: FloatArray
-
-
-def _users(places: Index, n: int) -> _Users:
-    start = np.zeros(n + 1, dtype=np.int64)
-    np.cumsum(np.bincount(places.ravel(), minlength=n), out=start[1:])
-    return _Users(start, _sorted_users(places.ravel(), start))
 
 
 @compiled

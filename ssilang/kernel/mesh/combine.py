@@ -37,7 +37,17 @@ def union(*meshes: Mesh, as_given: bool = False) -> Mesh:
     """
     result = meshes[0]
     for other in meshes[1:]:
-        result = _union_of_two(result, other, as_given)
+        blocks = {b.cell_type: b for b in result.blocks if len(b)}
+        for block in other.blocks:
+            mine = blocks.get(block.cell_type)
+            if mine is None:
+                blocks[block.cell_type] = block
+            elif mine is not block and len(block):
+                pair = (mine, block)
+                if not as_given and _continues(block, mine):
+                    pair = (block, mine)
+                blocks[block.cell_type] = join_blocks(pair)
+        result = Mesh(result.nodes, tuple(b for b in blocks.values() if len(b)))
     return result
 
 
@@ -48,20 +58,6 @@ def gathered(meshes: Sequence[Mesh]) -> Mesh:
         for block in mesh.blocks:
             by_type.setdefault(block.cell_type, []).append(block)
     return Mesh(meshes[0].nodes, tuple(join_blocks(blocks) for blocks in by_type.values()))
-
-
-def _union_of_two(first: Mesh, second: Mesh, as_given: bool) -> Mesh:
-    blocks = {b.cell_type: b for b in first.blocks if len(b)}
-    for block in second.blocks:
-        mine = blocks.get(block.cell_type)
-        if mine is None:
-            blocks[block.cell_type] = block
-        elif mine is not block and len(block):
-            pair = (mine, block)
-            if not as_given and _continues(block, mine):
-                pair = (block, mine)
-            blocks[block.cell_type] = join_blocks(pair)
-    return Mesh(first.nodes, tuple(b for b in blocks.values() if len(b)))
 
 
 def _continues(line: CellBlock, next_line: CellBlock) -> bool:

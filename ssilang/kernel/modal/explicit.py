@@ -94,7 +94,8 @@ def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps)
     h, count, every, scheme = steps.h, steps.count, steps.every, steps.scheme
     if h <= 0.0 or count < 1 or every < 1:
         raise KernelError("kernel.modal.step-numbers-steps-must")
-    _check_mass(M)
+    if not np.isfinite(M).all() or np.linalg.matrix_rank(M) < len(M):
+        raise KernelError("kernel.modal.mass-modes-singular")
     _check_step(M, K, h, scheme)
     n = len(M)
     saved = count // every + 1
@@ -126,11 +127,6 @@ def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps)
 
 def _inverse(A: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.inv(A), dtype=np.float64)
-
-
-def _check_mass(M: FloatArray) -> None:
-    if not np.isfinite(M).all() or np.linalg.matrix_rank(M) < len(M):
-        raise KernelError("kernel.modal.mass-modes-singular")
 
 
 def _check_step(M: FloatArray, K: FloatArray, h: float, scheme: str) -> None:

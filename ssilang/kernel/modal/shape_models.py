@@ -99,11 +99,8 @@ def shape_points(zones: tuple[Zone, ...], material: CellField) -> list[ShapePoin
 
 def _shape_point(zone: Zone, given: ZoneField) -> ShapePoint:
     if len(zone.cells) != 1:
-        raise MaterialError(
-            "kernel.modal.model-stands-point-not",
-            behaviour=zone.behaviour[-1],
-            n_cells=len(zone.cells),
-        )
+        told = {"behaviour": zone.behaviour[-1], "n_cells": len(zone.cells)}
+        raise MaterialError("kernel.modal.model-stands-point-not", **told)
     modal = zone.element == "MODAL"
     needed = ("FREQ", "MASS", "DEFO") if modal else ("DEFO", "RIDE", "MADE")
     missing = [n for n in needed if n not in given]

@@ -73,12 +73,8 @@ def follow_directions(
             if step is None:
                 length *= 0.5
                 if length < 0.5**HALVINGS:
-                    raise ConvergenceError(
-                        "kernel.plasticity.step-time-no-point",
-                        k=k,
-                        times=times[k],
-                        halvings=HALVINGS,
-                    )
+                    told = {"k": k, "times": times[k], "halvings": HALVINGS}
+                    raise ConvergenceError("kernel.plasticity.step-time-no-point", **told)
                 continue
             eta, done, length = eta + step, end, min(2 * length, 1.0)
         trace.times.append(float(times[k]))

@@ -20,6 +20,7 @@ from ssilang.kernel.plasticity.fibre_points import (
 )
 
 TURNS = 200
+SOFT = 0.01  # of the elastic stiffness: slopes that lead too far
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,12 +85,22 @@ def bend(
         def answer(step: float, turn: FloatArray = turn, start: Along = end) -> Along:
             return law.along(start.stress, step + turn, start.variables)
 
-        step, end = _balanced(answer, section, float(force), tolerance, i)
+        led = _led(section, end, turn, float(force))
+        step, end = _balanced(answer, section, float(force), tolerance, i, led)
         eps, bent = eps + step, wanted
         along = section.areas * end.stress
         moments[i], strains[i] = (along @ z, -along @ y), eps
         ends.append(end)
     return BentSection(moments, strains, groups, ends)
+
+
+def _led(section: FibreSection, end: Along, turn: FloatArray, force: float) -> float:
+    """Step of the strain of the line to which the last slopes lead; 0 where they are soft."""
+    areas, forces = section.areas, section.areas * end.slope
+    size = float(forces.sum())
+    if size <= SOFT * float(areas @ section.moduli[:, 0]):
+        return 0.0
+    return (force - float(areas @ end.stress) - float(forces @ turn)) / size
 
 
 def _balanced(
@@ -98,16 +109,17 @@ def _balanced(
     force: float,
     tolerance: float,
     row: int,
+    step: float,
 ) -> tuple[float, Along]:
     """Step of the strain of the line that gives the normal force, and what fibres have then.
 
-    By Newton inside a bracket.
+    By Newton inside a bracket, from a first step.
     """
     areas = section.areas
     elastic = float(areas @ section.moduli[:, 0])
     if elastic <= 0:
         raise KernelError("kernel.plasticity.fibres-no-area-no")
-    low, high, step = -np.inf, np.inf, 0.0
+    low, high = -np.inf, np.inf
     for _ in range(TURNS):
         found = answer(step)
         rest = float(areas @ found.stress) - force
@@ -120,10 +132,5 @@ def _balanced(
         step = newton if low < newton < high else 0.5 * (low + high)
         if np.isfinite(high - low) and high - low <= 1e-15 * max(abs(low), abs(high), 1e-12):
             return step, answer(step)
-    raise ConvergenceError(
-        "kernel.plasticity.section-not-find-normal",
-        force=force,
-        row=row + 1,
-        rest=rest,
-        turns=TURNS,
-    )
+    told = {"force": force, "row": row + 1, "rest": rest, "turns": TURNS}
+    raise ConvergenceError("kernel.plasticity.section-not-find-normal", **told)

@@ -211,14 +211,9 @@ def _static_step(
             continue
         length = 0.5 * length
         if length < 0.5**HALVINGS:
-            raise ConvergenceError(
-                "kernel.plasticity.load-step-time-no",
-                k=k,
-                time=solver.time,
-                residual=outcome.residual,
-                n_residuals=len(solver.residuals),
-                halvings=HALVINGS,
-            )
+            told = {"k": k, "time": solver.time, "residual": outcome.residual}
+            told |= {"n_residuals": len(solver.residuals), "halvings": HALVINGS}
+            raise ConvergenceError("kernel.plasticity.load-step-time-no", **told)
 
 
 def _increment(
@@ -296,13 +291,8 @@ def _moving_step(
     times = run.problem.times
     outcome = loop.step(float(times[k - 1]), float(times[k]), factors[k - 1 : k + 1])
     if outcome.turns <= 0 or not np.isfinite(run.motion.u).all():
-        raise ConvergenceError(
-            "kernel.plasticity.step-time-no-equilibrium",
-            k=k,
-            times=times[k],
-            residual=outcome.residual,
-            turns=-outcome.turns,
-        )
+        told = {"k": k, "times": times[k], "residual": outcome.residual, "turns": -outcome.turns}
+        raise ConvergenceError("kernel.plasticity.step-time-no-equilibrium", **told)
     history.iterations = max(history.iterations, outcome.turns)
     _name(run, history, loop.solver)
 

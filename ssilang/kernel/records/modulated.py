@@ -55,12 +55,9 @@ class ModulatedSignal:
         if (y < 0.0).any() or not (y > 0.0).any() or (np.diff(f) <= 0.0).any():
             raise FieldError("kernel.records.power-spectrum-positive-over")
         if len(self.bands) != len(self.times) + 1 or (np.diff(self.bands) <= 0.0).any():
-            raise FieldError(
-                "kernel.records.modulations-need-increasing-limits",
-                n_times=len(self.times),
-                n_times_2=len(self.times) + 1,
-                n_bands=len(self.bands),
-            )
+            told = {"n_times": len(self.times), "n_times_2": len(self.times) + 1}
+            told |= {"n_bands": len(self.bands)}
+            raise FieldError("kernel.records.modulations-need-increasing-limits", **told)
         ends = np.array([[t[0], t[-1]] for t in self.times])
         if np.ptp(ends, axis=0).max() > 1e-6 * max(self.duration, 1e-300) or self.duration <= 0.0:
             raise FieldError("kernel.records.modulations-not-go-instant")

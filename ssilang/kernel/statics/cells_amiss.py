@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import chain, combinations, permutations
+from typing import cast
 
 import numpy as np
 
@@ -32,6 +33,8 @@ Solids = list[tuple[ElementMatrices, Zone, list[BoolArray]]]
 
 def bordered_solids(matrix: Matrix) -> Solids:
     """Blocks of cells of two or three dimensions; by face, which cells have it for themselves."""
+    if "solids" in matrix.cache:
+        return cast(Solids, matrix.cache["solids"])
     blocks = {id(b.raw_nodes): b for b in matrix.blocks if b.zone and not is_joint(b.zone)}.values()
     solids = [(b, b.zone) for b in blocks if b.zone and b.zone.cells.kind.dimension >= 2]
     keys = [[face_keys(b.nodes[:, list(x)]) for _, x in z.cells.kind.faces] for b, z in solids]
@@ -39,7 +42,9 @@ def bordered_solids(matrix: Matrix) -> Solids:
     known, times = np.unique(every, return_counts=True)
     alone = known[times == 1]
     borders = [[np.isin(k, alone) for k in own] for own in keys]
-    return [(b, zone, border) for (b, zone), border in zip(solids, borders, strict=True)]
+    made = [(b, zone, border) for (b, zone), border in zip(solids, borders, strict=True)]
+    matrix.cache["solids"] = made
+    return made
 
 
 def hanging_nodes(matrix: Matrix, solids: Solids) -> IntArray:
@@ -87,11 +92,16 @@ def overlapping_cells(matrix: Matrix, solids: Solids) -> IntArray:
 
 @dataclass(frozen=True)
 class Layer:
-    """A single layer of linear cells: a node, their number, their length over their thickness."""
+    """A single layer of linear cells: a node, their number, their length over their thickness.
+
+    `across` and `along` are the axes of its thickness and of its largest extent.
+    """
 
     node: int
     count: int
     slender: float
+    across: int
+    along: int
 
     @property
     def stiffer(self) -> float:
@@ -100,7 +110,12 @@ class Layer:
 
 
 def bent_layer(matrix: Matrix, solids: Solids) -> Layer | None:
-    """The most slender of single layers of linear cells, some thicknesses large; None without."""
+    """The most slender of single layers of linear cells, of cells that are long; None without."""
+    return max(layers(matrix, solids, _LONG), key=lambda layer: layer.slender, default=None)
+
+
+def layers(matrix: Matrix, solids: Solids, least: float = 0.0) -> list[Layer]:
+    """Single layers of linear cells more slender than the least, some thicknesses large."""
     tied = np.concatenate([np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)])
     found = []
     for block, zone, border in solids:
@@ -114,9 +129,10 @@ def bent_layer(matrix: Matrix, solids: Solids) -> Layer | None:
             thick = np.linalg.norm(across, axis=1)
             along = points[:, sides[i]] - np.roll(points[:, sides[i]], 1, axis=1)
             slender = np.linalg.norm(along, axis=2).max(axis=1) / thick
-            alone = border[i] & border[j] & loose & (slender > _LONG)
-            size = np.ptp(points[alone].reshape(-1, 3), axis=0).max() if alone.any() else 0.0
-            if size > _PLATE * thick[alone].max(initial=0.0):
+            alone = border[i] & border[j] & loose & (slender > least)
+            extent = np.ptp(points[alone].reshape(-1, 3), axis=0) if alone.any() else np.zeros(3)
+            if extent.max() > _PLATE * thick[alone].max(initial=0.0):
                 node, mean = int(block.nodes[alone][0, 0]), float(np.median(slender[alone]))
-                found.append(Layer(node, int(alone.sum()), mean))
-    return max(found, key=lambda layer: layer.slender, default=None)
+                way = int(np.abs(across[alone]).sum(axis=0).argmax()), int(extent.argmax())
+                found.append(Layer(node, int(alone.sum()), mean, *way))
+    return found

@@ -109,7 +109,12 @@ def probing_step(
     """
     _no_fibres(zone)
     if is_joint(zone):
-        return _joint_probe(zone, material, stress, precision)
+        joints = joint_points(zone, material)
+        trial = joints.local(stress) * precision
+        trial[:, -1] = np.maximum(trial[:, -1], 0.0)
+        step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
+        step[:, : joints.dimension] = joints.named(joints.jumps(trial))
+        return step
     if not is_plastic(zone):
         return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
     points = plastic_points(zone, material)
@@ -236,17 +241,6 @@ def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: in
     if code == LawCode.MOHR:
         w[:, -1] += xi + state[:, Variable.OPENING]
     return w
-
-
-def _joint_probe(
-    zone: Zone, material: CellField, stress: FloatArray, precision: float
-) -> FloatArray:
-    points = joint_points(zone, material)
-    raised = points.local(stress) * precision
-    raised[:, -1] = np.maximum(raised[:, -1], 0.0)
-    step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
-    step[:, : points.dimension] = points.named(points.jumps(raised))
-    return step
 
 
 def _joint(

@@ -195,8 +195,10 @@ class LinearSystem:
         kernel = self.inverse.kernel
         z = self.inverse.solve(b)
         gap = C @ z + self.rows.C[self.contact] @ start - d[self.contact]
+        if self._flexibility is None:
+            self._flexibility = C @ self.inverse.solve(D)
         problem = ContactProblem(
-            sign[:, None] * self._contact_flexibility(C, D) * sign,
+            sign[:, None] * self._flexibility * sign,
             sign * gap,
             sign[:, None] * (C @ kernel),
             sign[:, None] * (D.T @ kernel),
@@ -221,11 +223,6 @@ class LinearSystem:
         return ConvergenceError(
             "kernel.statics.held-by-contact-alone", failure=failure, motions=named
         )
-
-    def _contact_flexibility(self, C: FloatArray, D: FloatArray) -> FloatArray:
-        if self._flexibility is None:
-            self._flexibility = C @ self.inverse.solve(D)
-        return self._flexibility
 
     def _check_redundant(self, u: FloatArray, d: FloatArray) -> None:
         mismatch = self.elimination.mismatch(u, d)

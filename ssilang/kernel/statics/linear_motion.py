@@ -9,6 +9,7 @@ from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.base.graph import chains, entries, parts_of
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import lying_on
 from ssilang.messages.message import Sentence
 
@@ -37,6 +38,30 @@ def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> Flo
         if name in numbering.unknowns:
             motions[numbering.where(name), 3 + axis] = 1.0
     return motions
+
+
+def wrong_signs(matrix: Matrix) -> IntArray:
+    """First node (n,) of equalities that rigid motions break, and would not with one sign turned.
+
+    Those between displacements alone are asked for translations: their nodes may be anywhere.
+    """
+    found, known = [np.zeros(0, np.int64)], {**_TRANSLATIONS, **_ROTATIONS}
+    for r in matrix.relations:
+        counts, names = np.diff(r.row_start), tuple(dict.fromkeys(r.unknowns))
+        if not known.keys() >= {*names} or (counts < 2).all():
+            continue
+        codes = np.array([names.index(n) for n in r.unknowns])
+        nodes = r.table.resolve(r.nodes)
+        numbering = Numbering(r.table, names, names, nodes, codes, r.table.version)
+        some = 6 if {*names} & {*_ROTATIONS} else 3
+        terms = r.coefficients[:, None] * rigid_motions(numbering)[:, :some]
+        sizes = np.add.reduceat(np.abs(terms), r.row_start[:-1]).max(axis=1)[:, None] * 1e-6
+        rows = np.repeat(np.arange(len(counts)), counts)
+        total = np.add.reduceat(terms, r.row_start[:-1])
+        asked = (np.abs(total) > sizes).any(axis=1) & (counts > 1) & (r.sense == 0)
+        fits = (np.abs(total[rows] - 2.0 * terms) <= sizes[rows]).all(axis=1)
+        found.append(nodes[r.row_start[:-1]][np.bincount(rows, fits, len(counts)) * asked > 0])
+    return np.concatenate(found)
 
 
 def tied(numbering: Numbering, relations: sp.csr_array, *matrices: sp.csr_array) -> IntArray:

@@ -25,6 +25,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.statics.doubled import terms_of
@@ -62,40 +63,58 @@ def swapped_joints(
     Bodies are cells of `stiffness` that hold all nodes of a side; joints with no such cells, or
     with cells along their own plane (a footing of beams), are left alone.
     """
-    if model is None:
-        return ()
     found = []
-    for zone in joint_zones(model):
-        if is_macro(zone):
+    for joints in made_joints(model, characteristics):
+        if is_macro(joints.zone):
             continue
-        joints = joint_cells(zone, zone_field(zone, characteristics))
         cosine, middle = _cosines(joints, stiffness)
         if len(cosine) and (cosine < AGAINST).all():
-            found.append(SwappedJoints(middle, zone.element == "JOI1", _overlap(joints)))
+            found.append(SwappedJoints(middle, joints.zone.element == "JOI1", _overlap(joints)))
     return tuple(found)
+
+
+def made_joints(model: Model | None, characteristics: CellField | None) -> Iterator[JointCells]:
+    """The joints of a model's zones."""
+    zones = () if model is None else joint_zones(model)
+    return (joint_cells(z, zone_field(z, characteristics)) for z in zones)
 
 
 def drawn_gaps(
     model: Model | None, characteristics: CellField | None
 ) -> Iterator[tuple[int, float]]:
     """A node of each zone of surface joints whose sides lie apart, and how far (m)."""
-    for zone in () if model is None else joint_zones(model):
-        if zone.element != "JOI1":
-            joints = joint_cells(zone, zone_field(zone, characteristics))
-            upper = zone.cells.nodes.resolve(joints.upper)
-            size = float(np.ptp(zone.cells.nodes.coordinates[upper].reshape(-1, 3), axis=0).max())
+    for joints in made_joints(model, characteristics):
+        if joints.zone.element != "JOI1":
+            table = joints.zone.cells.nodes
+            upper = table.resolve(joints.upper)
+            size = float(np.ptp(table.coordinates[upper].reshape(-1, 3), axis=0).max())
             if (gap := _overlap(joints)) > _DRAWN * size:
                 yield int(upper.min()), gap
+
+
+def repeated_joints(model: Model | None, characteristics: CellField | None) -> IntArray:
+    """Upper node (n,) of joints on the nodes of others, with their law, axes and parameters."""
+    groups: dict[object, list[FloatArray]] = {}
+    for joints in made_joints(model, characteristics) if characteristics is not None else ():
+        zone, resolve = joints.zone, joints.zone.cells.nodes.resolve
+        parts = [resolve(joints.upper), resolve(joints.lower), joints.frames.round(9)]
+        parts.append(joint_parameters(joints, zone_field(zone, characteristics)))
+        rows = np.hstack([p.reshape(len(joints.upper), -1) for p in parts]).astype(float)
+        groups.setdefault((zone.element, zone.behaviour), []).append(rows)
+    found = [np.zeros(0, np.int64)]
+    for rows in map(np.concatenate, groups.values()):
+        kinds, times = np.unique(rows, axis=0, return_counts=True)
+        found.append(kinds[times > 1, 0].astype(np.int64))
+    return np.concatenate(found)
 
 
 def inclinations(
     model: Model | None, characteristics: CellField | None
 ) -> Iterator[tuple[int, float]]:
     """Upper node of each macro-element, and its normal's angle with the upward axis (degrees)."""
-    for zone in () if model is None else joint_zones(model):
-        if is_macro(zone):
-            joints = joint_cells(zone, zone_field(zone, characteristics))
-            nodes = zone.cells.nodes.resolve(joints.upper).ravel()
+    for joints in made_joints(model, characteristics):
+        if is_macro(joints.zone):
+            nodes = joints.zone.cells.nodes.resolve(joints.upper).ravel()
             cosines = np.clip(joints.frames[:, 0, -1, -1], -1.0, 1.0)
             yield from zip(nodes.tolist(), np.degrees(np.arccos(cosines)).tolist(), strict=True)
 

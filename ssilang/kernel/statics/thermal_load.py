@@ -79,11 +79,8 @@ def _check_names(fields: list[object], zones: tuple[Zone, ...]) -> None:
             raise FieldError("kernel.statics.given-strain-of-joints")
         found = {n for z in taking for n in zone_field(z, field).names}
         if not found or not found <= wanted:
-            raise FieldError(
-                "kernel.statics.given-strain-names",
-                given=sorted(found - wanted),
-                wanted=sorted(wanted),
-            )
+            told = {"given": sorted(found - wanted), "wanted": sorted(wanted)}
+            raise FieldError("kernel.statics.given-strain-names", **told)
 
 
 def split_strains(
@@ -101,7 +98,7 @@ def split_strains(
         for zone, material in zones
         for strain, curve in free_terms(load, zone, material)
     ]
-    parts = [_force(s, _of(zones, s.zone)) for s in stresses]
+    parts = [_force(s, next(material for z, material in zones if z is s.zone)) for s in stresses]
     return Load((*kept, *parts)), stresses
 
 
@@ -136,10 +133,6 @@ def _restrained(zone: Zone, material: CellField, strain: FloatArray) -> CellFiel
     """Stress of a strain that is held back."""
     block = cell_block(zone, family_of(zone).strain_names(zone), strain)
     return elastic_stress(zone, material, CellField((block,), "DEFORMATIONS"))
-
-
-def _of(zones: list[tuple[Zone, CellField]], zone: Zone) -> CellField:
-    return next(material for z, material in zones if z is zone)
 
 
 def _force(stress: ThermalStress, material: CellField) -> LoadPart:

@@ -135,12 +135,8 @@ def criterion(
     words = zone.behaviour
     name = _law(zone) if is_plastic(zone) else ""
     if name not in CRITERIA or ELEMENTS[zone.element].family in SECTION_FAMILIES:
-        raise FieldError(
-            "kernel.statics.law-element-no-criterion",
-            words=words,
-            element=zone.element,
-            criteria=CRITERIA,
-        )
+        told = {"words": words, "element": zone.element, "criteria": CRITERIA}
+        raise FieldError("kernel.statics.law-element-no-criterion", **told)
     points = plastic_points(zone, material)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
     s = section_stress(points, stress)

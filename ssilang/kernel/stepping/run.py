@@ -117,7 +117,7 @@ class History:
     @property
     def largest_energy(self) -> float:
         """The largest energy of any kind, its absolute value."""
-        return self.seen if self.again else float(np.abs(self.kept).max(initial=0.0))
+        return max(self.seen, float(np.abs(self.kept).max(initial=0.0)))
 
     @property
     def imbalance(self) -> FloatArray:

@@ -309,18 +309,13 @@ def load_of(numbering: Numbering, times: FloatArray, forces: FloatArray) -> Load
     for k in range(int((size > ROUNDING * size[0]).sum())):
         vector = np.zeros(numbering.size)
         vector[rows] = left[:, k]
-        field = _on(numbering, rows, vector)
+        whole = vector_to_field(vector, numbering, dual=True)
+        nodes = np.unique(numbering.nodes[rows])
+        values = {name: whole.values_at(name, nodes) for name in whole.components}
+        field = NodeField.of(whole.table, nodes, values, "DISCRET")
         curve = Curve((CurvePart(times, size[k] * right[k], "TEMP", "FORC"),), "")
         parts.append(LoadPart("MECA", field, curve))
     return Load(tuple(parts))
-
-
-def _on(numbering: Numbering, rows: IntArray, vector: FloatArray) -> NodeField:
-    """Only the loaded nodes of a force."""
-    whole = vector_to_field(vector, numbering, dual=True)
-    nodes = np.unique(numbering.nodes[rows])
-    values = {name: whole.values_at(name, nodes) for name in whole.components}
-    return NodeField.of(whole.table, nodes, values, "DISCRET")
 
 
 def along_columns(heights: FloatArray, column: FloatArray) -> sp.csr_array:

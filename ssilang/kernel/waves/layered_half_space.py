@@ -118,7 +118,8 @@ def transfers(
     speed = ground.primary[-1] if kind == "P" else ground.shear[-1]
     slowness = float(np.sin(angle) / speed)
     waves = _waves(ground, kind, slowness, omega)
-    amplitudes = _amplitudes(ground, waves, _incident(kind, waves))
+    given = 1 if kind == "SV" else 0  # of the waves that go up in the last layer
+    amplitudes = _amplitudes(ground, waves, given)
     return _motion(ground, waves, amplitudes, np.maximum(depths, 0.0)), slowness
 
 
@@ -165,11 +166,6 @@ def _waves(ground: HalfSpace, kind: Kind, slowness: float, omega: FloatArray) ->
 
     vertical = (omega * np.stack([q, s], axis=1)).astype(np.complex128)
     return _Waves(vertical, of(1.0), of(-1.0))
-
-
-def _incident(kind: Kind, waves: _Waves) -> int:
-    """Which of the waves that go up in the last layer is given."""
-    return 1 if kind == "SV" else 0
 
 
 def _amplitudes(ground: HalfSpace, waves: _Waves, given: int) -> tuple[ComplexArray, ComplexArray]:

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, MaterialError, MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import node_major_layout, per_cell
@@ -181,7 +181,9 @@ def matched_layer(
     stretching = Stretching(low, high, below, above, speed, wanted)
     parts = [_blocks(zone, zone_field(zone, material), stretching) for zone in model.zones]
     K, M, C = ([b for part in parts for b in part[kind]] for kind in range(3))
-    edge = nodes[_on_outer_edges(own, low - below, high + above, thick, size)]
+    # nodes where the layer ends, on those sides that have one
+    at = np.concatenate([own < low - below + size, own > high + above - size], axis=1)
+    edge = nodes[(at & (thick > 0)).any(axis=1)]
     held = blocked(table, edge, SOLID_KINEMATICS[Mode.PLANE_STRAIN].unknowns)
     return MatchedLayer(
         Matrix(table, tuple(K), (held,), "RIGIDITE"),
@@ -217,14 +219,6 @@ def _refuse_inside(zone: Zone, low: FloatArray, high: FloatArray, size: float) -
     if wrong.any():
         place = zone.cells.shown_middle(int(np.argmax(wrong)))
         raise MeshError("kernel.waves.layer-in-box", place=place, count=int(wrong.sum()))
-
-
-def _on_outer_edges(
-    nodes: FloatArray, low: FloatArray, high: FloatArray, thick: FloatArray, size: float
-) -> BoolArray:
-    """Which nodes lie where the layer ends: on those sides that have one."""
-    at = np.concatenate([nodes < low + size, nodes > high - size], axis=1)
-    return np.asarray((at & (thick > 0)).any(axis=1), dtype=bool)
 
 
 def _blocks(

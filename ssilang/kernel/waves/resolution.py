@@ -59,19 +59,15 @@ def _edges(kind: CellType) -> set[tuple[int, int]]:
 
 def pressure_speed(zone: Zone, material: CellField) -> FloatArray:
     """Speed of pressure waves of each cell (m/s)."""
-    young, poisson, density = _moduli(zone, material)
-    modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
-    return np.sqrt(modulus / density)
-
-
-def _moduli(zone: Zone, material: CellField) -> tuple[FloatArray, FloatArray, FloatArray]:
     parameters = zone_field(zone, material)
     n = len(zone.cells)
     young, poisson, density = (
         np.broadcast_to(parameters.at(name, "GRAVITE").mean(axis=1), (n,))
         for name in ("YOUN", "NU", "RHO")
     )
-    return young, poisson, density
+    modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+    speed: FloatArray = np.sqrt(modulus / density)
+    return speed
 
 
 #: a face whose middle lies so far above its cell's, as a share of the way, is the surface's

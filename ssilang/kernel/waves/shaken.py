@@ -66,8 +66,10 @@ def is_shaken(problem: Problem, name: str) -> bool:
     return name in axes and bool(shaking[axes.index(name)].any())
 
 
-def strong_frequency(times: FloatArray, values: FloatArray, power: int = -1) -> float:
-    """Frequency (Hz) below which `STRONG` of the energy of a motion's velocities lies.
+def strong_frequency(
+    times: FloatArray, values: FloatArray, power: int = -1, share: float = STRONG
+) -> float:
+    """Frequency (Hz) below which a share of the energy of a motion's velocities lies.
 
     Parameters
     ----------
@@ -80,7 +82,7 @@ def strong_frequency(times: FloatArray, values: FloatArray, power: int = -1) -> 
     frequencies = np.fft.rfftfreq(len(even), even[1] - even[0])[1:]
     spectrum = np.abs(np.fft.rfft(np.interp(even, times, values)))[1:]
     energy = np.cumsum((spectrum * frequencies**power) ** 2)
-    return float(frequencies[np.searchsorted(energy, STRONG * energy[-1])]) if energy[-1] else 0.0
+    return float(frequencies[np.searchsorted(energy, share * energy[-1])]) if energy[-1] else 0.0
 
 
 @dataclass(frozen=True)

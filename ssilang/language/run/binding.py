@@ -392,13 +392,6 @@ def _place_of(known: tuple[int, Keyword | Select, str]) -> int:
     return known[0]
 
 
-def _choice_of(entries: Sequence[Entry]) -> Keyword | None:
-    """The first entry where it is the word that chooses the form."""
-    first = entries[0] if entries else None
-    chooses = isinstance(first, Keyword) and first.name == "word" and not first.arguments
-    return first if chooses and isinstance(first, Keyword) else None
-
-
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {
     Argument: Binder.operand,
     Group: Binder._group,
@@ -430,7 +423,9 @@ class _Prepared:
 @cache
 def _prepared(entries: tuple[Entry, ...]) -> _Prepared:
     readers = ((i, e, _READERS.get(type(e))) for i, e in enumerate(entries))
-    choice = _choice_of(entries)
+    first = entries[0] if entries else None
+    chooses = isinstance(first, Keyword) and first.name == "word" and not first.arguments
+    choice = first if chooses and isinstance(first, Keyword) else None
     chosen = () if choice is None else (choice,)
     leads = takewhile(lambda e: isinstance(e, Argument) and e.leads, entries[len(chosen) :])
     keywords = tuple(e for e in entries if isinstance(e, Keyword | Select))

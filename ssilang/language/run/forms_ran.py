@@ -28,7 +28,8 @@ class FormsRan:
         """
         left = []
         for number, form in enumerate(operator.forms, 1):
-            if _only_refuses(form):
+            function = getattr(form.function, "func", form.function)  # what a partial is made of
+            if function.__annotations__.get("return") == "NoReturn":
                 continue
             if (operator.name, number, "") not in self._seen:
                 left.append(str(number))
@@ -39,12 +40,6 @@ class FormsRan:
 
     def _ran(self, operator: Operator, number: int, word: str) -> bool:
         return (operator.name, number, word) in self._seen
-
-
-def _only_refuses(form: Form) -> bool:
-    """Whether a form stands there to say that what it reads is not available."""
-    function = getattr(form.function, "func", form.function)  # what a partial is made of
-    return bool(function.__annotations__.get("return") == "NoReturn")
 
 
 def _words(entries: Iterable[Entry], path: str = "") -> Iterator[str]:

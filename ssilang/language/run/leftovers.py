@@ -47,7 +47,9 @@ def leftover_error(
     words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
     unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
     if unread is not None and not (_quoted(unread) and not _quoted(words[0])):
-        return _unread_operator(unread, left)
+        before = next((o for o in left if isinstance(o.value, Mot)), unread)
+        name = "" if before is unread else before.span.text
+        return SsiError("unread-operator", unread.span, name=str(unread.value), before=name)
     every = (*taken, *left)
     hidden = next((o for o in every if o.name and find_operator(o.name) is not None), None)
     if hidden is not None and len(every) > 1:
@@ -62,12 +64,6 @@ def leftover_error(
 def _quoted(operand: Operand) -> bool:
     """Whether a word stands in quotes: behind a bare one that nobody knows it is its keyword."""
     return operand.span.text[:1] == "'"
-
-
-def _unread_operator(operand: Operand, left: Sequence[Operand]) -> SsiError:
-    before = next((o for o in left if isinstance(o.value, Mot)), operand)
-    name = "" if before is operand else before.span.text
-    return SsiError("unread-operator", operand.span, name=str(operand.value), before=name)
 
 
 def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:

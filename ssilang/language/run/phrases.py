@@ -234,7 +234,7 @@ class PhraseRunner(OperandReader):
         span = operand.span
         if self._overflowed:
             self._overflowed = False
-            self._refuse_overflow(call, results, found.full_name)
+            self._tell_overflow(call, results, found.full_name)
         self._silent = operand if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
@@ -291,18 +291,12 @@ class PhraseRunner(OperandReader):
                 told = {"operator": name, "operand": operand.span.text[:40]}
                 session.warn("operand-empty", operand.span, found=type_of(operand.value), **told)
 
-    def _refuse_overflow(self, call: Call, results: Any, name: str) -> None:
-        """Refuse results with infinite numbers made of finite ones.
-
-        Raises
-        ------
-        SsiError
-            'number-too-large'.
-        """
+    def _tell_overflow(self, call: Call, results: Any, name: str) -> None:
+        """Tell of results with infinite numbers made of finite ones."""
         made = results if isinstance(results, tuple) else (results,)
         infinite = any(self.session.flaw_of(r) == "entry-not-finite" for r in made)
         if infinite and self._not_finite(call.used) is None:
-            raise SsiError("number-too-large", call.span, operator=name)
+            call.warn("operators.numbers.past-reals", sign=name)
 
     def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
         """The first operand that holds NaN or an infinite number: what an operator failed over."""

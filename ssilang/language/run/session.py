@@ -169,6 +169,10 @@ class Session:
         warning.warns = True
         self.report(warning)
 
+    def warned(self, code: str, /, **data: object) -> bool:
+        """Whether a warning with these data, among others, has been told."""
+        return any(w.code == code and data.items() <= w.data.items() for w in self.warnings)
+
     def report(self, warning: Any) -> None:
         """Keep a warning, or an error that does not stop the run, and show it.
 

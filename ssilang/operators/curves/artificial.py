@@ -69,13 +69,8 @@ def siar(
     begin = float(held[0] if start is None else start)
     end = float(held[-1] if duration is None else duration)
     if not held[0] <= begin < end <= held[-1]:
-        raise call.error(
-            "operators.curves.signals-outside-modulation",
-            start=begin,
-            end=end,
-            first=held[0],
-            last=held[-1],
-        )
+        told = {"start": begin, "end": end, "first": held[0], "last": held[-1]}
+        raise call.error("operators.curves.signals-outside-modulation", **told)
     width = float(part.abscissas[-1] - part.abscissas[0])
     count = max(round(width / 0.1), 1) if n_sines is None else n_sines
     samples = round((end - begin) / 0.02) + 1 if n_instants is None else n_instants
@@ -115,12 +110,9 @@ def _bands(
         times = np.array([min(0.0, end), end])
         return (Band(float(f[0]), float(f[-1]), times, np.ones(2)),)
     if len(limits) != len(modulation.parts) + 1:
-        raise call.error(
-            "operators.curves.limits-of-bands",
-            n_parts=len(modulation.parts),
-            least=len(modulation.parts) + 1,
-            n_limits=len(limits),
-        )
+        told = {"n_parts": len(modulation.parts), "least": len(modulation.parts) + 1}
+        told |= {"n_limits": len(limits)}
+        raise call.error("operators.curves.limits-of-bands", **told)
     pairs = zip(limits[:-1], limits[1:], modulation.parts, strict=True)
     bands = tuple(Band(float(a), float(b), p.abscissas, p.ordinates) for a, b, p in pairs)
     ends = np.array([[b.times[0], b.times[-1]] for b in bands])

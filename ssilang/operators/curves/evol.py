@@ -398,12 +398,8 @@ def history(call: Call, unmade: bool = False) -> tuple[Sequence[Any], FloatArray
         times = call.given(_ITS_TIMES).values
         fields = list(operand.value.values)
         if len(times) != len(fields):
-            raise call.error(
-                "operators.curves.fields-and-times-differ",
-                operand.value,
-                n_fields=len(fields),
-                n_times=len(times),
-            )
+            told = {"n_fields": len(fields), "n_times": len(times)}
+            raise call.error("operators.curves.fields-and-times-differ", operand.value, **told)
         return fields, times, ""
     table: Table = operand.value
     index = "DEPLACEMENTS" if table.has("DEPLACEMENTS") else "DEPL"

@@ -68,11 +68,8 @@ def conc(
 ) -> Curve:
     """Join curves."""
     if len(first.parts) != len(second.parts):
-        raise call.error(
-            "operators.curves.curves-two-by-two",
-            n_parts=len(first.parts),
-            n_others=len(second.parts),
-        )
+        told = {"n_parts": len(first.parts), "n_others": len(second.parts)}
+        raise call.error("operators.curves.curves-two-by-two", **told)
     parts = []
     for a, b in zip(first.parts, second.parts, strict=True):
         if bool(a.words) != bool(b.words):

@@ -109,12 +109,8 @@ def tfr_of_fields(
     _check_power(call, power)
     held: list[Any] = fields.values
     if len(held) != len(times):
-        raise call.error(
-            "operators.curves.fields-and-times-differ",
-            fields,
-            n_fields=len(held),
-            n_times=len(times),
-        )
+        told = {"n_fields": len(held), "n_times": len(times)}
+        raise call.error("operators.curves.fields-and-times-differ", fields, **told)
     step, n = constant_step(times.values), 2**power
     real: dict[str, Any] = {}
     f = np.empty(0)

@@ -15,6 +15,7 @@ from ssilang.operators.curves.words import (
     check_together,
     warn_of_damping,
     warn_of_motions,
+    warn_of_rate,
     warn_of_steps,
 )
 from ssilang.operators.mesh.selection.boundaries import enve
@@ -95,6 +96,7 @@ def spo(
     warn_of_damping(call, *map(float, values))
     if frequencies is not None:
         warn_of_steps(call, signal, float(np.min(frequencies.values, initial=np.inf)))
+        warn_of_rate(call, signal, float(np.max(frequencies.values, initial=0.0)))
     if second is not None or percentiles is not None:
         if second is None or percentiles is None or times is not None:
             raise call.error("operators.curves.rotd-incomplete")
@@ -138,12 +140,8 @@ def _valp(
     call: Call, diagonal: ListReel, below: ListReel, accuracy: list[tuple[str, float]]
 ) -> ListReel:
     if len(below) != len(diagonal) - 1:
-        raise call.error(
-            "operators.curves.terms-below-diagonal",
-            n_diagonal=len(diagonal),
-            needed=len(diagonal) - 1,
-            n_below=len(below),
-        )
+        told = {"n_diagonal": len(diagonal), "needed": len(diagonal) - 1, "n_below": len(below)}
+        raise call.error("operators.curves.terms-below-diagonal", **told)
     matrix = np.diag(diagonal.values) + np.diag(below.values, -1) + np.diag(np.ones(len(below)), 1)
     values = np.linalg.eigvals(matrix)
     if np.abs(values.imag).max(initial=0.0) > 1e-9 * np.abs(values).max(initial=1.0):
@@ -280,12 +278,8 @@ def _spectra(call: Call, table: Table) -> list[tuple[Curve, list[float]]]:
         if not isinstance(curve, Curve) or not isinstance(dampings, ListReel):
             raise call.error("operators.curves.spectrum-and-dampings-wanted", table, index=index)
         if len(dampings) != len(curve.parts):
-            raise call.error(
-                "operators.curves.curves-and-dampings-differ",
-                index=index,
-                n_parts=len(curve.parts),
-                n_dampings=len(dampings),
-            )
+            told = {"index": index, "n_parts": len(curve.parts), "n_dampings": len(dampings)}
+            raise call.error("operators.curves.curves-and-dampings-differ", **told)
         found.append((curve, [float(v) for v in dampings.values]))
     if not found:
         raise call.error("operators.curves.table-has-no-spectrum", table)

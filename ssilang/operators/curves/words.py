@@ -7,8 +7,10 @@ import re
 import numpy as np
 
 from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.kernel.waves.shaken import strong_frequency
 from ssilang.operators.prelude import *
 
+CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples show, they do
 CURVE = arg("curve", "EVOLUTIO", en="curves")
 RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")
 COLOUR = choice("colour", NAMES, en="colour")
@@ -58,6 +60,18 @@ def warn_of_steps(call: Call, curve: Curve, lowest: float) -> None:
     step = float(np.diff(times).min(initial=np.inf))
     if 0.0 < 0.5 / lowest < step < np.inf:
         call.warn("operators.curves.steps-over-periods", step=step, frequency=lowest)
+
+
+def warn_of_rate(call: Call, curve: Curve, highest: float) -> None:
+    """Warn of frequencies beyond half that of the samples, of a signal that is strong near it."""
+    times, values = curve.parts[0].abscissas, curve.parts[0].ordinates
+    steps = np.diff(times)
+    if len(steps) < 3 or (steps <= 0.0).any():
+        return
+    most = 0.5 / float(np.median(steps))
+    if highest > most * (1.0 + 1e-6) and strong_frequency(times, values, 0, CONTENT) > 0.5 * most:
+        told = {"highest": highest, "most": most, "step": 0.5 / most}
+        call.warn("operators.curves.spectrum-beyond-sampling", **told)
 
 
 def warn_of_damping(call: Call, *ratios: float) -> None:

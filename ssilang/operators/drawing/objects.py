@@ -218,12 +218,8 @@ def _recolour(
     elif isinstance(given, ListMots):
         colours = [index_of(str(v)) for v in given.values]
         if len(colours) < len(value.parts):
-            raise call.error(
-                "operators.drawing.colour-count",
-                given,
-                n_colours=len(colours),
-                n_parts=len(value.parts),
-            )
+            told = {"n_colours": len(colours), "n_parts": len(value.parts)}
+            raise call.error("operators.drawing.colour-count", given, **told)
     else:
         colours = [_colour(call, given)] * len(value.parts)
     parts = tuple(_coloured(p, c) for p, c in zip(value.parts, colours, strict=False))

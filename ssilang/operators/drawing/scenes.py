@@ -151,7 +151,8 @@ def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:
     said = _said(**options)
     for operand in objects:
         _OBJECTS[type_of(operand.value)](said, operand.value)
-        _keep_name(said, operand)
+        if operand.name and type_of(operand.value) not in ("ENTIER", "LISTREEL", "POINT", "MMODEL"):
+            said.names.append(operand.name)
     refuse_rest(call, words_in(_OPTIONS))
     _draw(call, call.session, said)
 
@@ -186,11 +187,6 @@ def _said(
 
 
 _IDLE = frozenset({"no_click", "logo"})  # of other programs' windows
-
-
-def _keep_name(said: _Said, operand: Operand) -> None:
-    if operand.name and type_of(operand.value) not in ("ENTIER", "LISTREEL", "POINT", "MMODEL"):
-        said.names.append(operand.name)
 
 
 def _draw(call: Call, session: Session, said: _Said) -> None:

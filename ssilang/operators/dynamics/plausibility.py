@@ -34,6 +34,12 @@ from ssilang.kernel.stepping.problem.plausibility import (
 from ssilang.kernel.waves.shaken import AXES
 from ssilang.operators.dynamics.reports import conserved
 from ssilang.operators.dynamics.shaking import bridged, warn_of_shaking
+from ssilang.operators.dynamics.standing import (
+    bodies_stand,
+    ground_twice,
+    out_of_balance,
+    unequal_joints,
+)
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
@@ -65,7 +71,7 @@ def warn_of_start(
     entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
 ) -> None:
     """Warn of all that the start of a calculation shows, by the tables below."""
-    guards = (_imposed_elsewhere, _on_supports, bridged) if in_statics else GUARDS
+    guards = IN_STATICS if in_statics else GUARDS
     if not in_statics and not plastic_zones(inputs.model):
         guards += OF_STIFFNESS
     for find in guards:
@@ -181,10 +187,11 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
-    _joints_of_others, _on_supports, _viscosity_unread, bridged,
+    _joints_of_others, _on_supports, _viscosity_unread, bridged, unequal_joints, ground_twice,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
-OF_STIFFNESS = (_masses_alone, _motions)
+IN_STATICS = (_imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice)
+OF_STIFFNESS = (_masses_alone, _motions, out_of_balance, bodies_stand)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 

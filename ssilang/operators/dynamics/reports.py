@@ -22,6 +22,7 @@ ENERGY_LIMIT = 0.01
 """Imbalance of energy, as a part of the largest, above which it is told with what makes it."""
 _SHORTER_STEPS = "operators.dynamics.imbalance-step"
 _LOAD_STEPS = "operators.dynamics.imbalance-load-steps"
+PARTS, EXPLODES = 8, 1e5  # of a motion; times its energy that no load brings in five of them
 LASTING = 8  # steps in a row: what an impact leaves for good
 CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
@@ -88,6 +89,8 @@ def report(
     session.statistics.setdefault("calculations", []).append(line)
     for law, share in history.beyond.items():
         entries.warn("operators.dynamics.beyond-curve", law=law, share=100.0 * share)
+    if (times := growth(history)) > EXPLODES:
+        entries.warn("operators.dynamics.grows-without-end", times=times, added=added)
     told = warn_impacts(entries, problem, history)
     # at an impact of relations alone it is off for a step: what lasts is told by itself
     impacts = problem.contact is not None and problem.interface is None and not in_statics
@@ -96,6 +99,18 @@ def report(
         line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
         line["energy_imbalance_told"] = bool(told)
         line["energy_imbalance"] = max(line["energy_imbalance"], told)
+
+
+def growth(history: History) -> float:
+    """By what energy grows in the last five eighths of a motion, tenfold in each; nought if not.
+
+    Loops that do not keep energies have schemes that do not grow.
+    """
+    if history.again is not None or len(history.kept) < 3 * PARTS:
+        return 0.0
+    energies = np.abs(history.kept[:, :3]).sum(axis=1)
+    most = np.array([part.max() for part in np.array_split(energies, PARTS)])[2:]
+    return float(most[-1] / most[0]) if (most[:-1] * 10.0 < most[1:]).all() and most[0] else 0.0
 
 
 def warn_impacts(entries: Entries, problem: Problem, history: History) -> float:

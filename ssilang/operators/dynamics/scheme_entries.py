@@ -74,5 +74,5 @@ def _basic_scheme(entries: Entries) -> Scheme:
         "BETA": lambda beta: newmark(beta, values[-1] if len(values) == 2 else 0.5),
         "GAMMA": lambda gamma: newmark((gamma + 0.5) ** 2 / 4, gamma),
     }
-    with entries.about(given[0]):
+    with entries.about(given[-1] if values[-1] < 0.5 else given[0]):  # gamma, where it is to blame
         return makers[given[0]](values[0])

@@ -17,12 +17,14 @@ from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
-from ssilang.kernel.interface.interface import joint_zones, without_zones
+from ssilang.kernel.interface.interface import is_macro, joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
+from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.plausibility import MOST_BODIES, Bodies
+from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
@@ -55,6 +57,7 @@ PAIR = 2  # nodes of a spring, at most
 STUCK = {True: "operators.dynamics.joints-closed", False: "operators.dynamics.joints-held"}
 """Joints that cannot open, by whether they can slip."""
 SHEARED = "operators.dynamics.weight-in-shear"
+SOFT = 1e-3  # of the stiffness of a joint's point: springs that stand there for numbers' sake
 FEW = 2  # nodes of a side with springs of their own; one is an oscillator's
 NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
 """What a curve is of, by the first letters of the name of its ordinates."""
@@ -93,7 +96,7 @@ class _Entering:
             shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
-        yield from chain(self._sides(), self._masses_one_way(), self._long_cells())
+        yield from chain(self._sides(), self._masses_one_way(), self._long_cells(), self._columns())
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load
@@ -162,6 +165,15 @@ class _Entering:
                 told = vars(found) | {"node": mass.table.told(found.node), "frequency": frequency}
                 yield "operators.dynamics.cells-too-long", {"name": part.name, **told}
 
+    def _columns(self) -> Told:
+        """Columns one cell wide that bend as they are shaken: ground does not, it shears."""
+        stiffness, moved = self.inputs.stiffness, self.shaken + np.abs(self.base).sum(axis=1)
+        up = len(self.axes) - 1
+        for layer in layers(stiffness, bordered_solids(stiffness)) if moved.any() else ():
+            if layer.across < up == layer.along and moved[layer.across] > SAME * moved.max():
+                told = {"node": stiffness.table.told(layer.node), "count": layer.count}
+                yield "operators.dynamics.column-bends", {**told, "axis": self.axes[up]}
+
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""
         numbering, T = self.problem.numbering, self.problem.constraints.T
@@ -192,24 +204,27 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
         resolve = joint.zone.cells.nodes.resolve
         lower, upper = resolve(joint.lower).ravel(), resolve(joint.upper).ravel()
         axis = _normal(joint)
-        for code, blocks, few in (
-            ("operators.dynamics.joints-bridged", dashpots, 1),
-            ("operators.dynamics.joints-sprung", springs, FEW),
+        soft = SOFT * float((joints.parameters[:, Parameter.KN] * joints.weights).max(initial=0.0))
+        for code, blocks, few, least in (
+            ("operators.dynamics.joints-bridged", dashpots, 1, 0.0),
+            ("operators.dynamics.joints-sprung", springs, FEW, soft),
         ):
-            acting = [_across(b, lower, upper, axis) for b in blocks if b.kind != "MASSE"]
+            acting = [_across(b, lower, upper, axis, least) for b in blocks if b.kind != "MASSE"]
             nodes = np.unique(np.concatenate([lower[:0], *acting]))
             if len(nodes) >= few:
                 yield code, {"axis": axis, "node": problem.numbering.table.told(int(nodes[0]))}
         yield from _ground_held(problem, own, lower, axis)
 
 
-def _across(block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str) -> IntArray:
+def _across(
+    block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str, least: float
+) -> IntArray:
     """Nodes (n,) of `upper` that matrices hold along an axis, to the ground or to `lower`."""
     ours = np.isin(block.nodes, upper)
     cells = (ours | np.isin(block.nodes, lower)).all(axis=1) & ours.any(axis=1)
     cells &= (~ours).any(axis=1) | (block.nodes.shape[1] == 1)
     along = np.array(block.unknowns) == axis
-    acts = along & (np.diagonal(block.values, axis1=1, axis2=2) != 0.0)
+    acts = along & (np.abs(np.diagonal(block.values, axis1=1, axis2=2)) > least)
     return block.nodes[:, block.local][acts & ours[:, block.local] & cells[:, None]]
 
 
@@ -230,7 +245,7 @@ def _sheared(problem: Problem, joints: Interface) -> Told:
     """Weights that joints carry by their shear alone: none of them is pressed."""
     bodies, loading = Bodies(problem), problem.loading
     force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
-    for body in range(min(int(bodies.label.max(initial=-1)) + 1, MOST_BODIES)):
+    for body in bodies.moving:
         ways = {a: bodies.along(body, a) for a in axes_of(problem)}
         axis = max(ways, key=lambda a: abs(float(ways[a] @ force)))
         w = np.zeros((joints.n_points, joints.dimension))
@@ -255,6 +270,8 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
     alone = np.diff(rows.indptr) == 1
     held, ties = rows[alone].indices, abs(rows[~alone])
     for joint in joints.joints:
+        if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
+            continue
         upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
         along = _normal(joint)

@@ -49,26 +49,18 @@ def nuag(field: NodeField | CellField = Arg("CHPOINT", "MCHAML", en="field")) ->
 def cloud_by_hand(call: Call) -> Cloud:
     """Cloud column by column, or row by row."""
     if call.peek_word() is not None and str(call.peek_word())[:4] == "COMP":
-        return _by_columns(call)
-    return _by_rows(call)
-
-
-def _by_columns(call: Call) -> Cloud:
-    columns: dict[str, tuple[object, ...]] = {}
-    while call.keyword(("COMP",)) is not None:
-        name = str(call.required("MOT", after=call.keyword_end)).rstrip()
-        values: list[object] = []
-        while call.operands and not call.at_word():
-            values.append(call.operands.pop(0).value)
-        columns[name] = tuple(values)
-    sizes = {len(v) for v in columns.values()}
-    if len(sizes) != 1 or 0 in sizes:
-        counts = " ".join(f"{k}: {len(v)}" for k, v in columns.items())
-        raise call.error("operators.fields.cloud-columns-differ", counts=counts)
-    return Cloud(columns)
-
-
-def _by_rows(call: Call) -> Cloud:
+        columns: dict[str, tuple[object, ...]] = {}
+        while call.keyword(("COMP",)) is not None:
+            name = str(call.required("MOT", after=call.keyword_end)).rstrip()
+            values: list[object] = []
+            while call.operands and not call.at_word():
+                values.append(call.operands.pop(0).value)
+            columns[name] = tuple(values)
+        sizes = {len(v) for v in columns.values()}
+        if len(sizes) != 1 or 0 in sizes:
+            counts = " ".join(f"{k}: {len(v)}" for k, v in columns.items())
+            raise call.error("operators.fields.cloud-columns-differ", counts=counts)
+        return Cloud(columns)
     kinds: dict[str, str] = {}
     while call.at_word():
         name = str(call.required("MOT")).rstrip()
@@ -184,7 +176,10 @@ def interpolate_cloud(
 ) -> NodeField | CellField:
     """Evaluate the cloud at the values of a field; settings 'PID' and 'ELIM' of the method."""
     if isinstance(field, NodeField):
-        return _at_nodes(cloud, field, method, settings)
+        nodes = field.node_ids
+        given = {k: v.at(nodes) for k, v in field.components.items()}
+        made = _evaluated(cloud, given, method, settings)
+        return node_algebra.rebuilt(field, {k: NodeValues(nodes, v) for k, v in made.items()})
     blocks = []
     for block in field.blocks:
         width = max((v.shape[1] for v in block.components.values()), default=1)
@@ -195,13 +190,6 @@ def interpolate_cloud(
         made = _evaluated(cloud, given, method, settings)
         blocks.append(cell_algebra.rebuilt(block, {k: v.reshape(shape) for k, v in made.items()}))
     return CellField(tuple(blocks), field.title)
-
-
-def _at_nodes(cloud: Cloud, field: NodeField, method: str, settings: dict[str, float]) -> NodeField:
-    nodes = field.node_ids
-    given = {k: v.at(nodes) for k, v in field.components.items()}
-    made = _evaluated(cloud, given, method, settings)
-    return node_algebra.rebuilt(field, {k: NodeValues(nodes, v) for k, v in made.items()})
 
 
 def _evaluated(

@@ -54,7 +54,20 @@ def pod_of_table(
     call: Call, result: Table, entry: str | None, **said: Any
 ) -> Table | tuple[ListChpo, ListReel]:
     """Orthogonal decomposition of the fields of a result."""
-    return _decomposed(call, result, _of_table(call, result, entry), **said)
+    if entry is not None:
+        names = [entry.rstrip().upper()]
+    else:
+        names = ["DEPLACEMENTS"] if result.has(Mot("DEPLACEMENTS")) else ["DEPL"]
+    inner = result.get(Mot(names[0]))
+    source = inner if isinstance(inner, Table) else result
+    found = {}
+    for index, value in source.items():
+        item = value.get(Mot(names[0])) if isinstance(value, Table) else value
+        if type(index) is int and isinstance(item, NodeField):
+            found[index] = item
+    if not found:
+        raise call.error("operators.fields.table-has-no-fields", result, name=names[0])
+    return _decomposed(call, result, dict(sorted(found.items())), **said)
 
 
 def _decomposed(
@@ -87,23 +100,6 @@ def _decomposed(
     if not table:
         return ListChpo(list(made)), ListReel(values)
     return _basis(call, made, values, support)
-
-
-def _of_table(call: Call, table: Table, named: str | None) -> dict[int, NodeField]:
-    if named is not None:
-        names = [named.rstrip().upper()]
-    else:
-        names = ["DEPLACEMENTS"] if table.has(Mot("DEPLACEMENTS")) else ["DEPL"]
-    inner = table.get(Mot(names[0]))
-    source = inner if isinstance(inner, Table) else table
-    found = {}
-    for index, value in source.items():
-        item = value.get(Mot(names[0])) if isinstance(value, Table) else value
-        if type(index) is int and isinstance(item, NodeField):
-            found[index] = item
-    if not found:
-        raise call.error("operators.fields.table-has-no-fields", table, name=names[0])
-    return dict(sorted(found.items()))
 
 
 def _metric(matrix: Matrix, places: Any) -> sp.csr_array:

@@ -104,15 +104,11 @@ def _power(call: Call, x: FloatArray, exponent: float) -> FloatArray:
     return np.where(lost, 0.0, real_power(np.where(lost, 1.0, x), exponent))
 
 
-def _raised(number: float, x: Any) -> Any:
-    if number < 0 or (number == 0 and np.any(np.asarray(x) < 0)):
-        raise FieldError("operators.fields.number-has-no-field-power", number=number)
-    return np.power(number, np.asarray(x, dtype=float))
-
-
 def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
     if sign == "**":
-        return _raised(number, x)
+        if number < 0 or (number == 0 and np.any(np.asarray(x) < 0)):
+            raise FieldError("operators.fields.number-has-no-field-power", number=number)
+        return np.power(number, np.asarray(x, dtype=float))
     if sign == "/" and (np.any(x == 0) if left else number == 0):
         raise FieldError("operators.fields.division-by-zero")
     return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
@@ -164,18 +160,14 @@ def _of_objects(sign: str, a: object, b: object) -> object:
     if isinstance(a, Curve) and isinstance(b, Curve):
         return combined(a, b, sign, _ARRAY[sign])
     if isinstance(a, Point) and isinstance(b, Point) and sign in "+-":
-        return _point_between(a, b, 1.0 if sign == "+" else -1.0)
+        place = a.coordinates + (1.0 if sign == "+" else -1.0) * b.coordinates
+        density = float(a.nodes.density[a.node])
+        return Point(a.nodes, int(a.nodes.add(place[None], density)[0]))
     types = type_of(a), type_of(b)
     found = None if types[0] == types[1] == "POINT" else RULES.get((sign, *types))
     if found is None:
         raise FieldError("operators.fields.objects-do-not-go", sign=sign, types=types)
     return found(a, b)
-
-
-def _point_between(a: Point, b: Point, factor: float) -> Point:
-    place = a.coordinates + factor * b.coordinates
-    density = float(a.nodes.density[a.node])
-    return Point(a.nodes, int(a.nodes.add(place[None], density)[0]))
 
 
 @rule_with_call("* /", "MCHAML", "MCHAML")

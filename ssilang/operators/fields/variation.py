@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.curves.algebra import interpolated
+from ssilang.kernel.curves.algebra import beyond, interpolated
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -52,6 +53,8 @@ def vari(
     at_points = placed(model, field, cast(Support, support))
     name = argument_name(cell_algebra.component_names(at_points), part)
     one = cell_algebra.extracted(at_points, [name], ["SCAL"])
+    for block in one.blocks:
+        _warn_beyond(call, part, block.components["SCAL"])
     made = cell_algebra.applied(one, lambda v: interpolated(part.abscissas, part.ordinates, v))
     return CellField(made.blocks, "SCALAIRE")
 
@@ -67,6 +70,7 @@ def vari_at_nodes(
     part = one_part(call, curve)
     name = part.ordinate_name.strip() if target is None else target.rstrip()
     given = field.components[argument_name(list(field.components), part)]
+    _warn_beyond(call, part, given.values)
     values = interpolated(part.abscissas, part.ordinates, given.values)
     return node_algebra.rebuilt(field, {name or "SCAL": NodeValues(given.nodes, values)})
 
@@ -78,8 +82,39 @@ def placed(model: Model, field: NodeField | CellField, support: Support) -> Cell
     return moved(model, field, support, None)
 
 
+def _warn_beyond(call: Call, part: CurvePart, at: FloatArray) -> None:
+    if (value := beyond(part.abscissas, part.ordinates, at)) is not None:
+        names = part.ordinate_name.strip() or "SCAL", part.abscissa_name.strip()
+        call.warn("operators.fields.beyond-law", **_told(part.abscissas, value, *names))
+
+
+def _told(x: FloatArray, value: float, name: str, over: str) -> dict[str, Any]:
+    ends = {"first": float(x.min()), "last": float(x.max())}
+    return {"name": name, "over": over or "x", "value": value, **ends}
+
+
+def beyond_laws(laws: CellField, fields: CellField) -> Iterator[dict[str, Any]]:
+    """Each parameter that fields ask for outside of its curve, or of a cloud's first column."""
+    for block in laws.blocks:
+        known = _known(block, fields)
+        for name, values in block.components.items():
+            held = values.ravel() if values.dtype == object else ()
+            for law in {id(v): v for v in held}.values():
+                over, x, y = "", np.zeros(0), np.zeros(0)
+                if isinstance(law, Curve):
+                    part = law.parts[0]
+                    over, x, y = part.abscissa_name.strip(), part.abscissas, part.ordinates
+                elif isinstance(law, Cloud):
+                    over = next(iter(law.columns))
+                    x = y = np.unique(law.numbers(over)) if over in known else x
+                value = beyond(x, y, known[over]) if over in known else None
+                if value is not None:
+                    yield _told(x, value, name, over)
+
+
 @vari.form(said("NUAG"))
 def vari_of_parameters(
+    call: Call,
     model: Model = Arg("MMODEL", en="model"),
     laws: CellField = Arg("MCHAML", en="parameters, curves among them"),
     given: CellField | NodeField = Arg("MCHAML", "CHPOINT", en="fields that the curves depend on"),
@@ -88,7 +123,10 @@ def vari_of_parameters(
 ) -> CellField:
     """Parameters given by curves and clouds as numbers."""
     at = cast(Support, support)
-    made = evaluated(laws, placed(model, given, at), at)
+    at_points = placed(model, given, at)
+    for told in beyond_laws(laws, at_points):
+        call.warn("operators.fields.beyond-law", **told)
+    made = evaluated(laws, at_points, at)
     return CellField(made.blocks, laws.title if title is None else title.rstrip())
 
 
@@ -105,15 +143,25 @@ def evaluated(laws: CellField, fields: CellField, support: Support) -> CellField
 def _evaluated(block: CellFieldBlock, fields: CellField, support: Support) -> CellFieldBlock:
     if not any(v.dtype == object for v in block.components.values()):
         return block
-    given = [b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)]
+    given = _there(block, fields)
     if not given:
         raise FieldError("operators.fields.parameters-and-fields-apart")
-    known = {n: np.asarray(v, dtype=float) for b in given for n, v in b.components.items()}
+    known = _known(block, fields)
     made = {
         name: _values(values, known) if values.dtype == object else values
         for name, values in block.components.items()
     }
     return CellFieldBlock(block.cells, made, support, given[0].element, block.constituent)
+
+
+def _there(block: CellFieldBlock, fields: CellField) -> list[CellFieldBlock]:
+    return [b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)]
+
+
+def _known(block: CellFieldBlock, fields: CellField) -> dict[str, FloatArray]:
+    """Components of fields in the cells of a block."""
+    there = _there(block, fields)
+    return {n: np.asarray(v, float) for b in there for n, v in b.components.items()}
 
 
 def _values(laws: NDArray[Any], known: dict[str, FloatArray]) -> NDArray[Any]:

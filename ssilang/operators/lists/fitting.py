@@ -35,11 +35,8 @@ def moca(
 ) -> ListReel:
     """Linear least squares from a first set of parameters."""
     if len(derivatives) != len(start.values):
-        raise call.error(
-            "operators.lists.parameters-and-derivatives",
-            n_parameters=len(start.values),
-            n_derivatives=len(derivatives),
-        )
+        told = {"n_parameters": len(start.values), "n_derivatives": len(derivatives)}
+        raise call.error("operators.lists.parameters-and-derivatives", **told)
     w = _weights(call, weights, len(measured.values))
     columns = [_of_length(call, d, len(w)) for d in derivatives]
     gap = measured.values - _of_length(call, values, len(w))

@@ -31,7 +31,11 @@ def _integers_in_integers(
     part: ListEnti = Arg("LISTENTI", en="list of integers", range=ANY_NUMBER),
     whole: ListEnti = Arg("LISTENTI", en=_SECOND, range=ANY_NUMBER),
 ) -> bool:
-    return _as_stretch(part.values, whole.values)
+    p = len(part.values)
+    if p == 0:
+        return True
+    rows = whole.values[: len(whole.values) // p * p].reshape(-1, p)
+    return bool(np.any(np.all(rows == part.values, axis=1)))
 
 
 @DANS.form()
@@ -65,14 +69,6 @@ def _slack(values: Any) -> float:
     gaps = np.abs(np.diff(values))
     gaps = gaps[gaps > 0]
     return 1e-8 * float(gaps.min()) if len(gaps) else 0.0
-
-
-def _as_stretch(part: Any, whole: Any) -> bool:
-    p = len(part)
-    if p == 0:
-        return True
-    rows = whole[: len(whole) // p * p].reshape(-1, p)
-    return bool(np.any(np.all(rows == part, axis=1)))
 
 
 _SUBTRACTED = ("LISTREEL", "LISTENTI", "LISTMOTS")

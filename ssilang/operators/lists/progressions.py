@@ -390,12 +390,8 @@ def enum(call: Call) -> ListObje:
     for value in objects:
         values += value.values if isinstance(value, ListObje) else [value]
         if values and type_of(values[-1]) != type_of(values[0]):
-            raise call.error(
-                "operators.lists.object-of-other-type",
-                value,
-                first=type_of(values[0]),
-                found=type_of(values[-1]),
-            )
+            told = {"first": type_of(values[0]), "found": type_of(values[-1])}
+            raise call.error("operators.lists.object-of-other-type", value, **told)
     return ListObje(values)
 
 

@@ -66,7 +66,7 @@ def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> No
     _warn_of_other_names(call, matrix, field)
     made = product(matrix, field)
     if flaw_of(made) and not flaw_of(field):  # sparse products raise no flag
-        raise OverflowError
+        call.warn("operators.numbers.past-reals", sign="*")
     return made
 
 

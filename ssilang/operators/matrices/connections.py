@@ -10,7 +10,6 @@ import numpy as np
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.cells_amiss import (
-    Solids,
     bent_layer,
     bordered_solids,
     hanging_nodes,
@@ -25,7 +24,9 @@ from ssilang.kernel.statics.doubled import (
     repeated_cells,
     springs_apart,
 )
+from ssilang.kernel.statics.linear_motion import wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
+from ssilang.kernel.statics.swapped_joints import repeated_joints
 from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
@@ -56,7 +57,8 @@ def warn_connections(
     matrix.cache[_KEY] = True
 
     def tell(code: str, **data: object) -> None:
-        session.warn(code, span, operator=operator, **data)
+        if not session.warned(code, **data):  # of a part of it, in front of another operator
+            session.warn(code, span, operator=operator, **data)
 
     if matrix.blocks and all(b.kind == "MASSE" for b in matrix.blocks):
         tell("operators.matrices.mass-for-stiffness")
@@ -71,7 +73,9 @@ def warn_connections(
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
     solids = bordered_solids(matrix)
-    _warn_layers(tell, matrix, solids)
+    if (layer := bent_layer(matrix, solids)) is not None:
+        told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
+        tell("operators.matrices.layer-bends", **told)
     zones = () if model is None else model.zones
     others = [np.zeros(0, np.int64), *laden, *([model.mesh.node_ids] if model and zones else [])]
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
@@ -80,8 +84,13 @@ def warn_connections(
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": idle_nodes(springs, matrix),
+        "operators.matrices.relation-sign": wrong_signs(matrix),
+        "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
-    if operator != "VIBR":  # whose modes DYNE may bring into contact
+    if operator == "VIBR":
+        sides = [r.nodes[r.row_start[:-1]][r.sense != 0] for r in matrix.relations]
+        found["operators.matrices.unilateral-held"] = np.concatenate([used[:0], *sides])
+    else:  # modes DYNE may bring into contact
         found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
             found["operators.matrices.beside-joints"] = beside_joints(matrix, joints)
@@ -163,12 +172,6 @@ def _warn_footings(
             tell("operators.matrices.footing-turned", node=matrix.table.told(node))
         elif _UPRIGHT < angle < 90.0 - _UPRIGHT:
             tell("operators.matrices.footing-inclined", node=matrix.table.told(node), angle=angle)
-
-
-def _warn_layers(tell: Tell, matrix: Matrix, solids: Solids) -> None:
-    if (layer := bent_layer(matrix, solids)) is not None:
-        told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
-        tell("operators.matrices.layer-bends", **told)
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:

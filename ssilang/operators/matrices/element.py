@@ -138,7 +138,17 @@ def rigi(
 ) -> Matrix:
     """Elastic stiffness of a model."""
     if any(z.formulation == "CONTACT" for z in model.zones):
-        return _contact(call, model, fields)
+        # bodies, and the unilateral relations of sides
+        material = joined(fields) if fields else None
+        rubbing = next((z for z in model.zones if z.behaviour[:1] == ("FROTTANT",)), None)
+        if rubbing is not None:
+            raise call.error("operators.matrices.friction-is-no-matrix")
+        relations = tuple(c.relations for c in model_relations(model, material))
+        zones = present(call, model).zones
+        if zones and material is None:
+            raise call.missing(("MCHAML",))
+        blocks = [families.stiffness(z, material) for z in zones if material is not None]
+        return Matrix(model.mesh.nodes, tuple(blocks), relations, "RIGIDITE")
     if not fields:
         raise call.missing(("MCHAML",))
     shown, material = present(call, model), joined(fields)
@@ -150,20 +160,6 @@ def rigi(
 def springs(call: Call, names: list[str], amount: float, place: Mesh | Point) -> Matrix:
     """Springs at nodes."""
     return _additional(call, "RIGIDITE", names, amount, place)
-
-
-def _contact(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
-    """Stiffness of the bodies of a model and the unilateral relations of its sides."""
-    material = joined(fields) if fields else None
-    rubbing = next((z for z in model.zones if z.behaviour[:1] == ("FROTTANT",)), None)
-    if rubbing is not None:
-        raise call.error("operators.matrices.friction-is-no-matrix")
-    relations = tuple(c.relations for c in model_relations(model, material))
-    zones = present(call, model).zones
-    if zones and material is None:
-        raise call.missing(("MCHAML",))
-    blocks = [families.stiffness(z, material) for z in zones if material is not None]
-    return Matrix(model.mesh.nodes, tuple(blocks), relations, "RIGIDITE")
 
 
 def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrices]:

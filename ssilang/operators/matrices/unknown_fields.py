@@ -64,12 +64,8 @@ def orth(
         [product(matrix, u) for u in fields] if loaded is None else list(loaded.values)
     )
     if not len(fields) == len(norms) == len(forces):
-        raise call.error(
-            "operators.matrices.products-do-not-match",
-            n_shapes=len(fields),
-            n_norms=len(norms),
-            n_forces=len(forces),
-        )
+        told = {"n_shapes": len(fields), "n_norms": len(norms), "n_forces": len(forces)}
+        raise call.error("operators.matrices.products-do-not-match", **told)
     if (norms.values == 0.0).any():
         raise call.error("operators.matrices.product-is-zero")
     for turn in range(max(passes, 1)):

@@ -36,12 +36,8 @@ def _dync(call: Call, given: tuple[Table, ...], harmonics: int, samples: int) ->
 
     tables = _tables(call, given)
     if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
-        raise call.error(
-            "operators.modal.instants-for-harmonics",
-            harmonics=harmonics,
-            least=2 * (2 * harmonics + 1),
-            samples=samples,
-        )
+        told = {"harmonics": harmonics, "least": 2 * (2 * harmonics + 1), "samples": samples}
+        raise call.error("operators.modal.instants-for-harmonics", **told)
     system = system_of(call, tables["system"])
     numbers = Numbers(call, tables["numbers"], "TNUM")
     kind = str(numbers.entries.get("TYPE"))

@@ -131,13 +131,8 @@ def tables_by_role(
     for table in tables:
         argument = by_subtype.get(table.subtype)
         if argument is None:
-            raise call.error(
-                "operators.modal.unknown-table",
-                table,
-                name=call.name,
-                subtype=table.subtype,
-                known=list(by_subtype),
-            )
+            told = {"name": call.name, "subtype": table.subtype, "known": list(by_subtype)}
+            raise call.error("operators.modal.unknown-table", table, **told)
         if roles[argument] in found:
             raise call.error("operators.modal.two-tables-of-kind", table, subtype=table.subtype)
         Entries(call, table, call.name, argument).check()

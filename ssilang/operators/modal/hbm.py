@@ -82,11 +82,8 @@ def _results(entries: Entries, names: Names) -> None:
     found, number, titles = Table(), 0, []
     for asked in asked_results(entries, "RESULTATS"):
         if asked.component not in names.unknowns:
-            raise entries.error(
-                "operators.modal.no-such-component",
-                component=asked.component,
-                unknowns=names.unknowns,
-            )
+            told = {"component": asked.component, "unknowns": names.unknowns}
+            raise entries.error("operators.modal.no-such-component", **told)
         given = asked.table.get("COULEUR_HBM")
         own = []
         for place in range(names.places):

@@ -137,9 +137,16 @@ def modal_history(call: Call, table: Table, quantity: str) -> tuple[Sequence[Any
         return results_in_time(table, plural)
     times = table.get(Mot("TEMPS_DE_SORTIE"))
     assert isinstance(times, ListReel)
+    lists = table.get(Mot(name))
+    kept = lists.items() if isinstance(lists, Table) else ()  # TYPE_SORTIE: LISTREEL
+    marks = [(k, v.values) for k, v in kept if isinstance(k, Point) and isinstance(v, ListReel)]
 
     def saved(place: int) -> Any:
         """The contributions of one instant."""
+        if marks:
+            values = np.array([v[place] for _, v in marks])
+            at = np.array([k.node for k, _ in marks])
+            return NodeField.of(marks[0][0].nodes, at, {"ALFA": values, "BETA": values})
         entry = table.get(int(place) + 1)
         field = entry.get(Mot(name)) if isinstance(entry, Table) else None
         if field is None:

@@ -11,7 +11,7 @@ import numpy as np
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.imposed import geometric_gaps
 from ssilang.kernel.statics.linear import product
-from ssilang.operators.modal.basis import Shape, shapes_in
+from ssilang.operators.modal.basis import shapes_in
 from ssilang.operators.numbers.arithmetic import rule
 from ssilang.operators.prelude import *
 
@@ -122,7 +122,10 @@ def by_euclidean_norm(
 @rule("*", "TABLE", "RIGIDITE")
 def _inertia(_sign: str, table: Table, mass: Matrix) -> Table:
     """MASSE_DEFORMEE of each shape of a table of modes or static links, which is completed."""
-    for shape in _known(table):
+    found = shapes_in(table)
+    if not found:
+        raise KernelError("operators.modal.nothing-to-multiply")
+    for shape in found:
         shape.entry.set(Mot("MASSE_DEFORMEE"), product(mass, shape.field))
     return table
 
@@ -130,13 +133,6 @@ def _inertia(_sign: str, table: Table, mass: Matrix) -> Table:
 @rule("*", "RIGIDITE", "TABLE")
 def _inertia_left(sign: str, mass: Matrix, table: Table) -> Table:
     return _inertia(sign, table, mass)
-
-
-def _known(table: Table) -> list[Shape]:
-    found = shapes_in(table)
-    if not found:
-        raise KernelError("operators.modal.nothing-to-multiply")
-    return found
 
 
 # --- gaps ------------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ import numpy as np
 
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements import families
+from ssilang.kernel.waves.shaken import AXES
 from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
 from ssilang.operators.modal.basis import Shape, shapes_in
@@ -20,8 +21,6 @@ from ssilang.operators.tables.indices import copied
 
 # SEIS SIGS: seismic loads on modal bases, stresses of modes.
 
-_AXES = ("UX", "UY", "UZ")
-
 
 @operator("SEIS", family="modal", full_name="SEISME")
 def seis(
@@ -29,7 +28,7 @@ def seis(
     curve: Curve = Arg("EVOLUTIO", en="acceleration of the ground", over="s"),
     table: Table = Arg("TABLE", en="basis"),
     factor: float = Arg("FLOTTANT", en="factor", range=ANY_NUMBER),
-    direction: str = Choice(_AXES, optional=False, en="direction of the ground"),
+    direction: str = Choice(AXES, optional=False, en="direction of the ground"),
 ) -> Load:
     """Seismic load."""
     shapes = [s for s in shapes_in(table) if s.unknown == "ALFA"]
@@ -38,7 +37,7 @@ def seis(
     values = {}
     for shape in shapes:
         along = shape.entry.get(Mot("DEPLACEMENTS_GENERALISES"))
-        number = along.get(_AXES.index(direction) + 1) if isinstance(along, Table) else None
+        number = along.get(AXES.index(direction) + 1) if isinstance(along, Table) else None
         if not isinstance(number, int | float):
             raise call.error("operators.modal.mode-no-generalised-displacements", table)
         values[shape.mark.node] = float(number)
@@ -56,7 +55,7 @@ def _tell_left_out(
     call: Call, shapes: Sequence[Shape], moved: dict[int, float], direction: str
 ) -> None:
     """Warn where modes leave out more of the mass that no support holds than they have."""
-    words, axis, held = ("MASSES_MOBILES", "MASSE_GENERALISEE"), _AXES.index(direction) + 1, 0.0
+    words, axis, held = ("MASSES_MOBILES", "MASSE_GENERALISEE"), AXES.index(direction) + 1, 0.0
     for shape in shapes:
         masses, mass = (shape.entry.get(Mot(word)) for word in words)
         whole = masses.get(axis) if isinstance(masses, Table) else None

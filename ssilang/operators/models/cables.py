@@ -97,11 +97,8 @@ def _pulled(call: Call, nodes: NodeTable, cable: Cable, ends: IntArray | None) -
         return False, True
     found = (int(cable.nodes[0]) in ends, int(cable.nodes[-1]) in ends)
     if not any(found):
-        raise call.error(
-            "operators.models.cable-end-not-pulled",
-            first=nodes.told(cable.nodes[0]),
-            last=nodes.told(cable.nodes[-1]),
-        )
+        told = {"first": nodes.told(cable.nodes[0]), "last": nodes.told(cable.nodes[-1])}
+        raise call.error("operators.models.cable-end-not-pulled", **told)
     return found
 
 

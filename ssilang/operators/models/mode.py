@@ -193,7 +193,8 @@ def mode(
     if wish.formulation == "CHARGEMENT":
         return Model(tuple(_pressure_zone(block, wish, ws) for block in used.blocks))
     zones = tuple(_zone(block, wish, ws) for block in used.blocks)
-    _check_rule(call, wish, zones)
+    if wish.rule and not any(is_joint(z) for z in zones):
+        raise call.error("operators.models.rule-without-joints", rule=wish.rule)
     _check_layers(call, wish, zones)
     return Model(zones, ties)
 
@@ -249,12 +250,6 @@ def _check_elements(call: Call, wish: Wish, mesh: Mesh) -> None:
             cell_type=ELEMENTS[wish.elements[0]].cell_type,
             fitting=_fitting(call, kinds),
         )
-
-
-def _check_rule(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
-    """Refuse a rule of joints where there are none."""
-    if wish.rule and not any(is_joint(z) for z in zones):
-        raise call.error("operators.models.rule-without-joints", rule=wish.rule)
 
 
 def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:

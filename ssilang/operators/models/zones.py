@@ -71,14 +71,6 @@ _NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
 }
 
 
-def _zone_list(model: Model) -> Table:
-    table = Table()
-    for i, zone in enumerate(model.zones):
-        table.set(2 * i + 1, Model((zone,)))
-        table.set(2 * i + 2, Mesh(zone.cells.nodes, (zone.cells,)))
-    return table
-
-
 _ATTRIBUTES = {"FORM": "formulation", "CONS": "constituent", "ELEM": "element"}
 
 
@@ -138,7 +130,11 @@ def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model |
     if what.word == "MAIL":
         return model.mesh
     if what.word == "ZONE":
-        return _zone_list(model)
+        table = Table()
+        for i, zone in enumerate(model.zones):
+            table.set(2 * i + 1, Model((zone,)))
+            table.set(2 * i + 2, Mesh(zone.cells.nodes, (zone.cells,)))
+        return table
     if what.word in _NAMES:
         names = [n for z in model.zones for n in _NAMES[what.word](z)]
         return ListMots(list(dict.fromkeys(names)))

@@ -66,7 +66,14 @@ def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
     if isinstance(a, str) and isinstance(b, str):
         return a.rstrip() == b.rstrip()
     if "MOT" in kinds and {*kinds} & {"ENTIER", "FLOTTANT"}:
-        return _word_and_number(call, sign, a if isinstance(a, str) else b)
+        # they differ, which is told since the word may be a name misspelt
+        call.session.warn(
+            "operators.numbers.word-and-number",
+            call.span,
+            operator=sign,
+            word=(a if isinstance(a, str) else b).rstrip(),
+        )
+        return False
     if kinds[0] != kinds[1] and {*kinds} != {"LISTENTI", "LISTREEL"}:
         raise _no_rule(call, sign, a, b)
     if isinstance(a, Point) and isinstance(b, Point):
@@ -79,14 +86,6 @@ def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
             return False
         return bool(np.all(np.abs(a.values - b.values) <= (tolerance or 0.0)))
     return bool(a == b) if isinstance(a, bool) else a is b
-
-
-def _word_and_number(call: Call, sign: str, word: str) -> bool:
-    """A word is no number: they differ, which is told since the word may be a name misspelt."""
-    call.session.warn(
-        "operators.numbers.word-and-number", call.span, operator=sign, word=word.rstrip()
-    )
-    return False
 
 
 def _same_place(call: Call, a: Point, b: Point, tolerance: float | None) -> bool:

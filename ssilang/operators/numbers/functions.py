@@ -162,18 +162,14 @@ def atg(
             )
         return ListReel(np.degrees(np.arctan2(first.values, second.values)))
     if isinstance(first, NodeField) and isinstance(second, NodeField):
-        return _angle_of_fields(first, second)
+        made = {}
+        for name, part in second.components.items():
+            top = first.values_at(name, part.nodes)
+            made[name] = dataclasses.replace(part, values=np.degrees(np.arctan2(top, part.values)))
+        return node_algebra.rebuilt(second, made)
     if isinstance(first, CellField) and isinstance(second, CellField):
         return _angle_of_cells(call, first, second)
     raise call.error("operators.numbers.two-of-one-kind", second)
-
-
-def _angle_of_fields(first: NodeField, second: NodeField) -> NodeField:
-    made = {}
-    for name, part in second.components.items():
-        top = first.values_at(name, part.nodes)
-        made[name] = dataclasses.replace(part, values=np.degrees(np.arctan2(top, part.values)))
-    return node_algebra.rebuilt(second, made)
 
 
 def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellField:

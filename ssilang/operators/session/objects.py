@@ -42,24 +42,19 @@ def exis(call: Call) -> Any:
     if isinstance(value, Mot) and "%" in operand.span.text and not operand.name:
         return False  # an attribute that the object does not have
     if call.operands and call.operands[0].span.text == "*":
-        return _of_type(call, operand)
+        call.used.append(call.operands.pop(0))
+        word = str(call.required("MOT")).strip().upper()
+        if word[:4] != "FICH":
+            return type_of(operand.value)[:4] == word[:4]
+        name = str(operand.value)
+        path = run_output(call.session).source(name)
+        if path is None:
+            raise forbidden_path(call, name)
+        return path.is_file()
     search = _SEARCHES.get(type_of(value))
     if search is None or not call.operands:
         return value is not ANNULE
     return search(call, value)
-
-
-def _of_type(call: Call, operand: Operand) -> bool:
-    """Whether an object is of a type, or a file of that name stands there."""
-    call.used.append(call.operands.pop(0))
-    word = str(call.required("MOT")).strip().upper()
-    if word[:4] != "FICH":
-        return type_of(operand.value)[:4] == word[:4]
-    name = str(operand.value)
-    path = run_output(call.session).source(name)
-    if path is None:
-        raise forbidden_path(call, name)
-    return path.is_file()
 
 
 def _in_table(call: Call, table: Table) -> bool:

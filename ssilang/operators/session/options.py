@@ -244,12 +244,8 @@ def _inco(call: Call, word: str) -> None:
         for said in (primal, dual)
     ]
     if len(names[0]) != len(names[1]):
-        raise call.error(
-            "operators.session.unknowns-in-pairs",
-            dual,
-            n_primal=len(names[0]),
-            n_dual=len(names[1]),
-        )
+        told = {"n_primal": len(names[0]), "n_dual": len(names[1])}
+        raise call.error("operators.session.unknowns-in-pairs", dual, **told)
     earlier = workspace(call.session).options.get(word, {})
     _store(call, word, {**earlier, **dict(zip(*names, strict=True))})
 
@@ -306,12 +302,8 @@ def opti(call: Call) -> None:
         raise call.error("operators.session.no-option")
     ws = workspace(call.session)
     if ws.dimension and ws.mode.dimension != ws.dimension:
-        raise call.error(
-            "operators.session.mode-and-dimension",
-            mode=ws.mode.value,
-            dimension=ws.mode.dimension,
-            present=ws.dimension,
-        )
+        told = {"mode": ws.mode.value, "dimension": ws.mode.dimension, "present": ws.dimension}
+        raise call.error("operators.session.mode-and-dimension", **told)
 
 
 def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
@@ -339,12 +331,6 @@ def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:
     )
 
 
-def _unknowns(ws: Workspace) -> tuple[ListMots, ListMots]:
-    """Names of primal and dual unknowns: the usual ones, then those of OPTI INCO."""
-    pairs = {**PRIMAL_TO_DUAL, **ws.options.get("INCO", {})}
-    return ListMots(list(pairs)), ListMots(list(pairs.values()))
-
-
 _CURRENT: dict[str, Callable[[Workspace], Any]] = {
     "DIME": lambda ws: ws.dimension,
     "ELEM": lambda ws: Mot(ws.element or "    "),
@@ -364,13 +350,15 @@ def vale(
     ws = workspace(call.session)
     word = said.upper()[:4].rstrip()
     if word == "ERMA":
-        return _worst_error(call)
+        shown = [w for w in call.session.warnings if getattr(w, "severity", "") == "error"]
+        return max((int(w.data.get("number") or _UNNUMBERED) for w in shown), default=0)
     if not any(word in known for known in (_CURRENT, _DEFAULTS, READERS)):
         raise _unknown_option(call, said.upper(), said)
     if word == "MODE" and harmonic:
         return ws.fourier
     if word == "INCO":
-        return _unknowns(ws)
+        pairs = {**PRIMAL_TO_DUAL, **ws.options.get("INCO", {})}
+        return ListMots(list(pairs)), ListMots(list(pairs.values()))
     if word in _CURRENT:
         return _CURRENT[word](ws)
     value = ws.options.get(word, _DEFAULTS.get(word))
@@ -379,12 +367,6 @@ def vale(
     if word == "ERRE":
         return {"IGNORE": 2, "CONTROLE": 1}.get(str(value), 0)
     return Mot(value) if isinstance(value, str) else value
-
-
-def _worst_error(call: Call) -> int:
-    """Largest number of the errors that were shown and passed over."""
-    shown = [w for w in call.session.warnings if getattr(w, "severity", "") == "error"]
-    return max((int(w.data.get("number") or _UNNUMBERED) for w in shown), default=0)
 
 
 @operator("DENS", family="mesh", full_name="DENSITE")

@@ -11,8 +11,7 @@ from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
-from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from ssilang.operators.matrices.element import joined, present
@@ -217,20 +216,15 @@ def _tangent_matrix(
     for zone, (tangent, own) in zip(model.zones, tangents, strict=True):
         parameters = zone_field(zone, material)
         D = 0.5 * (tangent + np.swapaxes(tangent, -1, -2)) if symmetric else tangent
-        block = _stiffness(zone, D, parameters)
+        family = family_of(zone)
+        layout = family.layout(zone)
+        values = np.empty((len(zone.cells), *(len(layout.unknowns),) * 2))
+        for cells in chunks(len(zone.cells)):
+            operator_ = family.strain_operator(zone, parameters, "STRESSES", cells)
+            values[cells] = contract(operator_, D[cells])
+        block = element_matrices(zone, layout, values, "RIGIDITE")
         blocks.append(replace(block, symmetric=own or symmetric))
     return Matrix(model.mesh.nodes, tuple(blocks), (), "RIGIDITE")
-
-
-def _stiffness(zone: Zone, tangent: FloatArray, parameters: ZoneField) -> ElementMatrices:
-    """Stiffness of moduli at the points of 'STRESSES'."""
-    family = family_of(zone)
-    layout = family.layout(zone)
-    values = np.empty((len(zone.cells), *(len(layout.unknowns),) * 2))
-    for cells in chunks(len(zone.cells)):
-        operator_ = family.strain_operator(zone, parameters, "STRESSES", cells)
-        values[cells] = contract(operator_, tangent[cells])
-    return element_matrices(zone, layout, values, "RIGIDITE")
 
 
 @operator("KTAN", *_STATE, _SYMMETRIC, family="matrix")

@@ -58,6 +58,7 @@ from ssilang.operators.statics.pasapas_steering import (
     working_table,
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
+from ssilang.operators.statics.temperatures import warn_of_temperatures
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
 
@@ -74,6 +75,8 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
     start = start_of(entries)
     times, saved = _times(entries, start)
     plausibility.warn_of_loads(entries, entries.get("CHARGEMENT"), times)
+    if not start.index:
+        warn_of_temperatures(entries, times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
     if stepped_links(entries, times, saved):

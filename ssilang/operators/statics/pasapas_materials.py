@@ -6,6 +6,7 @@ stresses are D(T) (strain - thermal strain - plastic strain) at all times.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.statics.thermal_load import split_strains
 from ssilang.operators.fields.cell_extraction import depended_on
-from ssilang.operators.fields.variation import evaluated, placed
+from ssilang.operators.fields.variation import beyond_laws, evaluated, placed
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import tire_by_names
 from ssilang.operators.statics.pasapas_contact import Zones, stress_offsets
@@ -58,6 +59,12 @@ class Varying:
             return self.material
         blocks = (b for f in fields for b in placed(self.model, f, "STRESSES").blocks)
         return evaluated(self.material, CellField(tuple(blocks)), "STRESSES")
+
+    def beyond(self, fields: list[Any]) -> Iterator[dict[str, Any]]:
+        """Characteristics that fields ask for outside of their law."""
+        blocks = (b for f in fields for b in placed(self.model, f, "STRESSES").blocks)
+        if self.material is not None:
+            yield from beyond_laws(self.material, CellField(tuple(blocks)))
 
     def reference(self) -> tuple[LoadPart, ...]:
         """Less the strains ALPH (TREF - TALP): at TREF there is none."""

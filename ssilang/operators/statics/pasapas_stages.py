@@ -69,6 +69,9 @@ def stage_of(work: Entries, times: FloatArray) -> Stage:
     fields, n = varying.fields(float(times[1])), 1
     while n < steps and same_fields(fields, varying.fields(float(times[n + 1]))):
         n += 1
+    for told in varying.beyond(fields):
+        if not work.call.session.warned("operators.fields.beyond-law", name=told["name"]):
+            work.warn("operators.fields.beyond-law", **told)
     warm = any(p.name.strip() == "T" for p in rest)
     reference = varying.reference() if warm else ()
     if not (parts or fields or reference):

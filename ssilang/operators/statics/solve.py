@@ -66,7 +66,12 @@ def _reso(
 ) -> tuple[NodeField, ...]:
     options = _options(call, words)
     if words["warned"]:
-        return _or_warning(call, matrix, loads, options)
+        # loads that drive a free motion give a warning instead of an error
+        try:
+            return tuple(solve(matrix, loads, replace(options, project=False)))
+        except KernelError as problem:
+            call.warn(problem.code, **problem.data)
+        return tuple(solve(matrix, loads, options))
     laden = [part.nodes for load in loads for part in load.components.values()]
     warn_connections(call.session, call.span, "RESO", matrix, laden=laden)
     known = np.concatenate([np.zeros(0, np.int64), *(r.multipliers for r in matrix.relations)])
@@ -100,21 +105,16 @@ def _is_anywhere(field: NodeField) -> bool:
     return any(p.values.any() for n, p in field.components.items() if n != "LX")
 
 
-def _report_solver(call: Call, matrix: Matrix, options: SolveOptions) -> None:
-    """A line of statistics for the summary, once a matrix."""
-    system = linear_system(matrix, options)
-    line = {"unknowns": system.numbering.size, "solver": system.inverse.factor.name}
-    call.session.statistics.setdefault("systems", []).append(line)
-
-
 def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     """Warn, once a matrix, of stiffnesses that differ so much that few digits are left."""
     from ssilang.kernel.statics.conditioning import FEW_DIGITS, system_extremes
 
     if "condition" in matrix.cache:
         return
-    _report_solver(call, matrix, options)
-    found = system_extremes(linear_system(matrix, options), matrix)
+    system = linear_system(matrix, options)
+    line = {"unknowns": system.numbering.size, "solver": system.inverse.factor.name}
+    call.session.statistics.setdefault("systems", []).append(line)
+    found = system_extremes(system, matrix)
     matrix.cache["condition"] = found
     if found is None or found.number <= FEW_DIGITS:
         return
@@ -124,17 +124,6 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
         "operators.statics.badly-conditioned", call.span, operator="RESO", number=found.number,
         digits=digits, most=most, stiff=stiff, least=least, soft=soft,
     )  # fmt: skip
-
-
-def _or_warning(
-    call: Call, matrix: Matrix, loads: tuple[NodeField, ...], options: SolveOptions
-) -> tuple[NodeField, ...]:
-    """Solutions; loads that drive a free motion give a warning instead of an error."""
-    try:
-        return tuple(solve(matrix, loads, replace(options, project=False)))
-    except KernelError as problem:
-        call.warn(problem.code, **problem.data)
-    return tuple(solve(matrix, loads, options))
 
 
 RESO = operator(

@@ -16,6 +16,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.language.vocabulary import meanings
 from ssilang.operators.matrices.element import NO_ERROR, joined, numbered, present
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.temperatures import EXPANDS, without
 
 PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
 """Types of fields in cells that hold parameters."""
@@ -227,24 +228,22 @@ def _state(model: Model, field: CellField) -> str:
 @operator("EPTH", family="stress")
 def epth(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal strains."""
-    material, field = _thermal(call, fields)
+    material, field = _thermal(call, model, fields)
     zones = present(call, model)
     return on_zones(zones, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
 
 
-def _thermal(call: Call, fields: Fields) -> tuple[CellField, NodeField | CellField]:
+def _thermal(call: Call, model: Model, fields: Fields) -> tuple[CellField, NodeField | CellField]:
     nodal, cells = nodal_of(fields), cells_of(fields)
     if not nodal and len(cells) < 2:
         raise call.missing(("CHPOINT", "MCHAML"))
     material = joined_cells(call, fields if nodal else cells[:-1])
-    if not any(_EXPANDS.intersection(b.components) for b in material.blocks):
+    if not any(EXPANDS.intersection(b.components) for b in material.blocks):
         call.warn("operators.statics.no-expansion", cells[0])
+    if nodal and len(lost := without(model, material, nodal[0].node_ids)):
+        told = {"count": len(lost), "node": nodal[0].table.told(int(lost[0]))}
+        call.warn("operators.statics.temperature-missing", nodal[0], **told)
     return material, nodal[0] if nodal else cells[-1]
-
-
-_EXPANDS = frozenset(
-    ["ALPH", "ALP1", "ALP2", "ALP3", "ALPN", "ALPS", "ALQS", "ALQN", "ALQ1", "ALQ2"]
-)
 
 
 def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField) -> CellFieldBlock:
@@ -255,7 +254,7 @@ def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField
 @operator("THET", family="stress", full_name="THETA")
 def thet(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal stresses."""
-    material, field = _thermal(call, fields)
+    material, field = _thermal(call, model, fields)
     zones = present(call, model)
     strains = on_zones(zones, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
     return on_zones(zones, "CONTRAINTES", lambda z: families.elastic_stress(z, material, strains))

@@ -53,14 +53,6 @@ _NUMBERED = {
 """What the numbers most used in decks mean: codes of sentences in words of our own."""
 
 
-def _flat(values: Sequence[Any]) -> str:
-    words: list[str] = []
-    for value in values:
-        many = value.values if isinstance(value, ListReel | ListEnti | ListMots) else [value]
-        words += [written(float(v) if isinstance(value, ListReel) else v).strip() for v in many]
-    return " ".join(words)
-
-
 ERRE = shared("ERRE", "output", full_name="ERREUR")
 
 
@@ -87,7 +79,11 @@ def _numbered(
 ) -> None:
     if number == 0:
         return
-    said = _flat(values)
+    words: list[str] = []
+    for value in values:
+        many = value.values if isinstance(value, ListReel | ListEnti | ListMots) else [value]
+        words += [written(float(v) if isinstance(value, ListReel) else v).strip() for v in many]
+    said = " ".join(words)
     code = _NUMBERED.get(abs(number), "operators.texts.deck-stops")
     if number < 0:
         call.session.print(f" ***** {-number} ***** {said or call.session.told(code, said=said)}")

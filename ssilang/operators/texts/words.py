@@ -173,14 +173,8 @@ def _extract_word(
 ) -> Mot:
     end = len(text) if last is None else last
     if not 1 <= first <= max(len(text), 1) or not first <= end <= len(text):
-        raise call.error(
-            "operators.texts.characters-beyond-end",
-            first,
-            word=text,
-            size=len(text),
-            first=first,
-            last=end,
-        )
+        told = {"word": text, "size": len(text), "first": first, "last": end}
+        raise call.error("operators.texts.characters-beyond-end", first, **told)
     return Mot(text[first - 1 : end])
 
 

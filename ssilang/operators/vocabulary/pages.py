@@ -222,15 +222,11 @@ def _manual() -> tuple[tuple[str, str], ...]:
     return tuple((f"docs/{p.name}", p.read_text(encoding="utf-8")) for p in pages)
 
 
-def _pages() -> list[Page]:
-    known = standard_procedures()
-    made = [operator_page(o) for name, o in sorted(OPERATORS.items()) if o.name == name]
-    return made + [procedure_page(known[name]) for name in sorted(known)]
-
-
 def items(language: str) -> Iterator[Item]:
     """Operators, procedures, words and pages of the manual."""
-    for page in _pages():
+    known = standard_procedures()
+    made = [operator_page(o) for name, o in sorted(OPERATORS.items()) if o.name == name]
+    for page in made + [procedure_page(known[name]) for name in sorted(known)]:
         own = page.help.told(language)
         whole = f"{page.full_name} {page.title} {page.help.en} {page.help.fr} {page.help.syntax}"
         yield Item(page.name, teller(language)(f"help.{page.kind}"), first_sentence(own), whole)

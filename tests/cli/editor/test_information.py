@@ -111,7 +111,7 @@ def test_a_page_is_title_paragraph_and_the_rest_as_it_is():
     ("operator", "typed", "line"),
     [("EVOL", ["'EVOL'", "CHPO", "C"], "'CHPO'"), ("RIGI", ["DEPL", "UX"], "('DEPL')"),
      ("EVOL", ["TEMP", "D"], "'TEMP'"), ("EVOL", ["COMP", "LEGE"], "'COMP'"),
-     ("VIBR", ["SIMULTANE"], "'SIMU")],
+     ("VIBR", ["SIMULTANE"], "'SIMU"), ("FONC", ["SX"], "'SX'")],
 )  # fmt: skip
 def test_the_line_of_the_syntax_is_that_of_the_words_typed(operator, typed, line):
     load_operators()

@@ -1,7 +1,6 @@
 """Save files: objects come back equal and shared, nodes shift, nothing foreign is built."""
 
 import importlib
-import json
 import shutil
 import zipfile
 from pathlib import Path
@@ -87,15 +86,6 @@ def test_parameters_that_are_objects(tmp_path: Path) -> None:
     assert np.array_equal(back[0, 0].coordinates, [1.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize(
-    "name", ["os:system", "ssilang.cli.main:main", "ssilang.kernel.materials.model:Mode.x"]
-)
-def test_classes_outside_the_kernel_are_never_built(name: str, tmp_path: Path) -> None:
-    write_archive(tmp_path / "s", [[name, {}]], [], [Record("", {"X": ["o", 0]})], {})
-    with pytest.raises(InputError, match="no saved object's class"):
-        restored(tmp_path / "s", NodeTable())
-
-
 def test_pickled_arrays_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "s"
     write_archive(path, [], [], [Record("", {"X": ["a", 0]})], {})
@@ -113,18 +103,6 @@ def test_foreign_files_are_refused(tmp_path: Path) -> None:
     (tmp_path / "s").write_bytes(b"binary of another program")
     with pytest.raises(InputError, match="no file that SAUV"):
         read_archive(tmp_path / "s")
-
-
-def test_a_later_version_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "s"
-    saved(path, X=1)
-    with zipfile.ZipFile(path) as z:
-        head = json.loads(z.read("objects.json"))
-    head["version"], head["ssilang"] = 99, "7.0.0"
-    with zipfile.ZipFile(path, "w") as z:
-        z.writestr("objects.json", json.dumps(head))
-    with pytest.raises(InputError, match=r"later version of ssilang, 7\.0\.0; this is 0\.1\.0"):
-        read_archive(path)
 
 
 def test_an_object_of_unknown_class_is_not_saved(tmp_path: Path) -> None:
@@ -182,7 +160,8 @@ def test_all_kinds_of_objects_of_the_last_release_are_restored_and_used(tmp_path
 def test_classes_have_their_homes():
     for name, module in HOMES.items():
         assert class_name(getattr(importlib.import_module(module), name)) == f":{name}"
-        assert class_named(f":{name}").__module__ == module
+        for place in ("", "ssilang.kernel.gone", "ssilang.kernel.gone.below"):
+            assert class_named(f"{place}:{name}").__module__ == module, place
 
 
 def _crafted(path: Path, arrays: dict[int, int], format_of: Path) -> None:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.mesh_files.avs import avs_lines, read_avs, structure_of
@@ -47,10 +48,10 @@ def test_structures_follow_one_another_with_their_time(tmp_path: Path) -> None:
     path = tmp_path / "two.inp"
     lines = avs_lines(structure_of(mesh, field, None, 1.5)) + avs_lines(structure_of(mesh))
     path.write_text("# made by a test\n" + "\n".join(lines))
-    first, second, third = (read_avs(path, i) for i in range(3))
+    first, second, third, fourth = (read_avs(path, i) for i in range(4))
     assert first is not None
     assert second is not None
-    assert third is None
+    assert third is fourth is None
     assert first.model_values == {"time": 1.5}
     assert np.array_equal(first.node_values["UX"], np.arange(6.0) / 7.0)
     assert second.node_values == {}
@@ -71,10 +72,11 @@ def test_quadratic_cells_keep_their_order(kind: str, tmp_path: Path) -> None:
     assert np.array_equal(read.cells[0][2], np.arange(n)[None, :])
 
 
-def test_a_damaged_file_is_refused(tmp_path: Path) -> None:
+@together("rest, said", [("", r"x\.inp is cut"), ("2 1. 0. 0.\n1 1\nV, m\n1 2.\n2 nan\n", "NaN")])
+def test_a_damaged_file_is_refused(rest: str, said: str, tmp_path: Path) -> None:
     path = tmp_path / "x.inp"
-    path.write_text("3 1 0 0 0\n1 0. 0. 0.\n")
-    with pytest.raises(InputError, match=r"x\.inp is cut"):
+    path.write_text(f"2 0 1 0 0\n1 0. 0. 0.\n{rest}")
+    with pytest.raises(InputError, match=said):
         read_avs(path)
 
 

@@ -1,11 +1,13 @@
 """Universal files written by hand; STL read by meshio and back."""
 
 import struct
+from collections.abc import Callable
 from pathlib import Path
 
 import meshio
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.mesh_files.file_mesh import FileMesh
@@ -36,6 +38,8 @@ UNV = """    -1
         11        12
          7        44         1         1         7         4
         11        12        13        14
+         9       136         1         1         7         1
+        13
     -1
     -1
   2467
@@ -58,6 +62,7 @@ def test_nodes_cells_and_groups(tmp_path: Path) -> None:
     assert np.array_equal(read.cells["SEG2"], [[0, 1]])
     assert held(read) == ({"SEG2": [0]}, [2])
     assert held(read, "face") == ({"QUA4": [0]}, [])
+    assert read.left_out == {"136": 1}
 
 
 def held(read: FileMesh, name: str = "base side") -> tuple[dict[str, list[int]], list[int]]:
@@ -65,11 +70,16 @@ def held(read: FileMesh, name: str = "base side") -> tuple[dict[str, list[int]],
     return {k: rows.tolist() for k, rows in part.cells.items()}, part.nodes.tolist()
 
 
-def test_a_file_without_nodes_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "m.unv"
-    path.write_text("    -1\n   164\n    -1\n")
-    with pytest.raises(InputError, match="no nodes"):
-        read_unv(path)
+@together("read, text, said", [
+    (read_unv, "    -1\n   164\n    -1\n", "no nodes"),
+    (read_stl, "solid a\nendsolid a\n", "no triangles"),
+])  # fmt: skip
+def test_a_file_that_holds_nothing_is_refused(
+    read: Callable[[Path], object], text: str, said: str, tmp_path: Path
+) -> None:
+    (tmp_path / "m").write_text(text)
+    with pytest.raises(InputError, match=said):
+        read(tmp_path / "m")
 
 
 def tetrahedron() -> Mesh:

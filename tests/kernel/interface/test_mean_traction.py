@@ -29,7 +29,7 @@ LAWS = {
 @pytest.mark.parametrize("d", [2, 3])
 @pytest.mark.parametrize("name", LAWS)
 def test_mean_traction_times_step_is_what_is_stored_and_lost(name, d):
-    """Also where a step opens, closes, tears and rests."""
+    """Also where a step opens, closes, tears and rests; its tangent by differences."""
     rng, n = np.random.default_rng(9), 60
     p = np.zeros((n, N_PARAMETERS))
     for parameter, value in {"KN": KN, "KS1": KS, "KS2": 0.4 * KS, **LAWS[name]}.items():
@@ -55,6 +55,7 @@ def test_mean_traction_times_step_is_what_is_stored_and_lost(name, d):
     for size in (1e-4, 4e-4, 1e-3, 4e-4, 1e-3, 2e-4, 1e-3):
         w = rng.uniform(-1.0, 1.0, (n, d)) * size
         w[::7] = now.w[::7]
+        w[1::7, -1] = p[1::7, Parameter.FC] / p[1::7, Parameter.KN] + 0.05 * w[1::7, -1]
         end, tm = answered(w)
         np.testing.assert_allclose(end.w, w, rtol=1e-12)
         step = energies(w, end.t, end.state) - energies(now.w, now.t, now.state)
@@ -62,6 +63,9 @@ def test_mean_traction_times_step_is_what_is_stored_and_lost(name, d):
         scale = np.abs(work).max()
         np.testing.assert_allclose(step.sum(axis=1), work, atol=1e-9 * scale)
         np.testing.assert_allclose(end.f.reshape(n, d), (weights[:, None] * tm)[::-1], rtol=1e-12)
+        ways = [(answered(w + h)[1] - answered(w - h)[1]) / 2e-9 for h in 1e-9 * np.eye(d)]
+        slopes, moved = np.stack(ways, axis=2), np.arange(n) % 7 > 0
+        np.testing.assert_allclose(end.D[moved], slopes[moved], rtol=1e-5, atol=1e-6 * KN)
         changed += np.sum((end.t[:, -1] < 0.0) != (now.t[:, -1] < 0.0))
         now = InterfaceState(now.delta, end.f, w, end.t, end.state)
     assert changed > 50

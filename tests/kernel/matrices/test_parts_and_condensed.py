@@ -362,7 +362,8 @@ def test_matrices_written_by_hand():
                 wanted[first] = value
                 if sign is not None and there != own[0]:
                     wanted[second] = sign * value
-            found = by_hand.column(field, 2, "UX", "FX", "RIGIDITE", sign, row)
+            found = by_hand.column(field, 2, "UX", "FX", "MASSE", sign, row)
+            assert {found.kind, *(b.kind for b in found.blocks)} == {"MASSE"}
             assert terms(found) == wanted
             assert all(b.symmetric == (sign == 1.0) for b in found.blocks)
     columns = [NodeField.of(table, np.array([3, 1]), {"ALFA": np.array([i, 2.0 * i + 1])})

@@ -154,13 +154,17 @@ def test_symmetry_and_antisymmetry_share_out_the_six_motions(mirrored):
 
 def test_nodes_on_the_plane_are_found_within_the_tolerance():
     table = NodeTable()
-    ids = table.add(np.array([[0.0, 0], [1, 0.01], [2, 0.5]]))
-    points = np.array([[0.0, 0, 0], [5, 0, 0]])
-    near, normal = make.on_plane(table, ids, points, 0.05)
-    assert list(near) == [0, 1]
-    np.testing.assert_allclose(np.abs(normal), [0, 1, 0])
-    with pytest.raises(MeshError, match=r"nearest is at 0\.5"):
+    ids = table.add(np.array([[1.0, 2], [2, 2.99], [1, 3.5]]))  # along y = x + 1
+    points = np.array([[3.0, 4, 0], [5, 6, 0], [3, 4, 7]])
+    for given in (points[:2], points):
+        near, normal = make.on_plane(table, ids, given, 0.05)
+        assert list(near) == [0, 1]
+        np.testing.assert_allclose(np.abs(normal), [0.5**0.5, 0.5**0.5, 0], atol=1e-15)
+    with pytest.raises(MeshError, match=r"nearest is at 1\.06"):
         make.on_plane(table, ids[2:], points, 0.05)
+    for along in (points[0], points[1]):
+        with pytest.raises(MeshError, match="points"):
+            make.on_plane(table, ids, np.array([points[0], points[1], along]), 0.05)
 
 
 def test_middle_nodes_follow_their_corners():

@@ -414,22 +414,18 @@ def draw_bars(panel: Axes, line: Line) -> None:
         drawn: dict[str, Any] = {"color": line.colour, "edgecolor": line.colour, "alpha": 0.75}
         panel.bar(line.x, line.y, width=0.96 * width, **drawn)
     if line.style.marker in ("v", "^") and len(line.x):
-        _name_bar(panel, line)
-
-
-def _name_bar(panel: Axes, line: Line) -> None:
-    over = line.style.marker == "v"
-    end = float(np.max(line.y) if over else np.min(line.y))
-    panel.annotate(
-        to_mathtext(line.name),
-        (float(np.mean([np.min(line.x), np.max(line.x)])), end),
-        xytext=(0, 9 if over else -9),
-        textcoords="offset points",
-        ha="center",
-        va="bottom" if over else "top",
-        fontsize=8,
-        arrowprops={"arrowstyle": "-|>", "lw": 0.6, "color": line.colour, "shrinkB": 1},
-    )
+        over = line.style.marker == "v"
+        end = float(np.max(line.y) if over else np.min(line.y))
+        panel.annotate(
+            to_mathtext(line.name),
+            (float(np.mean([np.min(line.x), np.max(line.x)])), end),
+            xytext=(0, 9 if over else -9),
+            textcoords="offset points",
+            ha="center",
+            va="bottom" if over else "top",
+            fontsize=8,
+            arrowprops={"arrowstyle": "-|>", "lw": 0.6, "color": line.colour, "shrinkB": 1},
+        )
 
 
 _PERIODS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0)

@@ -3,7 +3,7 @@
 Numba keeps compiled code beside each module and looks at that module's file alone to tell whether
 it is still good: a function keeps the old code of what it calls. The code of a module compiled here
 is therefore kept in a folder named after its text and that of all modules of the kernel that it
-imports, directly or not: an edit costs the code that it may change, and no other.
+imports or names as CODE, directly or not: an edit costs the code that it may change, and no other.
 
 Kept code is run unseen, so a folder is used only if nobody else could have put his own there
 (`private`); else a run compiles into a folder that ends with it.
@@ -30,7 +30,9 @@ from ssilang.private import (
 
 SUFFIX = ".code"  # of a file with a function's machine code
 KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
-IMPORTED = re.compile(r"^from (ssilang\.kernel[\w.]*) import (\([^)]*\)|.*)$", re.MULTILINE)
+IMPORTED = re.compile(
+    r'^(?:from|CODE =) "?(ssilang\.kernel[\w.]*)(?:"| import (\([^)]*\)|.*))$', re.MULTILINE
+)  # or written by
 PACKAGE = Path(__file__).parents[3]  # ssilang
 
 

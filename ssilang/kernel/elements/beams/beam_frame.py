@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
@@ -39,13 +37,6 @@ class BeamFrame:
         return T
 
 
-def _as_vectors(values: NDArray[Any], n: int) -> FloatArray:
-    """VECT as stored (points) to vectors (n, 3)."""
-    flat = np.asarray(values, dtype=object).reshape(len(values), -1)[:, 0]
-    rows = [point.coordinates for point in flat]
-    return np.broadcast_to(np.array(rows, dtype=float), (n, 3))
-
-
 def _default_side(along: FloatArray) -> FloatArray:
     """Second axis where the script gives none: horizontal, or OY along a vertical beam."""
     side = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(along))])
@@ -59,7 +50,10 @@ def _given_side(zone: Zone, parameters: ZoneField) -> FloatArray | None:
         return None
     n = len(zone.cells)
     if "VECT" in parameters:
-        return _as_vectors(parameters.raw("VECT")[0], n)
+        values = parameters.raw("VECT")[0]
+        flat = np.asarray(values, dtype=object).reshape(len(values), -1)[:, 0]
+        rows = [point.coordinates for point in flat]
+        return np.broadcast_to(np.array(rows, dtype=float), (n, 3))
     if "VX" in parameters:
         columns = [parameters.at(name, "GRAVITE", 0.0)[:, 0] for name in ("VX", "VY", "VZ")]
         return np.stack([np.broadcast_to(c, (n,)) for c in columns], axis=1)

@@ -151,20 +151,14 @@ def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) ->
     for block in faces.blocks:
         of = require_parents(block, model)
         for zone, rows in zones_of_faces(of, model):
-            part, geometry, vectors = _oriented(block, rows, of, model, zone)
+            part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
+            geometry = face_geometry(part, zone.mode, harmonic(zone))
+            mine = Parents(of.zone[rows], of.cell[rows])
+            vectors = outward(part, geometry, model, mine)
             p = _face_values(part, geometry, value)
             forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
             out.append(_scatter(zone, part, forces))
     return total(faces.nodes, out)
-
-
-def _oriented(
-    block: CellBlock, rows: IntArray, of: Parents, model: Model, zone: Zone
-) -> tuple[CellBlock, SurfaceGeometry, FloatArray]:
-    part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
-    geometry = face_geometry(part, zone.mode, harmonic(zone))
-    mine = Parents(of.zone[rows], of.cell[rows])
-    return part, geometry, outward(part, geometry, model, mine)
 
 
 def _face_values(
@@ -175,7 +169,16 @@ def _face_values(
     if isinstance(value, NodeField):
         return _at_nodes(part, value, _only(tuple(value.components))) @ geometry.shapes.T
     if isinstance(value, CellField):
-        return _cell_values(part, geometry, value)
+        out = np.zeros((len(part), len(geometry.shapes)))
+        for block in value.blocks:
+            rows = cell_rows(block.cells, part)
+            found = rows >= 0
+            if not found.any():
+                continue
+            values = np.asarray(block.components[_only(tuple(block.components))], dtype=float)
+            values = np.broadcast_to(values, (len(block.cells), values.shape[1]))[rows[found]]
+            out[found] = _to_face_points(part, block.cells, rows[found], values, found, geometry)
+        return out
     return np.full(shape, float(value))
 
 
@@ -188,19 +191,6 @@ def _only(names: tuple[str, ...]) -> str:
 def _at_nodes(part: CellBlock, field: NodeField, name: str) -> FloatArray:
     nodes = part.connectivity
     return field.values_at(name, nodes.ravel()).reshape(nodes.shape)
-
-
-def _cell_values(part: CellBlock, geometry: SurfaceGeometry, field: CellField) -> FloatArray:
-    out = np.zeros((len(part), len(geometry.shapes)))
-    for block in field.blocks:
-        rows = cell_rows(block.cells, part)
-        found = rows >= 0
-        if not found.any():
-            continue
-        values = np.asarray(block.components[_only(tuple(block.components))], dtype=float)
-        values = np.broadcast_to(values, (len(block.cells), values.shape[1]))[rows[found]]
-        out[found] = _to_face_points(part, block.cells, rows[found], values, found, geometry)
-    return out
 
 
 def _to_face_points(
@@ -428,11 +418,8 @@ def body_force(
     blocks = [density] if isinstance(density, NodeField) else density.blocks
     given = [n for block in blocks for n in block.components]
     if not wanted.intersection(given):
-        raise FieldError(
-            "kernel.elements.volume-force-components-field",
-            wanted=sorted(wanted),
-            given=tuple(dict.fromkeys(given)),
-        )
+        told = {"wanted": sorted(wanted), "given": tuple(dict.fromkeys(given))}
+        raise FieldError("kernel.elements.volume-force-components-field", **told)
     out = [_body_force(zone, density, material) for zone in model.zones]
     return total(model.mesh.nodes, out)
 

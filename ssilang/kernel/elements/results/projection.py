@@ -117,12 +117,8 @@ def by_least_squares(
             raise FieldError("kernel.elements.element-not-fill-space", element=zone.element)
         rule = _points_per_direction(REFERENCE_CELLS[kind.name].shape, n)
         if len(rule) < kind.n_nodes:
-            raise FieldError(
-                "kernel.elements.integration-points-not-fix",
-                n_rule=len(rule),
-                n_nodes=kind.n_nodes,
-                name=kind.name,
-            )
+            told = {"n_rule": len(rule), "n_nodes": kind.n_nodes, "name": kind.name}
+            raise FieldError("kernel.elements.integration-points-not-fix", **told)
         at = zone.cells.coordinates
         shapes = shape_functions(kind.name, rule.points)
         along = np.einsum("pka,ckd->cpad", shape_gradients(kind.name, rule.points), at)

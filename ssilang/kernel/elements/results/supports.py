@@ -98,7 +98,9 @@ def cells_of_nodal(
         components = {}
         for name, values in _at_cell_nodes(zone.cells, field).items():
             if values.shape[1] == 2 * half:
-                values = _both_sides(zone.cells, field.components[name], values)
+                # a node without values takes those of the one that it faces
+                there = np.isin(zone.cells.connectivity, field.components[name].nodes)
+                values = np.where(there, values, np.roll(values, half, axis=1))
                 if target == "NOEUD":
                     components[name] = values
                     continue
@@ -109,14 +111,6 @@ def cells_of_nodal(
                 CellFieldBlock(zone.cells, components, target, zone.element, zone.constituent)
             )
     return CellField(tuple(blocks), title)
-
-
-def _both_sides(cells: CellBlock, part: NodeValues, values: FloatArray) -> FloatArray:
-    """Values at the nodes of joints; a node without takes that of the one that it faces."""
-    there = np.isin(cells.connectivity, part.nodes)
-    half = values.shape[1] // 2
-    facing = np.roll(values, half, axis=1)
-    return np.where(there, values, facing)
 
 
 def cells_of_mesh(mesh: Mesh, field: NodeField, title: str = "") -> CellField:

@@ -81,18 +81,14 @@ def principal(zone: Zone, T: FloatArray, ordered: bool) -> FloatArray:
     values, vectors = values[..., ::-1], vectors[..., ::-1]
     space = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)
     if not (ordered or space):
-        values, vectors = _out_of_plane_last(values, vectors)
+        normal = np.argmax(np.abs(vectors[..., 2, :]), axis=-1)
+        order = np.stack(
+            [np.where(normal == 0, 1, 0), np.where(normal == 2, 1, 2), normal], axis=-1
+        )
+        values = np.take_along_axis(values, order, axis=-1)
+        vectors = np.take_along_axis(vectors, order[..., None, :], axis=-1)
     directions = np.moveaxis(vectors, -1, -2).reshape(*values.shape[:2], 9)
     return np.moveaxis(np.concatenate([values, directions], axis=-1), 2, 1)
-
-
-def _out_of_plane_last(values: FloatArray, vectors: FloatArray) -> tuple[FloatArray, FloatArray]:
-    normal = np.argmax(np.abs(vectors[..., 2, :]), axis=-1)
-    order = np.stack([np.where(normal == 0, 1, 0), np.where(normal == 2, 1, 2), normal], axis=-1)
-    return (
-        np.take_along_axis(values, order, axis=-1),
-        np.take_along_axis(vectors, order[..., None, :], axis=-1),
-    )
 
 
 def von_mises(T: FloatArray) -> FloatArray:

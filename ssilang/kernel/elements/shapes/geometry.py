@@ -79,11 +79,8 @@ def _check_jacobians(det: FloatArray, jacobians: FloatArray) -> None:
     folded = flat.any(axis=1) | (det.min(axis=1) < 0) & (det.max(axis=1) > 0)
     if folded.any():
         first = int(np.argmax(folded))
-        raise MeshError(
-            "kernel.elements.jacobian-vanishes-changes-sign",
-            n_folded=int(folded.sum()),
-            first=first + 1,
-        )
+        told = {"n_folded": int(folded.sum()), "first": first + 1}
+        raise MeshError("kernel.elements.jacobian-vanishes-changes-sign", **told)
 
 
 def cell_geometry(cell_type: str, coordinates: FloatArray, rule: Rule) -> CellGeometry:

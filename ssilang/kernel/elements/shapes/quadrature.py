@@ -106,12 +106,8 @@ def _tetrahedron(n: int) -> Rule:
         a, b = (5 - np.sqrt(5.0)) / 20, (5 + 3 * np.sqrt(5.0)) / 20
         points = np.array([(a, a, a), (b, a, a), (a, b, a), (a, a, b)])
         return Rule(points, np.full(4, 1 / 24))
-    return _conical_tetrahedron(3)
-
-
-def _conical_tetrahedron(n: int) -> Rule:
-    """Collapsed cube: exact up to degree 2 n - 1 (Stroud 1971)."""
-    (x, wx), (y, wy), (z, wz) = (_towards_a_point(n, k) for k in (0, 1, 2))
+    # collapsed cube of 3^3 points: exact up to degree 5 (Stroud 1971)
+    (x, wx), (y, wy), (z, wz) = (_towards_a_point(3, k) for k in (0, 1, 2))
     u, v, t = ((1 + r) / 2 for r in (x, y, z))
     grid_t, grid_v, grid_u = np.meshgrid(t, v, u, indexing="ij")
     points = np.column_stack(

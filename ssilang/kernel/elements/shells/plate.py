@@ -68,14 +68,6 @@ def cubic_curvatures(local: FloatArray, points: FloatArray) -> FloatArray:
     return rows.reshape(len(local), 3, len(points), 9)
 
 
-def _gradients(local: FloatArray, cell_type: str, points: FloatArray) -> FloatArray:
-    """Derivatives (n, p, 2, k) of shape functions on straight triangles."""
-    J = np.stack([local[:, 1] - local[:, 0], local[:, 2] - local[:, 0]], axis=1)
-    reference = shape_gradients(cell_type, points)
-    found: FloatArray = np.einsum("cij,pkj->cpik", np.linalg.inv(J), reference)
-    return found
-
-
 def kirchhoff_rotations(local: FloatArray) -> FloatArray:
     """Normal's rotations (n, 6 nodes, 2, 9) from w, RX, RY at the corners (own frame)."""
     n = len(local)
@@ -100,7 +92,10 @@ def kirchhoff_rotations(local: FloatArray) -> FloatArray:
 
 def curvatures_of(rotations: FloatArray, local: FloatArray, points: FloatArray) -> FloatArray:
     """Curvatures (n, 3, p, 9) of quadratic rotations (n, 6 nodes, 2, 9) of the normal."""
-    slopes = np.einsum("cpik,ckjm->cpijm", _gradients(local, "TRI6", points), rotations)
+    J = np.stack([local[:, 1] - local[:, 0], local[:, 2] - local[:, 0]], axis=1)
+    reference = shape_gradients("TRI6", points)
+    found: FloatArray = np.einsum("cij,pkj->cpik", np.linalg.inv(J), reference)
+    slopes = np.einsum("cpik,ckjm->cpijm", found, rotations)
     mixed = slopes[:, :, 1, 0] + slopes[:, :, 0, 1]
     return np.stack([slopes[:, :, 0, 0], slopes[:, :, 1, 1], mixed], axis=1)
 

@@ -238,19 +238,14 @@ def strain_matrix(zone: Zone, geometry: CellGeometry, cells: slice) -> FloatArra
         if factor and source is not None:
             matrix[:, row, :, unknown : k * nu : nu] += factor * source
     if extra:
-        _add_section_motion(zone, geometry, cells, matrix[..., k * nu :])
+        # EPZZ = UZ + (y - y0) RX - (x - x0) RY, the section's node being at (x0, y0)
+        columns = matrix[..., k * nu :]
+        origin = section_point(zone).coordinates
+        x, y = np.moveaxis(coordinates(zone, cells), 2, 0) @ geometry.shapes.T
+        columns[:, 2, :, 0] = 1.0
+        columns[:, 2, :, 1] = y - origin[1]
+        columns[:, 2, :, 2] = origin[0] - x
     return matrix
-
-
-def _add_section_motion(
-    zone: Zone, geometry: CellGeometry, cells: slice, columns: FloatArray
-) -> None:
-    """EPZZ = UZ + (y - y0) RX - (x - x0) RY, the section's node being at (x0, y0)."""
-    origin = section_point(zone).coordinates
-    x, y = np.moveaxis(coordinates(zone, cells), 2, 0) @ geometry.shapes.T
-    columns[:, 2, :, 0] = 1.0
-    columns[:, 2, :, 1] = y - origin[1]
-    columns[:, 2, :, 2] = origin[0] - x
 
 
 def uniform_stiffness(zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray | None:

@@ -24,12 +24,6 @@ from ssilang.kernel.materials.elasticity import (
 from ssilang.kernel.materials.model import Mode, Zone
 
 
-def _isotropic(parameters: ZoneField, support: Support) -> tuple[FloatArray, FloatArray]:
-    young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
-    check_isotropic(young, poisson)
-    return young, poisson
-
-
 def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
     """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3), unit vectors as rows.
 
@@ -54,33 +48,30 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
 _PLANE_DEFAULTS = {"G23": "G12", "G13": "G12"}
 
 
-def _orthotropic_constants(
-    zone: Zone, parameters: ZoneField, support: Support
-) -> dict[str, FloatArray]:
-    """The nine constants; those that a hypothesis does not use get harmless values."""
-    out = {name: parameters.at(name, support) for name in ("YG1", "YG2", "NU12", "G12")}
-    plane_stress = zone.mode is Mode.PLANE_STRESS
-    for name, default in (("YG3", out["YG2"]), ("NU23", 0.0), ("NU13", 0.0)):
-        given = name in parameters or not plane_stress
-        out[name] = parameters.at(name, support) if given else np.broadcast_to(default, (1, 1))
-    needs_shear = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)
-    for name, default_name in _PLANE_DEFAULTS.items():
-        given = name in parameters or needs_shear
-        out[name] = parameters.at(name, support) if given else out[default_name]
-    return out
-
-
 def _isotropic_pair(
     zone: Zone, parameters: ZoneField, support: Support
 ) -> tuple[FloatArray, FloatArray]:
-    constants = _isotropic(parameters, support)
-    return isotropic_moduli(*constants), isotropic_compliance(*constants)
+    young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
+    check_isotropic(young, poisson)
+    return isotropic_moduli(young, poisson), isotropic_compliance(young, poisson)
 
 
 def _orthotropic_pair(
     zone: Zone, parameters: ZoneField, support: Support
 ) -> tuple[FloatArray, FloatArray]:
-    local = orthotropic_compliance(_orthotropic_constants(zone, parameters, support))
+    # the nine constants; those that a hypothesis does not use get harmless values
+    constants = {name: parameters.at(name, support) for name in ("YG1", "YG2", "NU12", "G12")}
+    plane_stress = zone.mode is Mode.PLANE_STRESS
+    for name, default in (("YG3", constants["YG2"]), ("NU23", 0.0), ("NU13", 0.0)):
+        given = name in parameters or not plane_stress
+        constants[name] = (
+            parameters.at(name, support) if given else np.broadcast_to(default, (1, 1))
+        )
+    needs_shear = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)
+    for name, default_name in _PLANE_DEFAULTS.items():
+        given = name in parameters or needs_shear
+        constants[name] = parameters.at(name, support) if given else constants[default_name]
+    local = orthotropic_compliance(constants)
     axes = material_axes(parameters, support)
     moduli = rotated_moduli(np.linalg.inv(local).astype(np.float64), axes)
     T = strain_rotation(axes)

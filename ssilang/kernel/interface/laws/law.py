@@ -105,9 +105,5 @@ def columns_of(parameters: FloatArray) -> dict[str, FloatArray]:
 def refuse(wrong: np.ndarray, values: FloatArray, name: str, wanted: str) -> None:
     """Refuse the first value of a parameter that is `wrong`: it must be as `wanted`."""
     if wrong.any():
-        raise MaterialError(
-            "kernel.interface.joint-parameter-must",
-            name=name,
-            values=values[wrong][0],
-            wanted=wanted,
-        )
+        told = {"name": name, "values": values[wrong][0], "wanted": wanted}
+        raise MaterialError("kernel.interface.joint-parameter-must", **told)

@@ -129,38 +129,27 @@ def _check_values(strains: FloatArray, ratios: FloatArray) -> None:
     rises = np.diff(ratios) > _SAME
     if rises.any():
         i = int(np.argmax(rises))
-        raise MaterialError(
-            "kernel.materials.reduction-rises",
-            first=strains[i],
-            before=ratios[i],
-            second=strains[i + 1],
-            after=ratios[i + 1],
-        )
+        told = {"first": strains[i], "before": ratios[i], "second": strains[i + 1]}
+        told |= {"after": ratios[i + 1]}
+        raise MaterialError("kernel.materials.reduction-rises", **told)
 
 
 def _check_slopes(strains: FloatArray, ratios: FloatArray) -> None:
     slopes = _slopes(strains, ratios)
     if (slopes < -_SAME).any():
         i = int(np.argmax(slopes < -_SAME))
-        raise MaterialError(
-            "kernel.materials.reduction-softens",
-            first=strains[i - 1],
-            second=strains[i],
-            ratio=ratios[i],
-            least=ratios[i - 1] * strains[i - 1] / strains[i],
-        )
+        told = {"first": strains[i - 1], "second": strains[i], "ratio": ratios[i]}
+        told |= {"least": ratios[i - 1] * strains[i - 1] / strains[i]}
+        raise MaterialError("kernel.materials.reduction-softens", **told)
     stiffer = np.diff(slopes) > _SAME
     if stiffer.any():
         i = int(np.argmax(stiffer))  # the slope behind point i is steeper than before it
         before = 0.0 if i == 0 else strains[i - 1]
         start = 0.0 if i == 0 else strains[i - 1] * ratios[i - 1]
         chord = (strains[i + 1] * ratios[i + 1] - start) / (strains[i + 1] - before)
-        raise MaterialError(
-            "kernel.materials.reduction-stiffens",
-            strain=strains[i],
-            ratio=ratios[i],
-            least=(start + chord * (strains[i] - before)) / strains[i],
-        )
+        told = {"strain": strains[i], "ratio": ratios[i]}
+        told |= {"least": (start + chord * (strains[i] - before)) / strains[i]}
+        raise MaterialError("kernel.materials.reduction-stiffens", **told)
 
 
 _LIKE = 0.01

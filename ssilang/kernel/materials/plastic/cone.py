@@ -155,7 +155,8 @@ class _Flow:
             if (np.abs(step) <= 1e-14 * (np.abs(trace) + np.abs(self.trace))).all():
                 break
         slope = self.hardening(self.rows, grown)[1]
-        return _spherical(trace), grown, self._apex_tangent(slope, rate, shear, grown - p)
+        found: FloatArray = trace[:, None] / 3 * UNIT
+        return found, grown, self._apex_tangent(slope, rate, shear, grown - p)
 
     def _apex_tangent(
         self, slope: FloatArray, rate: FloatArray, shear: FloatArray, dp: FloatArray
@@ -167,11 +168,6 @@ class _Flow:
         change = slope / (self.alpha + slope * rate / (3 * self.B))
         found: FloatArray = UNIT[:, None] / 3 * (change[:, None] * strain)[:, None, :]
         return found
-
-
-def _spherical(trace: FloatArray) -> FloatArray:
-    found: FloatArray = trace[:, None] / 3 * UNIT
-    return found
 
 
 def perfect(
@@ -260,11 +256,8 @@ def check_perfect(parameters: PointParameters) -> None:
     """
     tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
     if (tension <= 0).any() or (compression < tension).any():
-        raise MaterialError(
-            "kernel.materials.drucker-parfait-ltr-lcs",
-            tension_min=tension.min(),
-            compression_min=compression.min(),
-        )
+        told = {"tension_min": tension.min(), "compression_min": compression.min()}
+        raise MaterialError("kernel.materials.drucker-parfait-ltr-lcs", **told)
 
 
 def check_hardening(parameters: PointParameters) -> None:
@@ -279,8 +272,5 @@ def check_hardening(parameters: PointParameters) -> None:
     if (beta <= 0).any() or (mu <= 0).any() or (parameters["DELT"] < 0).any():
         raise MaterialError("kernel.materials.drucker-prager-needs-beta")
     if (np.abs(eta * beta - alpha * mu) > 1e-9 * np.abs(alpha * mu) + 1e-30).any():
-        raise MaterialError(
-            "kernel.materials.ultimate-cone-drucker-prager",
-            eta=(eta / mu).flat[0],
-            alpha=(alpha / beta).flat[0],
-        )
+        told = {"eta": (eta / mu).flat[0], "alpha": (alpha / beta).flat[0]}
+        raise MaterialError("kernel.materials.ultimate-cone-drucker-prager", **told)

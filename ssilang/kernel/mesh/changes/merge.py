@@ -32,7 +32,15 @@ def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> int:
     if len(ids) < 2:
         return 0
     pairs = cKDTree(nodes.coordinates[ids]).query_pairs(tolerance, output_type="ndarray")
-    return _merge_groups(nodes, ids, pairs)
+    if not len(pairs):
+        return 0
+    label = parts_of(len(ids), pairs.T)
+    oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
+    np.minimum.at(oldest, label, ids)
+    kept = oldest[label]
+    gone = kept != ids
+    nodes.merge(kept[gone], ids[gone])
+    return int(gone.sum())
 
 
 def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance: float) -> int:
@@ -76,18 +84,6 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
 def _check(tolerance: float) -> None:
     if tolerance <= 0.0:
         raise MeshError("kernel.mesh.nodes-merged-within-positive")
-
-
-def _merge_groups(nodes: NodeTable, ids: IntArray, pairs: IntArray) -> int:
-    if not len(pairs):
-        return 0
-    label = parts_of(len(ids), pairs.T)
-    oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
-    np.minimum.at(oldest, label, ids)
-    kept = oldest[label]
-    gone = kept != ids
-    nodes.merge(kept[gone], ids[gone])
-    return int(gone.sum())
 
 
 # what a cell with one (or, for volumes, two) vanished edge becomes: type of the cell ->
@@ -156,10 +152,17 @@ def _quadratic_brick_collapses() -> _Collapse:
 
 _COLLAPSES: dict[str, _Collapse] = {
     "SEG2": {((0, 1),): ("POI1", (0,))},
+    "SEG3": {
+        ((0, 1),): ("SEG2", (1, 2)),
+        ((1, 2),): ("SEG2", (0, 1)),
+        ((0, 2),): ("SEG2", (0, 1)),
+    },
     "TRI3": _triangle_collapses(1),
     "TRI6": _triangle_collapses(2),
+    "TRI7": _triangle_collapses(2),
     "QUA4": _polygon_collapses(4, 1, "TRI3"),
     "QUA8": _polygon_collapses(4, 2, "TRI6"),
+    "QUA9": _polygon_collapses(4, 2, "TRI6"),
     "CUB8": _brick_collapses(),
     "CU20": _quadratic_brick_collapses(),
 }

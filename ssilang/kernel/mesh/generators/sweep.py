@@ -237,7 +237,8 @@ class _Layers:
         full = np.empty((n + 1, m), dtype=np.int64)
         half = np.full((n, m), -1, dtype=np.int64)
         full[0] = ids
-        corner = _corner_mask(base, ids)
+        corners = [b.connectivity[:, list(b.kind.corners)].ravel() for b in base.blocks]
+        corner = np.isin(ids, np.concatenate(corners))
         slots = _slots(base, ids, corner if quadratic else None, n)
         if path.last is not None:
             full[n] = path.last
@@ -283,11 +284,6 @@ def _slots(
             if k in levels and group.any():
                 slots.append(("full", k, group))
     return slots
-
-
-def _corner_mask(mesh: Mesh, ids: IntArray) -> BoolArray:
-    corners = [b.connectivity[:, list(b.kind.corners)].ravel() for b in mesh.blocks]
-    return np.isin(ids, np.concatenate(corners))
 
 
 def _quadrangle(

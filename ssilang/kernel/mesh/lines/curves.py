@@ -159,23 +159,7 @@ class Polynomial:
         """Parameters at fractions (m,) of the way."""
         if not self.regular:
             return self.begin + (self.finish - self.begin) * s
-        return self._parameter(s)
-
-    def _speed(self, u: FloatArray) -> FloatArray:
-        order = np.arange(1, len(self.coefficients))
-        slope = (u[..., None] ** (order - 1)) @ (order[:, None] * self.coefficients[1:])
-        speed: FloatArray = np.linalg.norm(slope, axis=-1)
-        return speed
-
-    def _lengths(self, u: FloatArray) -> FloatArray:
-        """Length from the first to each of the parameters (m,), by Gauss in each interval."""
-        half = 0.5 * np.diff(u)
-        inner = u[:-1, None] + half[:, None] * (1.0 + _GAUSS_X)
-        pieces = np.abs(half) * (self._speed(inner) @ _GAUSS_W)
-        return np.concatenate([[0.0], np.cumsum(pieces)])
-
-    def _parameter(self, s: FloatArray) -> FloatArray:
-        """Parameters at fractions `s` (m,) of the length: table, then Newton on each."""
+        # a table of lengths, then Newton on each
         grid = np.linspace(self.begin, self.finish, 257)
         along = self._lengths(grid)
         target = s * along[-1]
@@ -189,6 +173,19 @@ class Polynomial:
             reached = along[cell] + sign * half * (self._speed(inner) @ _GAUSS_W)
             u += sign * (target - reached) / np.maximum(self._speed(u), 1e-300)
         return u
+
+    def _speed(self, u: FloatArray) -> FloatArray:
+        order = np.arange(1, len(self.coefficients))
+        slope = (u[..., None] ** (order - 1)) @ (order[:, None] * self.coefficients[1:])
+        speed: FloatArray = np.linalg.norm(slope, axis=-1)
+        return speed
+
+    def _lengths(self, u: FloatArray) -> FloatArray:
+        """Length from the first to each of the parameters (m,), by Gauss in each interval."""
+        half = 0.5 * np.diff(u)
+        inner = u[:-1, None] + half[:, None] * (1.0 + _GAUSS_X)
+        pieces = np.abs(half) * (self._speed(inner) @ _GAUSS_W)
+        return np.concatenate([[0.0], np.cumsum(pieces)])
 
 
 def parabola(

@@ -24,7 +24,18 @@ def cell_measures(block: CellBlock) -> FloatArray:
     if block.kind.joint or block.kind.dimension == 0:
         return np.zeros(len(block))
     x = block.coordinates
-    return _jacobian_sum(block.cell_type, x)
+    rule = quadrature(reference_cell(block.cell_type).shape, _POINTS[block.cell_type])
+    frames = np.einsum("gkd,nkj->ngdj", shape_gradients(block.cell_type, rule.points), x)
+    dimension = frames.shape[2]
+    if dimension == 3:
+        volumes: FloatArray = np.abs(np.linalg.det(frames) @ rule.weights)
+        return volumes
+    if dimension == 2:
+        size = np.linalg.norm(np.cross(frames[:, :, 0], frames[:, :, 1]), axis=-1)
+    else:
+        size = np.linalg.norm(frames[:, :, 0], axis=-1)
+    total: FloatArray = size @ rule.weights
+    return total
 
 
 def total_measure(mesh: Mesh) -> float:
@@ -119,19 +130,3 @@ _POINTS = {
     "TRI7": 7, "QUA9": 25, "PY13": 27, "TE15": 27, "PR21": 21, "CU27": 27,
     **{name: 7 * n for name, n in POLYGON_SIDES.items()},
 }  # fmt: skip
-
-
-def _jacobian_sum(cell_type: str, x: FloatArray) -> FloatArray:
-    """Sum of the Jacobian's measure over the quadrature points, for cells (n, n_nodes, 3)."""
-    rule = quadrature(reference_cell(cell_type).shape, _POINTS[cell_type])
-    frames = np.einsum("gkd,nkj->ngdj", shape_gradients(cell_type, rule.points), x)
-    dimension = frames.shape[2]
-    if dimension == 3:
-        volumes: FloatArray = np.abs(np.linalg.det(frames) @ rule.weights)
-        return volumes
-    if dimension == 2:
-        size = np.linalg.norm(np.cross(frames[:, :, 0], frames[:, :, 1]), axis=-1)
-    else:
-        size = np.linalg.norm(frames[:, :, 0], axis=-1)
-    total: FloatArray = size @ rule.weights
-    return total

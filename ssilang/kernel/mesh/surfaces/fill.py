@@ -98,7 +98,10 @@ def _proposals(
     wanted = size(points[triangles].mean(axis=1))
     ideal = wanted / (2.0**0.5 if squares else 3.0**0.5)
     large = radii > 1.3 * ideal
-    edge, owner = _front_sides(triangles, large)
+    # in the sense of their large triangle, whose other neighbour is good or none
+    sides, owner, twin, paired = sides_and_twins(triangles)
+    front = large[owner] & ~(paired & large[owner[twin]])
+    edge, owner = sides[front], owner[front]
     if not len(edge):
         return np.empty((0, 2))
     p, q = points[edge[:, 0]], points[edge[:, 1]]
@@ -151,13 +154,6 @@ def sides_and_twins(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray, 
     order = np.argsort(code)
     twin = order[np.minimum(np.searchsorted(code[order], reverse), len(code) - 1)]
     return sides, owner, twin, code[twin] == reverse
-
-
-def _front_sides(triangles: IntArray, large: np.ndarray) -> tuple[IntArray, IntArray]:
-    """Sides (k, 2), in the sense of their large triangle, whose other neighbour is good or none."""
-    sides, owner, twin, paired = sides_and_twins(triangles)
-    front = large[owner] & ~(paired & large[owner[twin]])
-    return sides[front], owner[front]
 
 
 def _accepted(

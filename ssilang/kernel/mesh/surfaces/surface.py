@@ -251,7 +251,8 @@ def fill_surface(
     ids, local = np.unique(cells[:, [0, -1]], return_inverse=True)
     segments = local.reshape(-1, 2).astype(np.int64)
     flat = chart.flatten(nodes.coordinates[ids].copy())
-    turned = _signed_area(flat, segments) < 0
+    a, b = flat[segments[:, 0]], flat[segments[:, 1]]
+    turned = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() < 0
     if turned:
         flat = flat * [1.0, -1.0]
     at, wanted = (flat, boundary_sizes(flat, segments))
@@ -334,11 +335,6 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
     sense = float(np.sign(turn[corners].sum()))
     shape = squareness(flat * [1.0, sense], local.reshape(quads.shape).astype(np.int64))
     return made if shape.min() > 0.4 else None
-
-
-def _signed_area(points: FloatArray, segments: IntArray) -> float:
-    a, b = points[segments[:, 0]], points[segments[:, 1]]
-    return float((a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum())
 
 
 def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> FloatArray:

@@ -30,7 +30,10 @@ def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:
     layers = _rim_layers(bottom, sides, set(flat[1].ravel().tolist()))
     ids = _filled(bottom, _grid(flat[1]), layers)
     nodes = faces[0].nodes
-    _place_sides(ids, sides)
+    known = set(ids[ids >= 0].tolist())
+    for grid in sides:
+        if not set(grid.ravel().tolist()) <= known:
+            raise MeshError("kernel.mesh.side-face-numbers-cells")
     inner = ids < 0
     position = _transfinite(nodes.coordinates[np.where(inner, 0, ids)].copy())
     sizes = float(nodes.density[ids[~inner]].mean())
@@ -139,14 +142,6 @@ def _filled(bottom: IntArray, top: IntArray, layers: list[list[int]]) -> IntArra
             ids[-1] = grid
             return ids
     raise MeshError("kernel.mesh.first-two-faces-not")
-
-
-def _place_sides(ids: IntArray, sides: Sequence[IntArray]) -> None:
-    """Check that all nodes of the side faces have found their place."""
-    known = set(ids[ids >= 0].tolist())
-    for grid in sides:
-        if not set(grid.ravel().tolist()) <= known:
-            raise MeshError("kernel.mesh.side-face-numbers-cells")
 
 
 def _transfinite(x: FloatArray) -> FloatArray:

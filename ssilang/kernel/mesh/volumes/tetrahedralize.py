@@ -223,7 +223,9 @@ def tetrahedralize(points: FloatArray, triangles: IntArray) -> tuple[FloatArray,
         inner = _outside_spheres(lattice, lifted.centres, lifted.radii, 1.02)
         every = np.vstack([unit, inner])
         cells = _regular_triangulation(every, lifted.weights + disorder)
-        lost = _missing_triangles(cells, triangles)
+        size = int(max(cells.max(), triangles.max())) + 1
+        have = _codes(_faces(cells), size)
+        lost = ~np.isin(_codes(np.sort(triangles, axis=1), size), have)
         if not lost.any():
             kept = _inside_cells(every, cells, unit, triangles)
             return _compact(every * scale + (low + high) / 2, kept, len(points))
@@ -364,12 +366,6 @@ def _faces(cells: IntArray) -> IntArray:
 def _codes(faces: IntArray, size: int) -> IntArray:
     """One number a face."""
     return (faces[:, 0] * size + faces[:, 1]) * size + faces[:, 2]
-
-
-def _missing_triangles(cells: IntArray, triangles: IntArray) -> BoolArray:
-    size = int(max(cells.max(), triangles.max())) + 1
-    have = _codes(_faces(cells), size)
-    return np.asarray(~np.isin(_codes(np.sort(triangles, axis=1), size), have))
 
 
 def _inside_cells(

@@ -244,7 +244,9 @@ class AcceleratedSolver(BulkSolver):
 
     def _accelerated(self, motion: Motion, r: FloatArray, dd: FloatArray) -> StepOutcome:
         step = self._begun(motion, r, self.constraints.particular(dd) if dd.any() else None)
-        self.residuals, tolerance = [], TOLERANCE * self._least_size(r)
+        # what the forces at play are at least, as far as it is known before the step
+        size = float(np.abs(r).max(initial=0.0)) + 2 * float(np.abs(self.force).max(initial=0.0))
+        self.residuals, tolerance = [], TOLERANCE * max(size, 1e-300)
         acceleration = Acceleration(len(step.p))
         for turn in range(1, RENEWALS * PATIENCE + 1):
             image = self._image(step)
@@ -381,11 +383,6 @@ class AcceleratedSolver(BulkSolver):
         return work.trial.h if turns > 0 else None
 
     # ---- what is out of balance
-
-    def _least_size(self, r: FloatArray) -> float:
-        """What the forces at play are at least, as far as it is known before the step."""
-        size = float(np.abs(r).max(initial=0.0)) + 2 * float(np.abs(self.force).max(initial=0.0))
-        return max(size, 1e-300)
 
     def _residual(self, step: Step) -> float:
         """What is out of balance at du, of the forces at play as Newton's method reckons them."""

@@ -337,8 +337,7 @@ def _least(A: FloatArray, b: FloatArray) -> FloatArray:
     factors, pivots, info = la.lapack.dgetrf(A)
     if info == 0 and la.lapack.dgecon(factors, np.abs(A).sum(axis=0).max())[0] > RANK:
         return np.asarray(la.lapack.dgetrs(factors, pivots, b)[0], dtype=np.float64)
-    least: FloatArray = la.lstsq(A, b, cond=RANK)[0]
-    return least
+    return la.lstsq(A, b, cond=RANK)[0]
 
 
 def _size(values: FloatArray, scale: float) -> float:

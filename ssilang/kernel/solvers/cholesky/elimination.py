@@ -124,8 +124,7 @@ def _largest(rows: sp.csr_array) -> FloatArray:
     if 0 in rows.shape:
         return np.zeros(rows.shape[0])
     top = abs(rows).max(axis=1)
-    dense: FloatArray = np.asarray(top.toarray(), dtype=float).ravel()
-    return dense
+    return np.asarray(top.toarray(), dtype=float).ravel()
 
 
 def _taken(C: sp.csr_array, stages: list[_Stage]) -> BoolArray:
@@ -137,8 +136,7 @@ def _taken(C: sp.csr_array, stages: list[_Stage]) -> BoolArray:
 
 def _open_terms(C: sp.csr_array, taken: BoolArray) -> IntArray:
     """Number of terms of each row whose unknowns are not taken."""
-    open_count: IntArray = (abs(C) > 0).astype(np.int64) @ (~taken).astype(np.int64)
-    return open_count
+    return (abs(C) > 0).astype(np.int64) @ (~taken).astype(np.int64)
 
 
 def _diagonal(values: FloatArray) -> sp.csr_array:

@@ -72,14 +72,12 @@ class Inverse:
         """Work of b (n,) on each free motion over the product of the norms, shape (p,)."""
         scaled = b * self.scale
         norm = float(np.linalg.norm(scaled)) or 1.0
-        motions: FloatArray = (self.kernel.T @ b) / norm
-        return motions
+        return (self.kernel.T @ b) / norm
 
     def without_work(self, b: FloatArray) -> FloatArray:
         """The part of b (n,) that does no work on the free motions, nearest to b."""
         basis = np.linalg.qr(self.kernel)[0]
-        part: FloatArray = b - basis @ (basis.T @ b)
-        return part
+        return b - basis @ (basis.T @ b)
 
 
 def invert(

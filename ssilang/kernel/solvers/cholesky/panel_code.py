@@ -1,8 +1,8 @@
 """Writes the code of `panel_products` in LLVM's form.
 
 A vector holds eight numbers: LLVM takes as many registers for it as the processor needs. What is
-left of a row is read and written under a mask. The rows of a panel that one pass takes together
-share what they have in common: four vectors of one sum, or four sums of one vector.
+left of a row is read and written under a mask. A pass takes some rows of a panel together, from
+one end to the other: memory is read along few lines.
 """
 
 # mypy: allow-untyped-calls
@@ -16,7 +16,7 @@ from llvmlite import ir
 from numba.core import cgutils
 
 WIDTH = 8  # numbers in a vector
-TOGETHER = 4  # vectors, or rows
+TOGETHER = 4  # rows
 
 _INT, _INT32, _FLOAT = ir.IntType(64), ir.IntType(32), ir.DoubleType()
 _VECTOR, _MASK = ir.VectorType(_FLOAT, WIDTH), ir.VectorType(ir.IntType(1), WIDTH)
@@ -99,21 +99,16 @@ class _Writer:
         start = ir.Constant(_FLOAT, -0.0)
         return self.b.call(made, [start, vector], fastmath=("reassoc",))
 
-    def in_pieces(self, count: Value, together: int) -> Any:
-        """Vectors that cover a count: (first, how many together, mask) with statements to follow.
+    def in_pieces(self, count: Value) -> Any:
+        """Vectors that cover a count: (first, mask) with statements to follow.
 
         Statements are written for each kind of piece.
         """
-        many, ones = self.whole(count, WIDTH * together), self.whole(count, WIDTH)
-        if together > 1:
-            with self.loop(_i(0), many, WIDTH * together) as (first, _):
-                yield first, together, None
-        else:
-            many = _i(0)
-        with self.loop(many, ones, WIDTH) as (first, _):
-            yield first, 1, None
+        ones = self.whole(count, WIDTH)
+        with self.loop(_i(0), ones, WIDTH) as (first, _):
+            yield first, None
         with self.b.if_then(self.b.icmp_signed("<", ones, count)):
-            yield ones, 1, self.mask(self.b.sub(count, ones))
+            yield ones, self.mask(self.b.sub(count, ones))
 
 
 def _i(value: int) -> Value:
@@ -124,29 +119,6 @@ def _i32(value: int) -> Value:
     return ir.Constant(_INT32, value)
 
 
-def _combine_rows(
-    w: _Writer, rows: Value, stride: Value, span: tuple[Value, Value], factors: Value,
-    piece: tuple[Value, int, Value | None], out: Value, keep: bool,
-) -> None:  # fmt: skip
-    """out -= or = the sum of rows, each by its factor, on one piece of the columns.
-
-    `span` are the first row and the one behind the last; `keep` says that out is subtracted from.
-    """
-    first, together, mask = piece
-    columns = [w.b.add(first, _i(WIDTH * c)) for c in range(together)]
-    sums = [w.room() for _ in columns]
-    for place, column in zip(sums, columns, strict=True):
-        w.b.store(w.read(w.place(out, column), mask) if keep else _ZERO, place)
-    with w.loop(*span, 1) as (j, _):
-        factor = w.b.load(w.place(factors, j))
-        spread = w.spread(w.b.fneg(factor) if keep else factor, _VECTOR)
-        row = w.place(rows, w.b.mul(j, stride))
-        for place, column in zip(sums, columns, strict=True):
-            w.add(place, w.read(w.place(row, column), mask), spread)
-    for place, column in zip(sums, columns, strict=True):
-        w.write(w.b.load(place), w.place(out, column), mask)
-
-
 def _row_products(
     w: _Writer, rows: Value, stride: Value, first: Value, together: int, vector: Value, count: Value
 ) -> Sequence[Value]:
@@ -155,7 +127,7 @@ def _row_products(
     for place in sums:
         w.b.store(_ZERO, place)
     begin = w.place(rows, w.b.mul(first, stride))
-    for column, _, mask in w.in_pieces(count, 1):
+    for column, mask in w.in_pieces(count):
         part = w.read(w.place(vector, column), mask)
         for c, place in enumerate(sums):
             row = w.place(begin, w.b.mul(stride, _i(c)), column)
@@ -166,11 +138,23 @@ def _row_products(
 def subtract(
     builder: Any, values: Value, pos: Value, w: Value, m: Value, x: Value, at: Value, to: Value
 ) -> None:
-    """y -= P^T b."""
+    """y -= P^T b, some rows of P at a time: they are read from one end to the other."""
     writer = _Writer(builder)
     rows, b, y = writer.place(values, pos), writer.place(x, at), writer.place(x, to)
-    for piece in writer.in_pieces(m, TOGETHER):
-        _combine_rows(writer, rows, m, (_i(0), w), b, piece, y, True)
+    many = writer.whole(w, TOGETHER)
+    for start, stop, together in ((_i(0), many, TOGETHER), (many, w, 1)):
+        with writer.loop(start, stop, together) as (j, _):
+            begin, factors = writer.place(rows, builder.mul(j, m)), []
+            for c in range(together):
+                factor = builder.fneg(builder.load(writer.place(b, j, _i(c))))
+                factors.append(writer.spread(factor, _VECTOR))
+            for column, mask in writer.in_pieces(m):
+                total = writer.read(writer.place(y, column), mask)
+                for c, factor in enumerate(factors):
+                    row = writer.place(begin, builder.mul(m, _i(c)), column)
+                    product = builder.fmul(writer.read(row, mask), factor, flags=_FUSED)
+                    total = builder.fadd(total, product, flags=_FUSED)
+                writer.write(total, writer.place(y, column), mask)
 
 
 def subtract_transposed(
@@ -205,6 +189,11 @@ def times_lower(builder: Any, values: Value, pos: Value, w: Value, x: Value, at:
 def times_upper(builder: Any, values: Value, pos: Value, w: Value, x: Value, at: Value) -> None:
     """b = I^T b, the first columns first: those behind need none of what is replaced."""
     writer = _Writer(builder)
-    rows, b = writer.place(values, pos), writer.place(x, at)
-    for piece in writer.in_pieces(w, 1):
-        _combine_rows(writer, rows, w, (piece[0], w), b, piece, b, False)
+    rows, b, sums = writer.place(values, pos), writer.place(x, at), writer.room()
+    for column, mask in writer.in_pieces(w):
+        builder.store(_ZERO, sums)
+        with writer.loop(column, w, 1) as (j, _):
+            factor = writer.spread(builder.load(writer.place(b, j)), _VECTOR)
+            row = writer.place(rows, builder.mul(j, w), column)
+            writer.add(sums, writer.read(row, mask), factor)
+        writer.write(builder.load(sums), writer.place(b, column), mask)

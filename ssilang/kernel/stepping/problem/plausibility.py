@@ -78,21 +78,23 @@ class Swing:
 
 
 class Bodies:
-    """The bodies of a problem, and what holds each against a translation."""
+    """The bodies of a problem, and what holds each of those that supports let move."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.label = bodies_of(problem)
         self.factors = problem.loading.at(problem.times)
+        moving = np.unique(self.label[abs(problem.constraints.T).sum(axis=1) > ROUNDING]).tolist()
+        self.moving: list[int] = moving if len(moving) <= MOST_BODIES else []
 
     def loose(self) -> Iterator[Loose]:
         """Bodies without support along an axis, or without what presses them on theirs."""
-        problem, count = self.problem, int(self.label.max(initial=-1)) + 1
+        problem = self.problem
         begun = problem.u.any() or problem.v.any()  # an impact needs no weight
-        if count > MOST_BODIES or (begun and not problem.loading.forces.any()):
+        if begun and not problem.loading.forces.any():
             return
         names = [a for a in AXES if a in problem.numbering.unknowns]
-        for body in range(count):
+        for body in self.moving:
             ways = {a: self._way(body, a) for a in names}
             held = not {"held", "stands", "pressed"}.isdisjoint(ways.values())
             for axis, way in ways.items():
@@ -103,14 +105,13 @@ class Bodies:
     def sunk(self) -> Iterator[Sunk]:
         """Bodies that closed joints alone hold, by less than what loads push them with."""
         problem, numbering = self.problem, self.problem.numbering
-        joints, count = problem.interface, int(self.label.max(initial=-1)) + 1
-        if joints is None or count > MOST_BODIES:
-            return
-        for body in range(count):
+        joints = problem.interface
+        for body in self.moving if joints is not None else ():
             nodes = numbering.nodes[self.label == body]
             size = float(np.ptp(numbering.table.coordinates[nodes], axis=0).max())
             for axis in [a for a in AXES if a in numbering.unknowns]:
                 motion = self.along(body, axis)
+                assert joints is not None
                 delta = joints.J @ motion
                 held = float(delta @ (joints.closed_stiffness() @ delta))
                 if held > 0.0 and size > 0.0 and not self.holds(motion, problem.C):
@@ -137,7 +138,7 @@ class Bodies:
         forces = self.factors @ np.abs(problem.loading.forces[motion != 0.0]).sum(axis=0)
         largest = float(np.abs(pushed).max(initial=0.0))
         excited = largest > ROUNDING * float(np.abs(forces).max(initial=0.0))
-        closed, *ways = self._closed(motion), *(self._touches(s * motion) for s in (1.0, -1.0))
+        closed, *ways = self._closed(motion), *(self.touches(s * motion) for s in (1.0, -1.0))
         if all(ways):
             return "held"
         if any(ways):
@@ -165,7 +166,7 @@ class Bodies:
             return False
         return bool(delta @ (joints.closed_stiffness() @ delta) > 0.0)
 
-    def _touches(self, motion: FloatArray) -> bool:
+    def touches(self, motion: FloatArray) -> bool:
         """Whether stops or joints act against a small motion from the start."""
         contact, joints = self.problem.contact, self.problem.interface
         if contact is not None and (contact.G @ motion < -ROUNDING).any():

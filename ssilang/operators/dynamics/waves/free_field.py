@@ -69,11 +69,7 @@ def _results(field: FreeField, start: float) -> Table:
     ):  # fmt: skip
         inner = Table()
         for i, row in enumerate(rows):
-            inner.set(i + 1, _curve(times, row, name))
+            inner.set(i + 1, Curve((CurvePart(times, row, "TEMP", name),), ""))
         result.set(name, inner)
     result.set("DEFO", ListReel(field.strain))
     return result
-
-
-def _curve(times: FloatArray, values: FloatArray, name: str) -> Curve:
-    return Curve((CurvePart(times, values, "TEMP", name),), "")

@@ -41,7 +41,10 @@ _MOTION = ("DEPL", "VITE", "ACCE")
 def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
     """Forces at the layer."""
     entries = Entries(call, table, "@DRM")
-    _outside_is_linear(entries)
+    # matrices stand for the ground in the layer and outside it
+    found = yielding_outside(entries.needed("MODELE"), entries.needed("INTERIEUR"))
+    if found is not None:
+        raise entries.error("operators.dynamics.soil-yields-outside", **found.told())
     layer = elements_of(_ground(entries), entries.needed("COUCHE"))
     motion = _motion(entries, layer.numbering)
     _free_field_is_linear(entries, layer)
@@ -55,7 +58,10 @@ def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
 def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     """Forces at the edges."""
     entries = Entries(call, table, "@BORDS")
-    _edges_are_linear(entries)
+    # matrices stand for the ground beyond the edges
+    found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
+    if found is not None:
+        raise entries.error("operators.dynamics.soil-yields-at-edges", **found.told())
     edge = entries.needed("FRONTIERE")
     row = elements_at(_ground(entries), edge)
     motion = _motion(entries, row.numbering)
@@ -84,20 +90,6 @@ def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
     left, whole = np.linalg.norm(sums[_LOWEST:], axis=(0, 2))
     if left > _UNBALANCED * whole > 0.0:
         entries.warn("operators.dynamics.column-of-others", share=100.0 * left / whole)
-
-
-def _outside_is_linear(entries: Entries) -> None:
-    """Refuse laws in the layer and outside it, where matrices stand for the ground."""
-    found = yielding_outside(entries.needed("MODELE"), entries.needed("INTERIEUR"))
-    if found is not None:
-        raise entries.error("operators.dynamics.soil-yields-outside", **found.told())
-
-
-def _edges_are_linear(entries: Entries) -> None:
-    """Refuse laws in the elements at the edges, whose matrices stand for the ground beyond."""
-    found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
-    if found is not None:
-        raise entries.error("operators.dynamics.soil-yields-at-edges", **found.told())
 
 
 def _free_field_is_linear(entries: Entries, share: Share) -> None:

@@ -60,7 +60,16 @@ def curvilinear_coordinate(
 def _coordinate(support: Support, axis: int, density: bool) -> float | NodeField | CellField:
     """One coordinate, from 0, or the density, of what an object stands on."""
     if isinstance(support, Model):
-        return _of_model(support, axis, density)
+        blocks = tuple(
+            CellFieldBlock(
+                z.cells,
+                {"SCAL": _column(z.cells.nodes, axis, density)[z.cells.connectivity]},
+                element=z.element,
+                constituent=z.constituent,
+            )
+            for z in support.zones
+        )
+        return CellField(blocks, "SCALAIRE")
     nodes = support.table if isinstance(support, NodeField) else support.nodes
     column = _column(nodes, axis, density)
     if isinstance(support, Point):
@@ -87,19 +96,6 @@ def curvilinear(line: Mesh) -> NodeField:
     if chain[0] == chain[-1]:
         chain, length = chain[:-1], length[:-1]
     return NodeField.of(line.nodes, chain, {"SCAL": length}, "DIFFUS")
-
-
-def _of_model(model: Model, axis: int, density: bool) -> CellField:
-    blocks = tuple(
-        CellFieldBlock(
-            z.cells,
-            {"SCAL": _column(z.cells.nodes, axis, density)[z.cells.connectivity]},
-            element=z.element,
-            constituent=z.constituent,
-        )
-        for z in model.zones
-    )
-    return CellField(blocks, "SCALAIRE")
 
 
 @operator("NOEU", family="mesh", full_name="NOEUD")

@@ -91,12 +91,8 @@ def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:
     for word in words:
         kinds, measure = _MEASURES[word]
         if cells.cell_type not in kinds:
-            raise call.error(
-                "operators.mesh.measure-of-other-cells",
-                word=word,
-                kinds=kinds,
-                cell_type=cells.cell_type,
-            )
+            told = {"word": word, "kinds": kinds, "cell_type": cells.cell_type}
+            raise call.error("operators.mesh.measure-of-other-cells", **told)
         made[word] = measure(cells.coordinates)[:, None]
     return CellFieldBlock(cells, made, "GRAVITE")
 

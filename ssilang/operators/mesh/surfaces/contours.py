@@ -167,14 +167,8 @@ def polynomial_surface(
     if len(points) < columns * rows:
         raise call.missing(("POINT",))
     if len(points) > columns * rows:
-        raise call.error(
-            "operators.mesh.too-many-points",
-            points[-1],
-            columns=columns,
-            rows=rows,
-            needed=columns * rows,
-            n_points=len(points),
-        )
+        told = {"columns": columns, "rows": rows, "needed": columns * rows, "n_points": len(points)}
+        raise call.error("operators.mesh.too-many-points", points[-1], **told)
     table = np.array([p.coordinates for p in points]).reshape(rows, columns, 3)
     shape = PolynomialSurface(table, limits[:2], limits[2:])
     surface = chosen_family(ws).need_surface()

@@ -40,7 +40,7 @@ def tria(
 
 def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
     """Triangles inside lines, whose points alone are their corners."""
-    if not is_closed(mesh):
+    if not is_closed(mesh) or any(b.cell_type == "SEG3" for b in mesh.blocks):
         return triangulated_with_lines(mesh, ws.dimension, ws.colour)
     boundary, segments = contour_chart_data(mesh)
     flat = plane_chart(boundary, segments)

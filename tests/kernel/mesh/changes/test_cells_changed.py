@@ -92,7 +92,27 @@ def test_envelope_faces_outwards_and_closes() -> None:
 
 
 def test_sharp_edges_of_a_box_are_its_twelve_edges() -> None:
-    assert total_measure(sharp_edges(box())) == pytest.approx(4 * (1 + 2 + 3))
+    for volume in (box(), quadratic(box())):
+        found = sharp_edges(volume)
+        assert total_measure(found) == pytest.approx(4 * (1 + 2 + 3))
+        pairs = np.sort(found.single_block().connectivity, axis=1)
+        assert len(np.unique(pairs, axis=0)) == len(pairs)
+    first = Mesh.of(found.nodes, "TRI6", np.array([[1, 0, 2, 3, 4, 5]]))  # a middle of number 0
+    assert sharp_edges(first).n_cells == 6
+
+
+def test_edges_are_sharp_by_the_vectors_of_areas_of_faces_that_are_not_plane() -> None:
+    plan = np.array([[0, 0], [0, 1], [1, 1.3], [1.5, 0.5], [1, -0.3], [-1, 0], [-1, 1]])
+    rings = ("POL", np.array([0, 4, 3, 2, 1])), ("QUA", np.array([0, 1, 6, 5]))
+    for heights in np.random.default_rng(2).uniform(-0.4, 0.4, (20, 7)):
+        x = np.column_stack([plan, heights])
+        nodes = NodeTable()
+        ids = nodes.add(x)
+        mesh = union(*(Mesh.of(nodes, f"{k}{len(r)}", ids[r][None, :]) for k, r in rings))
+        a, b = (np.cross(x[r], np.roll(x[r], -1, axis=0)).sum(axis=0) for _, r in rings)
+        turn = np.degrees(np.arccos(a @ b / np.linalg.norm(a) / np.linalg.norm(b)))
+        assert sharp_edges(mesh, turn + 0.1).n_cells == 7
+        assert sharp_edges(mesh, turn - 0.1).n_cells == 8
 
 
 def test_counts_of_edges_and_faces_of_a_grid_of_bricks() -> None:

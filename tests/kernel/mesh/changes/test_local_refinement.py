@@ -66,6 +66,7 @@ def test_one_division_keeps_measure_and_sense(kind):
     longest = 1.0 if kind in ("SEG2", "QUA4", "CUB8") else 2**0.5
     finer = divided_to_sizes(mesh, np.full(len(points), 0.7 * longest))
     assert finer.n_cells == GROWTH[kind]
+    assert len(finer.node_ids) == len(nodes.coordinates)
     assert not any(is_tie(b.cell_type) for b in finer.blocks)
     assert total_measure(finer) == pytest.approx(whole, rel=1e-12)
     x = finer.blocks[0].coordinates

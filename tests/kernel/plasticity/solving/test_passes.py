@@ -61,7 +61,7 @@ def test_a_pass_gives_what_the_law_does(name: str) -> None:
     rng, nested = np.random.default_rng(0), name.startswith("IWAN")
     ranges = {"YOUN": (1e3, 2e3), "NU": (0.1, 0.45)} | RANGES[name]
     values = {k: rng.uniform(*given, M) for k, given in ranges.items()}
-    which, soils = rng.integers(0, 2, M), [hyperbola(1e-3), hyperbola(5e-3)]
+    which, soils = rng.integers(0, 2, M), [hyperbola(1e-3), hyperbola(5e-3, 12)]
     parameters = PointParameters(values, {"ECRO": (CURVES, which), "GGAM": (soils, which)})
     law = law_at(PLASTIC_LAWS[name], parameters)
     points, places = Points(law, parameters), np.arange(6 * M, dtype=np.int32).reshape(M, 6)

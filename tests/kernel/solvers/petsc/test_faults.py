@@ -1,5 +1,6 @@
 """What starts PETSc may fail in any way: a message says how, and nothing stays behind."""
 
+import gc
 import os
 import signal
 import socket
@@ -74,14 +75,18 @@ time.sleep(60)
 
 @pytest.fixture
 def fake(tmp_path, monkeypatch):
-    """A command that behaves in a given way, and a folder that shows what stays behind."""
+    """A command that behaves in a given way; what stays behind of files and descriptors."""
     script = tmp_path / "fake.py"
     script.write_text(FAKE)
     left = tmp_path / "tmp"
     left.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(left))
+    gc.collect()
+    before = len(os.listdir("/dev/fd"))
     yield lambda mode: f"{sys.executable} {script} {mode}"
     assert list(left.iterdir()) == []
+    gc.collect()
+    assert len(os.listdir("/dev/fd")) == before
 
 
 def refusal(command, limit=SOON):

@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.unilateral import ContactOptions
+from ssilang.kernel.stepping.problem import initial
 from ssilang.kernel.stepping.problem.initial import (
+    accelerated,
     closed_at_start,
     initial_energies,
     joint_state,
@@ -59,3 +63,26 @@ def test_what_touches_is_pushed_apart_or_opens(seed):
     np.testing.assert_allclose(found, [0.5 * masses @ v[at] ** 2, 0.5 * stored, 0, 0, 0, 0])
     rigid = replace(pressed, contact_options=ContactOptions("LAGRANGE", 7.0))
     assert initial_energies(rigid, v, joint_state(rigid))[1] == pytest.approx(0.5 * u[at] @ u[at])
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # of conjugate gradients on their way
+def test_the_least_motion_is_taken_where_a_mass_is_singular(monkeypatch):
+    """One mass on the sum of two motions; a motion has no mass where it leaves the sum alone."""
+    bench = Bench()
+    for i in range(6):
+        bench.spring(1.0, bench.node(float(i), 0.0), unknown="UX")
+    problem = make_problem(Inputs(bench.stiffness, np.array([0.0, 0.1]), bench.mass_matrix))
+    M = np.diag([0.0, 0.0, 5.0, 0.0, 0.0, 0.0])
+    M[np.ix_([0, 3], [0, 3])], M[np.ix_([1, 4], [1, 4])] = 4.0, [[1, -2], [-2, 4]]
+    problem = replace(problem, M=sp.csr_array(M))
+    forces = np.random.default_rng(3).normal(size=(6, 2))
+    heavy = replace(problem, M=sp.csr_array(M + np.diag(np.arange(1.0, 7.0))))
+    for some in (initial.SOME, 1):
+        monkeypatch.setattr(initial, "SOME", some)
+        for one in (problem, heavy):
+            for force in (forces, forces[:, 0]):
+                least = np.linalg.pinv(one.M.toarray()) @ force
+                np.testing.assert_allclose(accelerated(one, force), least, atol=1e-12)
+    monkeypatch.setattr(initial, "MANY", 1)
+    with pytest.raises(KernelError):
+        accelerated(problem, forces)

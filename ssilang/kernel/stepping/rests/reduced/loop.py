@@ -22,7 +22,6 @@ from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast, compiled_inline
 from ssilang.kernel.interface.condensed import Condensed, condensed_of
 from ssilang.kernel.interface.copies import copy_rows, copy_state
-from ssilang.kernel.interface.factors.kept import is_factorised, solve_known
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import (
     InterfaceState,
@@ -248,8 +247,6 @@ def run_reduced(
         if q:  # solve: Newton's method on the interface
             copy_state(dashpots.y[:q], trial.y0)
             copy_state(trial.y0, trial.y)
-            if is_factorised(room.factors):  # starts where the last tangents lead
-                solve_known(joints, condensed, room.factors, trial.y)
             turns, residual = solve_interface(joints, condensed, now, room)
             if turns <= 0:
                 return k, turns, residual

@@ -1,0 +1,150 @@
+"""What DYNAMIC warns of how bodies stand: in balance or not, on what bears them, with which weight.
+
+A body that no-tension joints bear is in balance where the resultant of what presses it lies within
+them: the levers of all points about an axis have its own between them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ssilang.io.ground_motions.record import G
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.interface import Interface, is_macro
+from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.statics.linear_motion import rigid_motions
+from ssilang.kernel.stepping.problem.initial import joint_state
+from ssilang.kernel.stepping.problem.plausibility import Bodies
+from ssilang.kernel.waves.shaken import LARGE, axes_of, changing, shares
+
+if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import BoolArray, FloatArray
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+
+Told = Iterator[tuple[str, dict[str, Any]]]
+
+OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
+OFF = 1e-3  # of a load's factor: less is no other one
+NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
+AWAY = 0.2  # of the largest push: a mean that drives a body from its support
+TIMES = 10.0  # masses of a body over that of its weight
+UNEQUAL = 300.0  # times the stiffness of other joints under a body
+STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
+BESIDE = 1e-6  # of a footing's width
+
+
+def out_of_balance(problem: Problem, _: Inputs) -> Told:
+    """Displacements of the start that are held by a load that is not yet there, or not so large."""
+    loading, T = problem.loading, problem.constraints.T
+    if not problem.u.any() or not 0 < loading.forces.size < LARGE:
+        return
+    held = problem.K @ problem.u
+    if problem.interface is not None:
+        held = held + problem.interface.J.T @ joint_state(problem).f
+    share = shares(T.T @ loading.forces, (T.T @ held)[:, None])[:, 0]
+    begins, ends = loading.at(problem.times[[0, -1]])
+    for k in np.flatnonzero(np.abs(begins - share) > OFF * share).tolist():
+        still = changing(problem)[k] or share[k] > NEAR * begins[k]
+        if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
+            told = {"begins": float(begins[k]), "held": float(share[k])}
+            yield "operators.dynamics.out-of-balance", told
+
+
+def bodies_stand(problem: Problem, _: Inputs) -> Told:
+    """Bodies that joints or stops alone bear: from which side, where, and with what weight."""
+    bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
+    force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
+    for body in bodies.moving if axes else ():
+        own = bodies.label == body
+        node = problem.numbering.table.told(int(problem.numbering.nodes[own.argmax()]))
+        ways = {a: bodies.along(body, a) for a in axes}
+        for axis, way in ways.items():
+            borne = [bodies.touches(s * way) for s in (1.0, -1.0)]
+            push = bodies.factors @ (loading.forces.T @ way)
+            out = float(push.mean()) * (1.0 if borne[1] else -1.0)
+            most = float(np.abs(push).max(initial=0.0))
+            if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, problem.C):
+                told = {"node": node, "axis": axis, "stops": problem.contact is not None}
+                yield OTHER_SIDE, {**told, "below": borne[1]}
+        up = ways[axes[-1]]
+        mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
+        if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
+            if mass * G > TIMES * weight:
+                told = {"mass": mass, "weight": weight, "times": mass * G / weight}
+                yield "operators.dynamics.mass-over-weight", {**told, "node": node}
+            if not bodies.touches(up) and problem.interface is not None:
+                for code, told in _beside_its_base(bodies, own, up, force, problem.interface):
+                    yield code, {**told, "node": node}
+
+
+def _beside_its_base(
+    bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray, joints: Interface
+) -> Told:
+    """A resultant of what presses a body that lies beside all that bears it."""
+    lifts = (joints.J @ up).reshape(-1, joints.dimension)
+    under = lifts[:, -1] > 1.0 - BESIDE
+    if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
+        return
+    numbering = bodies.problem.numbering
+    upper = np.concatenate([numbering.table.resolve(j.upper).ravel() for j in joints.joints])
+    upper = upper[np.isin(upper, numbering.nodes[own])]
+    centre = numbering.table.coordinates[upper].mean(axis=0)
+    for turn in (rigid_motions(numbering, centre)[:, 3:] * own[:, None]).T:
+        if bodies.holds(turn):
+            continue
+        middle, half = _normal_jumps(joints, turn)
+        levers = np.append((joints.J @ turn).reshape(-1, joints.dimension)[under, -1], middle)
+        ends = np.append(np.zeros(int(under.sum())), half)
+        low, high = float((levers - ends).min()), float((levers + ends).max())
+        at, width = float(turn @ force) / float(up @ force), high - low
+        off = max(low - at, at - high)
+        if width > 0.0 and off > BESIDE * width:
+            yield "operators.dynamics.weight-beside", {"width": width, "off": off}
+
+
+def _normal_jumps(joints: Interface, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Openings (n_points,) by a motion at the middle of each point, and what its ends add."""
+    w = np.zeros((joints.n_points, joints.dimension))
+    local_jumps(joints.points, joints.J @ motion, w)
+    p = joints.parameters
+    sides = np.maximum(p[:, [Parameter.LONG, Parameter.LARG]], 2.0 * p[:, [Parameter.RAYO]]) / 2.0
+    return w[:, -1], (np.abs(w[:, :-1]) * sides[:, 3 - joints.dimension :]).sum(axis=1)
+
+
+def unequal_joints(problem: Problem, _: Inputs) -> Told:
+    """Joints of one law and kind under one body, one part of them far stiffer than another."""
+    if (joints := problem.interface) is None:
+        return
+    label, numbering = Bodies(problem).label, problem.numbering
+    known: dict[object, tuple[float, int]] = {}
+    ends = np.cumsum([0, *(j.weights.size for j in joints.joints)])
+    for joint, first, last in zip(joints.joints, ends, ends[1:], strict=False):
+        node = int(joint.zone.cells.nodes.resolve(joint.upper).ravel()[0])
+        body = int(label[(numbering.nodes == node).argmax()])
+        normal = tuple(joint.frames[0, 0, -1].round(3).tolist())
+        key = body, joint.zone.element, joint.zone.behaviour, normal
+        kn = float(np.median(joints.parameters[first:last, Parameter.KN]))
+        other, there = known.setdefault(key, (kn, node))
+        if max(kn, other) > UNEQUAL * min(kn, other):
+            told = {"node": numbering.table.told(node), "there": numbering.table.told(there)}
+            yield "operators.dynamics.joints-unequal", {**told, "kn": kn, "other": other}
+
+
+def ground_twice(problem: Problem, inputs: Inputs) -> Told:
+    """Macro-elements on ground that is meshed: the cells give way, and the element again."""
+    if (joints := problem.interface) is None:
+        return
+    label, numbering = Bodies(problem).label, problem.numbering
+    zoned = [(b.nodes.ravel(), b.zone) for b in inputs.stiffness.blocks if b.zone is not None]
+    solid = [n for n, z in zoned if z.cells.kind.dimension > 1 and not is_joint(z)]
+    for zone, lower in ((j.zone, j.lower) for j in joints.joints if is_macro(j.zone)):
+        node = int(zone.cells.nodes.resolve(lower).ravel()[0])
+        below = label == label[(numbering.nodes == node).argmax()]
+        cells = below & np.isin(numbering.nodes, np.concatenate([label[:0], *solid]))
+        stiff = float(np.median(problem.K.diagonal()[cells])) if cells.any() else 0.0
+        if float(joints.parameters[:, Parameter.KN].max()) < STIFF * stiff:
+            yield "operators.dynamics.ground-twice", {"node": numbering.table.told(node)}
