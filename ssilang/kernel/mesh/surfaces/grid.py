@@ -70,8 +70,10 @@ def grid_surface(sides: Sequence[Mesh], chart: Chart | None, colour: int = 0) ->
         rim = [chart.flatten(x) for x in rim]
     inside = _transfinite(*rim)
     wanted = ids < 0
-    if step == 2:
+    if step == 2:  # sides inside are straight
         wanted[1::2, 1::2] = False
+        inside[2:-2:2, 1::2] = 0.5 * (inside[2:-2:2, :-1:2] + inside[2:-2:2, 2::2])
+        inside[1::2, 2:-2:2] = 0.5 * (inside[:-1:2, 2:-2:2] + inside[2::2, 2:-2:2])
     positions = inside[wanted]
     density = _sizes(nodes.density, bottom, right, top, left)[wanted]
     ids[wanted] = nodes.add(positions if chart is None else chart.lift(positions), density)
