@@ -268,11 +268,14 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         yield STUCK[bool(moves.any())], {}
         return
     alone = np.diff(rows.indptr) == 1
-    held, ties = rows[alone].indices, abs(rows[~alone])
+    held, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
     for joint in joints.joints:
         if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
             continue
-        upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
+        sides = [joint.zone.cells.nodes.resolve(side) for side in (joint.upper, joint.lower)]
+        bare = np.isin(numbering.nodes, sides[0])  # the ground, named first and turned round
+        ground = not (stiff[bare].any() or abs(problem.constraints.T[bare]).max() > ROUNDING)
+        upper = np.isin(numbering.nodes, sides[ground])
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
         along = _normal(joint)
         names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}
