@@ -251,7 +251,9 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
     if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
-    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw:
+    ends = [0, int(np.abs(y).argmax())]
+    straight = np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size
+    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw and not straight:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
     if at_rest and np.abs(np.diff(before)).sum() > SWUNG * size:
