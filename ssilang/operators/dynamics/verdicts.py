@@ -78,13 +78,13 @@ def _doubts(given: Table, found: Table) -> Iterator[tuple[str, dict[str, Any]]]:
         name = str(floor.get("COMPOSANTE"))
         track = getattr(recorded[0], "track", None)
         if not floor.has("ACCELERATION_BASE") and track and is_shaken(track.problem, name):
-            yield "stdlib.bilanssi-floor-relative", {"floor": number, "component": name}
+            yield "operators.dynamics.floor-relative", {"floor": number, "component": name}
     histories = cast(Table, found.get("HISTOIRES"))
     t, turn = (cast(ListReel, histories.get(n)).values for n in ("TEMPS", "ROTATION"))
     swing = float(np.ptp(turn[t >= t[-1] - LATE * (t[-1] - t[0])]))
     if not given.has("RESIDU") and swing > STILL * np.abs(turn).max():
         left = cast(Table, found.get("RESIDUS")).get("ROTATION")
-        yield "stdlib.bilanssi-still-rocks", {"swing": swing, "left": left}
+        yield "operators.dynamics.still-rocks", {"swing": swing, "left": left}
 
 
 def _floors(given: Table, found: Table) -> list[dict[str, Any]]:
