@@ -316,6 +316,17 @@ def _notes(sweep: Sweep, fits: list[Fit], told: Teller) -> Iterator[str]:
         if name in sweep.figures:
             for run, ratio in _apart(sweep, name):
                 yield told("report.fragility-apart", run=run, name=name, ratio=ratio)
+            for swept in [n for n in sweep.swept if n != MOTION and _still(sweep, n, name)]:
+                if not all(_still(sweep, swept, fit.limit.figure) for fit in fits):
+                    yield told("report.fragility-still", name=name, swept=swept)
+
+
+def _still(sweep: Sweep, swept: str, figure: str) -> bool:
+    """Whether a figure is the same whatever a swept value, the others as they are."""
+    others = [n for n in sweep.swept if n != swept]
+    done = [row for row in sweep.rows if row["exit_code"] == "0"]
+    few, more = ({tuple(row[n] for n in k) for row in done} for k in (others, [*others, figure]))
+    return len(more) == len(few) < len(done)
 
 
 def _apart(sweep: Sweep, name: str) -> Iterator[tuple[str, float]]:

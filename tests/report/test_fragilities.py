@@ -71,6 +71,20 @@ def test_limits_are_read(said, found):
     assert read_limits(said) == found
 
 
+def test_an_intensity_that_a_scale_leaves_as_it_was_is_told(tmp_path):
+    rows = suite()
+    for row in rows:
+        row["PGA"] = row["PGA"] / row["AG"]
+    pages = []
+    for own in (rows, suite()):
+        made = sweep_of(tmp_path, own)
+        asked = Asked(read_limits("drift>1"), ["PGA"])
+        pages.append(
+            "PGA does not change with AG" in fragility_html(made, fits_of(made, asked), [], TOLD)
+        )
+    assert pages == [True, False]
+
+
 def test_counts_and_cloud_of_known_capacities_and_the_run_that_governs(tmp_path):
     rows = suite()
     made = sweep_of(tmp_path, rows[::-1])  # names and numbers out of order

@@ -59,8 +59,10 @@ class Curve:
     @property
     def over(self) -> str:
         """Unit of its abscissas, by the name that all curves give them; '' where that says none."""
-        names = {p.abscissa_name.strip().upper().partition(" ")[0] for p in self.parts}
-        return next((unit for unit, known in _OVER.items() if names and names <= {*known}), "")
+        names = [p.abscissa_name.strip().upper() for p in self.parts]
+        words = [{n.partition(" ")[0], n.replace(" ", "")} for n in names]
+        said = (unit for unit, known in _OVER.items() if words and all(w & {*known} for w in words))
+        return next(said, "")
 
     def at(self, x: float) -> float:
         """Value of the first curve at `x`, linear between its points, constant outside."""

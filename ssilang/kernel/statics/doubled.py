@@ -226,7 +226,7 @@ def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
     """
     tables = [b.nodes for b in matrix.blocks]
     tables += [matrix.table.resolve(z.cells.raw) for z in joints]
-    body = _bodies(matrix, tables)
+    body = bodies_of_nodes(matrix, tables)
     solid = [b.nodes.ravel() for b in matrix.blocks if b.zone is not None and b.nodes.shape[1] > 1]
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
     if len(np.unique(body[nodes])) < 2:
@@ -249,7 +249,7 @@ def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
     middle = points[joined].mean(axis=0)
     _, sizes, axes = np.linalg.svd(points[joined] - middle, full_matrices=False)
     flat = axes[sizes <= NEAR * sizes[0]]
-    body = _bodies(matrix, [b.nodes for b in others])
+    body = bodies_of_nodes(matrix, [b.nodes for b in others])
     nodes = np.setdiff1d(np.concatenate([x.ravel() for x in solid]), joined)
     off = np.abs((points[nodes] - middle) @ flat.T).max(axis=1, initial=0.0)
     nodes = nodes[(off <= NEAR * sizes[0]) & (len(flat) > 0)]
@@ -257,7 +257,7 @@ def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
     return found if len(found) >= min(x.shape[1] for x in faces) // 2 else nodes[:0]
 
 
-def _bodies(matrix: Matrix, tables: Iterable[IntArray]) -> IntArray:
+def bodies_of_nodes(matrix: Matrix, tables: Iterable[IntArray]) -> IntArray:
     """The body (n,) of each node: cells (m, k) of the tables and conditions tie theirs together."""
     links = [np.stack([np.repeat(t[:, 0], t.shape[1] - 1), t[:, 1:].ravel()]) for t in tables]
     for relations in matrix.relations:

@@ -28,7 +28,7 @@ from ssilang.kernel.interface.kinematics import JointCells, joint_cells
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.statics.doubled import terms_of
+from ssilang.kernel.statics.doubled import bodies_of_nodes, terms_of
 
 _SAME_PLACE = 1e-6
 _DRAWN = 5e-3  # of a joint's size: a gap that is more than a way to draw the joint
@@ -60,8 +60,8 @@ def swapped_joints(
 ) -> tuple[SwappedJoints, ...]:
     """Each zone of joints all of whose cells have their bodies the wrong way round.
 
-    Bodies are cells of `stiffness` that hold all nodes of a side; joints with no such cells, or
-    with cells along their own plane (a footing of beams), are left alone.
+    Bodies are cells of `stiffness` that hold all nodes of a side; of surface joints with no such
+    cells, or with cells along their own plane (a footing of beams), what is tied to the sides.
     """
     found = []
     for joints in made_joints(model, characteristics):
@@ -139,6 +139,8 @@ def _cosines(joints: JointCells, stiffness: Matrix) -> tuple[FloatArray, FloatAr
         centre = points[side].mean(axis=1)
         there, mean = _beside(side, upper, lower, stiffness)
         way[there] += sign * (mean - centre)[there]
+    if joints.zone.element != "JOI1" and np.allclose(way, 0.0):
+        way = _way_between_tied(upper, lower, stiffness)
     size = np.linalg.norm(way, axis=1)
     normal = joints.frames[:, :, -1, :].mean(axis=1)
     some = size > 0
@@ -167,6 +169,19 @@ def _beside(
     mean = np.zeros((n, 3))
     mean[there] = total[there] / count[there, None]
     return there, mean
+
+
+def _way_between_tied(upper: IntArray, lower: IntArray, stiffness: Matrix) -> FloatArray:
+    """Way (n, 3) from lower to upper body: what cells and conditions tie to the sides' nodes."""
+    points = stiffness.table.coordinates
+    others = [b.nodes for b in stiffness.blocks if b.zone is None or not is_joint(b.zone)]
+    body = bodies_of_nodes(stiffness, others)
+    count = np.maximum(np.bincount(body), 1)
+    middles = np.column_stack([np.bincount(body, x) / count for x in points.T])
+    tied = [(middles[body[side]] - points[side]).mean(axis=1) for side in (upper, lower)]
+    apart = (body[upper] != body[lower]).all(axis=1)
+    way: FloatArray = (apart[:, None] * (tied[0] - tied[1])).round(9)
+    return way
 
 
 def _incidence(rows: IntArray, n_nodes: int) -> sp.csr_array:

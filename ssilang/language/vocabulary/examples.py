@@ -10,7 +10,7 @@ _SQUARE = (
 )
 _SIDES = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\nSOIL = DROI 4 (0. 0.) (2. 0.) ;\n"
-    "BASE = SOIL PLUS (0. 0.) ;\nJ = RACC 1.E-6 SOIL BASE ;\n"
+    "BASE = SOIL PLUS (0. 0.) ;\nJ = RACC 1.E-6 BASE SOIL ;\n"
 )
 _POINTS = "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\nL = DROI 1 (0. 0.) (0. 0.1) ;\n"
 

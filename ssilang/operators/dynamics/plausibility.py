@@ -11,13 +11,13 @@ import numpy as np
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
-from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import idle_nodes
-from ssilang.kernel.stepping.problem.bodies import loose_bodies
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
@@ -31,7 +31,7 @@ from ssilang.kernel.stepping.problem.plausibility import (
     stiffness_contrast,
     swings,
 )
-from ssilang.kernel.waves.shaken import AXES
+from ssilang.kernel.waves.shaken import AXES, translations
 from ssilang.operators.dynamics.reports import conserved
 from ssilang.operators.dynamics.shaking import bridged, warn_of_shaking
 from ssilang.operators.dynamics.standing import (
@@ -62,6 +62,7 @@ OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 WANTED = 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
+HELD = 0.99  # of all mass, on nodes that do not move
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
@@ -127,6 +128,17 @@ def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
                 yield "operators.dynamics.joints-of-others", {"off": off}
 
 
+def _mass_held(problem: Problem, _: Inputs) -> Told:
+    """A mass that supports hold, all but a hundredth of it."""
+    mass, along = problem.M, translations(problem)
+    moved = np.asarray((along * (mass @ along)).sum(axis=1), float)
+    held = abs(problem.constraints.T).sum(axis=1) <= ROUNDING
+    if moved[held].sum() > HELD * moved.sum() > 0.0 and not problem.loading.imposed.any():
+        told = {"held": moved[held].sum() / along.shape[1], "whole": moved.sum() / along.shape[1]}
+        node = problem.numbering.table.told(int(problem.numbering.nodes[(moved * held).argmax()]))
+        yield "operators.dynamics.mass-held", {**told, "node": node}
+
+
 def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
     if inputs.damping is None and any(b.viscous for b in inputs.stiffness.blocks):
         yield "operators.dynamics.viscosity-unread", {}
@@ -162,8 +174,11 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     loose = list(bodies.loose())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in asked()):
-        joints = () if problem.interface is None else problem.interface.joints
-        yield "operators.dynamics.turns-away", {"macro": any(is_macro(j.zone) for j in joints)}
+        found = problem.interface
+        joints = () if found is None else found.joints
+        slides = found is not None and (found.parameters[:, Parameter.KS1] == 0.0).any()
+        told = {"macro": any(is_macro(j.zone) for j in joints), "slides": bool(slides)}
+        yield "operators.dynamics.turns-away", told
     for found in loose:
         told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
         if found.pressed:
@@ -187,7 +202,8 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
-    _joints_of_others, _on_supports, _viscosity_unread, bridged, unequal_joints, ground_twice,
+    _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
+    ground_twice,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (_imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice)
@@ -251,7 +267,9 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
     if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
-    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw:
+    ends = [0, int(np.abs(y).argmax())]
+    straight = np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size
+    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw and not straight:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
     if at_rest and np.abs(np.diff(before)).sum() > SWUNG * size:
@@ -342,6 +360,8 @@ def warn_contrast(entries: Entries, problem: Problem) -> None:
     """Warn when joints are out of all proportion to the bodies: units, most often."""
     found = joint_conditioning(problem)
     if found is not None and found.joints_are_to_blame:
+        if entries.call.session.warned("operators.models.thicker-than-large"):
+            return  # it is the shell's stiffness that is out of proportion
         told = {n: getattr(found, n) for n in ("number", "digits", "balanced", "kn", "wanted_kn")}
         entries.warn("operators.dynamics.badly-conditioned", **told)
         return

@@ -53,6 +53,7 @@ WEIGHT = (0.05, 3.0)  # g; what pulls down
 MANY = 3  # nodes, or instants: fewer say nothing of a rule
 PART, WHOLE = 0.2, 0.8  # of what moves along another axis, at a node and in all: less is forgotten
 LEVELS = 3  # heights of a side; a base has one
+GROUND, HIGH = 360.0, 5.0  # m/s, of waves of shear in soil; height over width of a column of it
 PAIR = 2  # nodes of a spring, at most
 STUCK = {True: "operators.dynamics.joints-closed", False: "operators.dynamics.joints-held"}
 """Joints that cannot open, by whether they can slip."""
@@ -172,7 +173,28 @@ class _Entering:
         for layer in layers(stiffness, bordered_solids(stiffness)) if moved.any() else ():
             if layer.across < up == layer.along and moved[layer.across] > SAME * moved.max():
                 told = {"node": stiffness.table.told(layer.node), "count": layer.count}
-                yield "operators.dynamics.column-bends", {**told, "axis": self.axes[up]}
+                told |= {"slender": 0.0, "axis": self.axes[up]}
+                yield "operators.dynamics.column-bends", told
+                return
+        if up > 0 and self.inputs.mass is not None and moved.any():
+            axis = int(moved[:-1].argmax())
+            found = longest_cell(stiffness, self.inputs.mass, self.axes[axis], 1.0)
+            slender = self._slender(axis) if found and found.speed < GROUND else 0.0
+            if slender > HIGH:
+                told = {"node": "", "count": 0, "slender": slender, "axis": self.axes[up]}
+                yield "operators.dynamics.column-bends", told
+
+    def _slender(self, axis: int) -> float:
+        """Height over width of cells that nothing holds, ties or brakes above their base."""
+        numbering, damping = self.problem.numbering, self.inputs.damping
+        rows, up = abs(self.problem.constraints.C).sum(axis=0) > 0.0, len(self.axes) - 1
+        dashpots = [b for b in damping.blocks if b.kind == "AMORTISSEMENT"] if damping else []
+        held = np.concatenate([numbering.nodes[rows], *(b.nodes.ravel() for b in dashpots)])
+        blocks = [b.nodes.ravel() for b, _, _ in bordered_solids(self.inputs.stiffness)]
+        points = numbering.table.coordinates[np.concatenate([held[:0], *blocks])]
+        size, low = np.ptp(points, axis=0), points[:, up].min()
+        free = (numbering.table.coordinates[held, up] <= low + ROUNDING * size[up]).all()
+        return float(size[up] / size[axis]) if free and len(held) else 0.0
 
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""
@@ -183,10 +205,12 @@ class _Entering:
         for axis in np.flatnonzero(moved[:-1] > SAME * moved.max()):
             held = numbering.nodes[(self.along[:, axis] > 0.0) & ~free]
             held = held[np.isin(held, rising)]
-            heights = numbering.table.coordinates[held, len(self.axes) - 1]
+            points = numbering.table.coordinates[held]
+            heights, across = points[:, len(self.axes) - 1], points[:, axis]
             if len(np.unique(heights.round(9))) >= LEVELS:
                 told = {"count": len(held), "node": numbering.table.told(int(held[0]))}
-                yield "operators.dynamics.sides-held", {"axis": self.axes[axis], **told}
+                told |= {"axis": self.axes[axis], "plane": not np.ptp(across).round(9)}
+                yield "operators.dynamics.sides-held", told
 
 
 def bridged(problem: Problem, inputs: Inputs) -> Told:
@@ -268,11 +292,14 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         yield STUCK[bool(moves.any())], {}
         return
     alone = np.diff(rows.indptr) == 1
-    held, ties = rows[alone].indices, abs(rows[~alone])
+    held, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
     for joint in joints.joints:
         if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
             continue
-        upper = np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.upper))
+        sides = [joint.zone.cells.nodes.resolve(side) for side in (joint.upper, joint.lower)]
+        bare = np.isin(numbering.nodes, sides[0])  # the ground, named first and turned round
+        ground = not (stiff[bare].any() or abs(problem.constraints.T[bare]).max() > ROUNDING)
+        upper = np.isin(numbering.nodes, sides[ground])
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
         along = _normal(joint)
         names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}

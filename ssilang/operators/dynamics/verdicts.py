@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, cast
 
 import numpy as np
 
 from ssilang.io.recording import thinned_drawing
+from ssilang.kernel.waves.shaken import is_shaken
+from ssilang.language.values import LazyRows
 from ssilang.messages.message import Teller, teller
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
@@ -31,17 +33,22 @@ _DRAWN = (
 )
 """Pictures: title, unit, curves."""
 LEFT = ("ROTATION", "ENFONCEMENT")
+LATE = 0.1  # of a run, in which what is left should stand still
+STILL = 0.1  # of the largest rotation
 _TOP = 1000.0
 """Value at which @BILANSSI cuts its factors: there is no moment or shear."""
 
 
 @operator("ZBIL", family="dynamics")
 def zbil(
-    session: Session,
+    call: Call,
     given: Table = Arg("TABLE", en="what @BILANSSI was given"),
     found: Table = Arg("TABLE", en="what it found"),
 ) -> None:
     """Keep a verdict."""
+    session = call.session
+    for code, told in _doubts(given, found):
+        call.warn(code, **told)
     peaks = cast(Table, found.get("PICS"))
     told: dict[str, Any] = {
         "area": found.get("AIRE"),
@@ -59,6 +66,25 @@ def zbil(
     recording = run_output(session).recording
     if recording is not None:
         recording.judge(_pictures(given, found, teller(session.language)))
+
+
+def _doubts(given: Table, found: Table) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Floors whose accelerations lack the ground's, rotations left while the footing rocks."""
+    results = given.get("RESULTATS")
+    recorded = results.stand_ins("ACCE") if isinstance(results, LazyRows) else None
+    if recorded is None:  # load steps
+        return
+    for number, floor, *_ in _each_floor(given, found):
+        name = str(floor.get("COMPOSANTE"))
+        track = getattr(recorded[0], "track", None)
+        if not floor.has("ACCELERATION_BASE") and track and is_shaken(track.problem, name):
+            yield "operators.dynamics.floor-relative", {"floor": number, "component": name}
+    histories = cast(Table, found.get("HISTOIRES"))
+    t, turn = (cast(ListReel, histories.get(n)).values for n in ("TEMPS", "ROTATION"))
+    swing = float(np.ptp(turn[t >= t[-1] - LATE * (t[-1] - t[0])]))
+    if not given.has("RESIDU") and swing > STILL * np.abs(turn).max():
+        left = cast(Table, found.get("RESIDUS")).get("ROTATION")
+        yield "operators.dynamics.still-rocks", {"swing": swing, "left": left}
 
 
 def _floors(given: Table, found: Table) -> list[dict[str, Any]]:

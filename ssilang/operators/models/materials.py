@@ -13,6 +13,7 @@ from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.zone_fields import INSTEAD, zone_field
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.parameter_table import ELASTIC_SHEAR
 from ssilang.kernel.interface.laws.parameter_table import check_given as check_joint
 from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.parameters import geometric_names, idle_names, known_names
@@ -190,6 +191,9 @@ def _warn_of_nothing(call: Call, zone: Zone, values: Values, said: dict[str, Any
     shear = values["KS"][0] if "KS" in values else np.empty(0)
     if "FROT" in values and shear.dtype == float and (shear == 0.0).any():
         told.append(("FROT", "operators.models.friction-without-shear"))
+    slip = values["FROT"][0] if "FROT" in values and ELASTIC_SHEAR in zone.behaviour else shear[:0]
+    if slip.dtype == float and (slip >= 0.0).any():
+        told.append(("FROT", "operators.models.friction-unread"))
     for name, code in told:
         if name in said:
             call.warn(code, said[name], name=name, mode=zone.mode.value)

@@ -215,6 +215,7 @@ def swings(problem: Problem) -> list[Swing]:
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
         if moved > 0.0 and 0.0 < work < np.inf:
             period, damped = 2.0 * np.pi * np.sqrt(moved / work), float(x @ (problem.C @ x))
+            damped *= abs(damped) > ROUNDING * (x**2 @ abs(problem.C.diagonal()))
             found.append(Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden))
     return found
 
