@@ -3,8 +3,12 @@
 import numpy as np
 import pytest
 
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.matrices.assembly import assemble
+from ssilang.kernel.statics.constitutive import respond
 
+ZEROS = "Z = ZERO M 'DEFORMATIONS' ; S0 = ZERO M 'CONTRAINTES' ; V0 = ZERO M 'VARINTER' ; "
 PLATE = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
     "X Y = COOR S ; "
@@ -20,14 +24,13 @@ BAR = (
     "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
     "M = MODE L MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE BARR ; "
     "A = MATE M 'YOUN' 1.E3 'NU' 0. 'SIGY' 2. 'H' 250. 'SECT' 3. ; "
-    "U = MANU 'CHPO' L 1 'UX' (PROG 0. 6.E-3) 'NATURE' 'DIFFUS' ; "
+    "U = MANU 'CHPO' L 1 'UX' (PROG 0. 6.E-3) 'NATURE' 'DIFFUS' ; " + ZEROS
 )
 JOINT = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; P = 0. 0. ; Q = 1. 0. ; B = DROI 1 P Q ; "
     "T = B PLUS (0. 0.) ; J = RACC 1.E-6 T B ; "
-    "M = MODE J MECANIQUE ELASTIQUE {law} JOI2 ; A = MATE M 'KN' 1.E6 'KS' 4.E5 {more} ; "
+    "M = MODE J MECANIQUE ELASTIQUE {law} JOI2 ; A = MATE M 'KN' 1.E6 'KS' 4.E5 {more} ; " + ZEROS
 )
-ZEROS = "Z = ZERO M 'DEFORMATIONS' ; S0 = ZERO M 'CONTRAINTES' ; V0 = ZERO M 'VARINTER' ; "
 
 
 def component(field, name):
@@ -48,36 +51,27 @@ def test_elastic_law_adds_the_stress_of_the_step(found):
         np.testing.assert_allclose(component(a, name), component(b, name), rtol=1e-12)
 
 
-def test_plastic_bar_hardens_and_keeps_its_plastic_strain(found):
-    c, s, v, e = found(
-        BAR + ZEROS + "C = COMP M (A ET Z) (A ET (EPSI M U)) ; "
-        "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ;",
-        "C", "S1", "V1", "E1",
+def test_plastic_bar_hardens_keeps_its_plastic_strain_and_unloads(found):
+    c, s, v, e, back = found(
+        BAR + "E1 = EPSI M U ; C = COMP M (A ET Z) (A ET E1) ; "
+        "D = COMP M (A ET E1 ET C) (A ET (0.5 * E1)) ; S1 V1 D1 = ECOU M S0 V0 E1 A ;",
+        "C", "S1", "V1", "D1", "D",
     )  # fmt: skip
     plastic = (1e3 * 6e-3 - 2) / (1e3 + 250)
-    np.testing.assert_allclose(component(c, "EFFX"), 3 * (2 + 250 * plastic), rtol=1e-9)
-    np.testing.assert_allclose(component(c, "EISS"), plastic, rtol=1e-9)
-    np.testing.assert_allclose(component(s, "EFFX"), component(c, "EFFX"))
-    np.testing.assert_allclose(component(v, "EPSE"), plastic, rtol=1e-9)
-    np.testing.assert_allclose(component(e, "EISS"), plastic, rtol=1e-9)
-
-
-def test_second_step_unloads_elastically(found):
-    c = found(
-        BAR + ZEROS + "E1 = EPSI M U ; C = COMP M (A ET Z) (A ET E1) ; "
-        "D = COMP M (A ET E1 ET C) (A ET (0.5 * E1)) ; ",
-        "D",
-    )
-    plastic = (1e3 * 6e-3 - 2) / 1250
-    np.testing.assert_allclose(component(c, "EFFX"), 3 * (2 + 250 * plastic - 3.0), rtol=1e-9)
-    np.testing.assert_allclose(component(c, "EISS"), plastic, rtol=1e-9)
+    for field in (c, s):
+        np.testing.assert_allclose(component(field, "EFFX"), 3 * (2 + 250 * plastic), rtol=1e-9)
+    for field, name in ((c, "EISS"), (v, "EPSE"), (e, "EISS"), (back, "EISS")):
+        np.testing.assert_allclose(component(field, name), plastic, rtol=1e-9)
+    np.testing.assert_allclose(component(back, "EFFX"), 3 * (2 + 250 * plastic - 3.0), rtol=1e-9)
 
 
 def test_tangent_of_a_bar_is_elastic_inside_and_hardening_on_the_surface(found):
     script = (
-        BAR + ZEROS + "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ; K0 = RIGI M A ; "
+        BAR + "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ; K0 = RIGI M A ; "
         "K1 = KTAN M (0.5 * S1) V0 A ; K2 = KTAN M S1 V1 A ; K3 = RIGI M (HOTA M S1 V1 A) A ; "
+        "X1 = MAXI (MOTA M S1 V1 A) ; X2 = MAXI (MOTA M (0.5 * S1) V1 A) ;"
     )
+    assert found(script, "X1", "X2") == (250.0, 1000.0)
     k0, k1, k2, k3 = map(matrix, found(script, "K0", "K1", "K2", "K3"))
     np.testing.assert_allclose(k1, k0)
     expected = k0 * 250 / 1250
@@ -115,15 +109,11 @@ def test_tangent_of_a_state_is_that_of_a_small_step(found):
 
 
 def test_joint_opens_and_loses_its_stiffness(found):
-    script = (
-        JOINT.format(law="JOINT_SDM", more="")
-        + ZEROS
-        + (
-            "O = MANU 'CHPO' T 2 'UX' 1.E-4 'UY' 2.E-4 'NATURE' 'DIFFUS' ; "
-            "F = MANU 'CHPO' T 2 'UX' 1.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
-            "C1 = COMP M (A ET Z) (A ET (EPSI M O A)) ; C2 = COMP M (A ET Z) (A ET (EPSI M F A)) ; "
-            "K1 = KTAN M C1 C1 A ; K2 = KTAN M C2 C2 A ; K0 = RIGI M A ; "
-        )
+    script = JOINT.format(law="JOINT_SDM", more="") + (
+        "O = MANU 'CHPO' T 2 'UX' 1.E-4 'UY' 2.E-4 'NATURE' 'DIFFUS' ; "
+        "F = MANU 'CHPO' T 2 'UX' 1.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
+        "C1 = COMP M (A ET Z) (A ET (EPSI M O A)) ; C2 = COMP M (A ET Z) (A ET (EPSI M F A)) ; "
+        "K1 = KTAN M C1 C1 A ; K2 = KTAN M C2 C2 A ; K0 = RIGI M A ; "
     )
     c1, c2, k1, k2, k0 = found(script, "C1", "C2", "K1", "K2", "K0")
     np.testing.assert_allclose(component(c1, "SMN"), 0.0)
@@ -135,14 +125,10 @@ def test_joint_opens_and_loses_its_stiffness(found):
 
 
 def test_sliding_joint_has_the_unsymmetric_tangent_of_coulomb(found):
-    script = (
-        JOINT.format(law="JOINT_SDM", more="'FROT' 0.5")
-        + ZEROS
-        + (
-            "F = MANU 'CHPO' T 2 'UX' 1.E-3 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
-            "C = COMP M (A ET Z) (A ET (EPSI M F A)) ; K = KTAN M C C A ; "
-            "KS = KTAN M C C A 'SYME' ; R = CRIT M C C A ; "
-        )
+    script = JOINT.format(law="JOINT_SDM", more="'FROT' 0.5") + (
+        "F = MANU 'CHPO' T 2 'UX' 1.E-3 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
+        "C = COMP M (A ET Z) (A ET (EPSI M F A)) ; K = KTAN M C C A ; "
+        "KS = KTAN M C C A 'SYME' ; R = CRIT M C C A ; "
     )
     c, k, ks, r = found(script, "C", "K", "KS", "R")
     np.testing.assert_allclose(component(c, "SMSN"), 0.5 * 200.0)
@@ -155,15 +141,11 @@ def test_sliding_joint_has_the_unsymmetric_tangent_of_coulomb(found):
 
 def test_mohr_coulomb_joint_starts_again_from_its_state(found):
     law = "PLASTIQUE COULOMB"
-    script = (
-        JOINT.format(law=law, more="'FRIC' 30. 'COHE' 10.")
-        + ZEROS
-        + (
-            "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; E1 = EPSI M F A ; "
-            "C1 = COMP M (A ET Z) (A ET E1) ; "
-            "C2 = COMP M (A ET E1 ET C1) (A ET (2. * E1)) ; "
-            "CE = COMP M (A ET Z) (A ET (2. * E1)) ; "
-        )
+    script = JOINT.format(law=law, more="'FRIC' 30. 'COHE' 10.") + (
+        "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; E1 = EPSI M F A ; "
+        "C1 = COMP M (A ET Z) (A ET E1) ; "
+        "C2 = COMP M (A ET E1 ET C1) (A ET (2. * E1)) ; "
+        "CE = COMP M (A ET Z) (A ET (2. * E1)) ; "
     )
     c1, c2, direct = found(script, "C1", "C2", "CE")
     # dilatancy presses the joint, the point stays on the surface
@@ -199,21 +181,9 @@ def test_criterion_of_rounded_coulomb_is_the_law_s_own(found):
     np.testing.assert_allclose(component(yielded, "SCAL"), 0.0, atol=1e-4)
 
 
-def test_tangent_moduli(found):
-    script = (
-        BAR
-        + ZEROS
-        + (
-            "S1 V1 E1 = ECOU M S0 V0 (EPSI M U) A ; X1 = MAXI (MOTA M S1 V1 A) ; "
-            "X2 = MAXI (MOTA M (0.5 * S1) V1 A) ;"
-        )
-    )
-    assert found(script, "X1", "X2") == (250.0, 1000.0)
-
-
 def test_unloading_joint_has_no_inelastic_step(found):
     script = JOINT.format(law="PLASTIQUE COULOMB", more="'FRIC' 30. 'COHE' 10.") + (
-        ZEROS + "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
+        "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
         "E1 = EPSI M F A ; S1 V1 D1 = ECOU M S0 V0 E1 A ; "
         "B = MANU 'CHPO' T 2 'UX' -1.E-5 'UY' 0. 'NATURE' 'DIFFUS' ; "
         "S2 V2 D2 = ECOU M S1 V1 (EPSI M B A) A ; X1 = MAXI D1 'ABS' ; X2 = MAXI D2 'ABS' ; "
@@ -221,3 +191,32 @@ def test_unloading_joint_has_no_inelastic_step(found):
     first, second = found(script, "X1", "X2")
     assert first > 1e-4
     assert second < 1e-15
+
+
+def test_a_point_joint_slips_in_space_beside_its_springs_of_rotation(found):
+    """Slip along the shear that was tried, on Coulomb's cone; moments add up."""
+    m, a, first, second = found(
+        "OPTI DIME 3 ELEM SEG2 ; J = MANU 'SEG2' (0. 0. 0.) (0. 0. 1.) ; "
+        "M = MODE J MECANIQUE ELASTIQUE PLASTIQUE COULOMB JOI1 ; "
+        "A = MATE M 'KN' 1.E6 'KS' 4.E5 'QN' 7. 'QS' 11. 'FRIC' 30. 'COHE' 10. ; "
+        "D = MANU 'CHML' M 'EXX' -3.E-5 'GXY' 2.E-4 'GXZ' -1.E-4 'CXX' 0.5 'CXY' 2. 'CXZ' -3. "
+        "'STRESSES' ; H = 0.1 * D ; "
+        + ZEROS + "S1 V1 E1 = ECOU M S0 V0 H A ; S2 V2 E2 = ECOU M S1 V1 (D - H) A ;",
+        "M", "A", "S1", "S2",
+    )  # fmt: skip
+    names, jumps = first.blocks[0].components, np.array([-3e-5, 2e-4, -1e-4, 0.5, 2.0, -3.0])
+    stiff = np.array([1e6, 4e5, 4e5, 7.0, 11.0, 11.0])
+
+    def exact(jumps):
+        trial = stiff * jumps
+        limit, size = 10.0 - np.tan(np.pi / 6) * trial[0], np.linalg.norm(trial[1:3])
+        return trial * np.where(np.isin(np.arange(6), (1, 2)), min(1.0, limit / size), 1.0)
+
+    for field, share in ((first, 0.1), (second, 1.0)):
+        got = [component(field, name)[0] for name in names]
+        np.testing.assert_allclose(got, exact(share * jumps), rtol=1e-9)
+    zone, small = m.zones[0], 1e-7 * np.diag(1 / stiff) * 30
+    none = zone_field(zone, CellField(()))
+    answer = respond(zone, a, np.zeros((1, 6, 1)), none, jumps[None, :, None])
+    wanted = np.array([(exact(jumps + h) - exact(jumps - h)) / (2 * h.max()) for h in small]).T
+    np.testing.assert_allclose(answer.tangent[0, 0], wanted, rtol=1e-5, atol=1.0)

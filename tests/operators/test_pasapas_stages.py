@@ -101,21 +101,26 @@ def test_supports_that_come_hold_what_has_moved(tmp_path):
     assert stress(table, 5) == pytest.approx([-1000.0, -1000.0], rel=1e-9)
 
 
-def test_characteristics_in_time_keep_elastic_strains(tmp_path):
+def test_stiffer_layers_keep_the_strains_with_which_they_were_built(tmp_path):
+    """The upper one came unstrained on a lower one that had gone down."""
     text = (
-        LAYERS
+        LAYERS.replace("NU' 0.", "NU' 0.2")
         + """
-    TM . 0 = MA ; TM . 1 = MATE (M1 ET M2) 'YOUN' 2.E6 'NU' 0. ; OUBL T 'CARACTERISTIQUES' ;
-    TT . 1 = 2.000001 ; TT . 2 = 9. ; TM . 2 = TM . 1 ; TT . 1 = 1. ; TM . 1 = MA ;
-    TT . 2 = 1.5 ; TT . 3 = 9. ; TM . 3 = TM . 2 ;
-    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MATE' TT TM) ;
-    PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 5) 'UY' P1 ;
-    V = EXTR (T . 'DEPLACEMENTS' . 1) 'UY' P1 ;
+    TM . 0 = M1 ; TM . 1 = M1 ET M2 ; TN = TABL ; TN . 0 = MA ; TN . 1 = MA ;
+    TN . 2 = MATE (M1 ET M2) 'YOUN' 3.E6 'NU' 0.3 ; TN . 3 = TN . 2 ; OUBL T 'CARACTERISTIQUES' ;
+    TI = TABL ; TI . 0 = 0. ; TI . 1 = 2.4 ; TI . 2 = 2.45 ; TI . 3 = 9. ;
+    T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MODE' TT TM)
+      ET (CHAR 'MATE' TI TN) ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 5 ;
+    U1 = EXTR U 'UY' P1 ; U2 = EXTR U 'UY' P2 ;
     """
     )
     find = run(text, tmp_path)
-    assert find("V") == pytest.approx(-1e-3, rel=1e-9)
-    assert find("U") == pytest.approx(-2000.0 / 2e6, rel=1e-9)
+    held = [(1.0 - nu**2) / young for young, nu in ((1e6, 0.2), (3e6, 0.3))]
+    assert stress(find("T"), 5) == pytest.approx([-2000.0, -1000.0], rel=1e-9)
+    sides = [b.components["SMXX"].mean() for b in find("T").get("CONTRAINTES").get(5).blocks]
+    assert sides == pytest.approx([-600.0, -300.0], rel=1e-9)
+    assert find("U1") == pytest.approx(-2000.0 * held[1], rel=1e-9)
+    assert find("U2") - find("U1") == pytest.approx(1000.0 * (held[0] - held[1]), rel=1e-9)
 
 
 WARM = """{mesh} M1 = MODE S 'MECANIQUE' {law} ;

@@ -20,20 +20,18 @@ def test_nodal_field_through_a_law(found):
     assert [str(w) for w in names.values] == ["YOUN"]
 
 
-def test_field_in_cells_through_a_law_stands_at_the_support(found):
-    field = found(PLATE + "C = VARI MO T E 'GRAVITE' ;", "C")
+def test_laws_in_cells_stand_at_the_support(found):
+    """The temperatures at the centres x = 0.5 and 1.5 of the two cells are 25 and 75."""
+    field, given = found(
+        PLATE + "C = VARI MO T E 'GRAVITE' ; MA = MATE MO 'YOUN' E 'NU' 0.3 ; "
+        "P = VARI 'NUAG' MO MA T 'GRAVITE' ;",
+        "C", "P",
+    )  # fmt: skip
     assert field.title == "SCALAIRE"
     assert field.blocks[0].support == "GRAVITE"
-    # temperature at the centres x = 0.5 and 1.5 of the two cells: 25 and 75
-    np.testing.assert_allclose(np.ravel(field.blocks[0].components["SCAL"]), [1.75e11, 1.25e11])
-
-
-def test_parameters_given_by_curves_become_numbers(found):
-    field = found(
-        PLATE + "MA = MATE MO 'YOUN' E 'NU' 0.3 ; C = VARI 'NUAG' MO MA T 'GRAVITE' ;", "C"
-    )
-    block = field.blocks[0].components
-    np.testing.assert_allclose(np.ravel(block["YOUN"]), [1.75e11, 1.25e11])
+    block = given.blocks[0].components
+    for values in (field.blocks[0].components["SCAL"], block["YOUN"]):
+        np.testing.assert_allclose(np.ravel(values), [1.75e11, 1.25e11])
     assert float(np.ravel(block["NU"])[0]) == 0.3
 
 
@@ -60,3 +58,23 @@ def test_a_cloud_depends_on_its_columns_and_on_the_abscissas_of_its_curves():
         "N = NUAG 'COMP' 'P' 1. 2. 'COMP' 'NU' F F ; "
     )
     assert _variables(result.session.root.find("N")) == ["P", "DOSE"]
+
+
+def test_a_law_of_two_fields_may_take_one_after_the_other(found):
+    """Between curves at two temperatures, at abscissas of both; beyond the last, as there."""
+    script = PLATE.replace("X * 50.", "(X * 100.) - 20.") + (
+        "D = NOMC 'DOSE' (0.15 + (0.1 * X)) ; "
+        "F = EVOL 'MANU' 'DOSE' (PROG 0. 0.1 0.4) 'NU' (PROG 0.1 0.3 0.2) ; "
+        "G = EVOL 'MANU' 'DOSE' (PROG 0. 0.23 0.4) 'NU' (PROG 0.4 0.12 0.14) ; "
+        "N = NUAG 'COMP' 'T' 0. 100. 'COMP' 'NU' F G ; MA = MATE MO 'YOUN' 1. 'NU' N ; "
+        "H = VARI 'NUAG' MO MA T 'GRAVITE' ; C = VARI 'NUAG' MO H D 'GRAVITE' ; "
+        "B = VARI 'NUAG' MO MA (T ET D) 'GRAVITE' ;"
+    )
+    dose = np.array([0.2, 0.3])  # at the centres, where it is 30 and 130 degrees
+    cold, warm = (
+        np.interp(dose, [0, 0.1, 0.4], [0.1, 0.3, 0.2]),
+        np.interp(dose, [0, 0.23, 0.4], [0.4, 0.12, 0.14]),
+    )
+    wanted = cold + np.array([0.3, 1.0]) * (warm - cold)
+    for field in found(script, "C", "B"):
+        np.testing.assert_allclose(np.ravel(field.blocks[0].components["NU"]), wanted)

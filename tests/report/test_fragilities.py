@@ -14,6 +14,7 @@ from together import together
 from ssilang.cli.main import main
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.messages.message import teller
+from ssilang.report import fragilities
 from ssilang.report.fragilities import (
     Asked,
     Limit,
@@ -190,7 +191,7 @@ def test_intensities_are_those_known_else_what_was_swept(tmp_path):
 # --- floors --------------------------------------------------------------------------------------
 
 
-def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path):
+def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path, monkeypatch):
     rng = np.random.default_rng(6)
     rows, spectra = suite(n=5, scales=[2, 1]), rng.lognormal(size=(10, 4))
     made = sweep_of(tmp_path, rows)
@@ -216,6 +217,10 @@ def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path):
     kept = spectra[[0, 1, 3, 4]]
     assert lines["AG = 2, median of 4"] == pytest.approx(np.median(kept, axis=0))
     assert lines["AG = 2, 16 %"] == pytest.approx(np.percentile(kept, 16, axis=0))
+    monkeypatch.setattr(fragilities, "MOST_SETTINGS", 1)
+    (short,) = floor_charts(made, TOLD)
+    assert [line.name for line in short.lines] == list(lines)[:3]
+    assert short.title == f"{chart.title} (1 more in sweep.csv)"
 
 
 # --- the command ---------------------------------------------------------------------------------

@@ -136,7 +136,7 @@ def test_a_scene_keeps_displacements_to_sixteen_bits(rocking: Path) -> None:
 
 
 def test_instants_that_are_damaged_or_have_another_mesh_are_left_out(
-    rocking: Path, modes: Path, tmp_path: Path, capfd: Any
+    rocking: Path, tmp_path: Path, capfd: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for path in (*rocking.glob("*.vtu"), *rocking.glob("*.pvd")):
         (tmp_path / path.name).write_bytes(path.read_bytes())
@@ -149,6 +149,14 @@ def test_instants_that_are_damaged_or_have_another_mesh_are_left_out(
     found, _ = packed_scene(next(tmp_path.glob("*.pvd")), 10**7)
     assert found["times"] == [t for i, t in enumerate(whole["times"]) if i not in (0, 2)]
     assert found["left_out"] == 2
+    (series,) = tmp_path.glob("*.pvd")
+    series.with_name("z.pvd").write_bytes(series.read_bytes())
+    monkeypatch.setattr("ssilang.report.page.MOST_SCENES", 1)
+    write_report(tmp_path, "en")
+    assert len(data(page(tmp_path), "scenes")) == 1
+    said = Sections(page(tmp_path)).text["scene"]
+    assert f"{series.name}: 2 instants are damaged or have another mesh, and left out" in said
+    assert "1 further scene left out" in said
     assert capfd.readouterr().err == ""
 
 

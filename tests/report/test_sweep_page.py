@@ -16,6 +16,7 @@ from ssilang.cli.main import main
 from ssilang.cli.sweeping import histories
 from ssilang.cli.sweeping.histories import join_histories
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
+from ssilang.report import sweep_page
 from ssilang.report.sweep_table import read_sweep
 
 DECK = """
@@ -96,9 +97,21 @@ def test_the_page_has_the_runs_their_links_and_the_figures(made):
     assert chart["lines"][0]["y"] == pytest.approx([2 / 400.0, 4 / 400.0], rel=1e-2)
 
 
-def test_the_page_is_made_again_in_french_and_damage_is_refused(made, tmp_path, capsys):
-    assert main(["report", str(made), "--lang", "fr"]) == 0
-    assert "2 calculs en échec" in (made / "report.html").read_text()
+def test_the_page_is_made_again_in_french_and_damage_is_refused(
+    made, tmp_path, capsys, monkeypatch
+):
+    """As long as pages are allowed to be."""
+    monkeypatch.setattr(sweep_page, "MOST_RUNS", 4)
+    monkeypatch.setattr(sweep_page, "MOST_LINES", 1)
+    folder = shutil.copytree(made, tmp_path / "short")
+    assert main(["report", str(folder), "--lang", "fr"]) == 0
+    page = (folder / "report.html").read_text("utf-8")
+    assert "2 calculs en échec" in page
+    assert "Les 4 premiers calculs" in page
+    assert len(re.findall(r'<a href="runs/', page)) == 4
+    (chart,) = json.loads(re.search(r'id="data-charts">(.*?)</script>', page, re.DOTALL)[1])
+    assert chart["title"] == "top (1 de plus dans sweep.csv)"
+    assert [line["name"] for line in chart["lines"]] == ["NAME = a.csv"]
     (tmp_path / "runs").mkdir()
     (tmp_path / "sweep.csv").write_text("run;AG\n1;2\n")
     assert main(["report", str(tmp_path)]) == 2

@@ -234,11 +234,18 @@ def assemble_blocks(blocks: Iterable[ElementMatrices], numbering: Numbering) -> 
     """Sum of element blocks as CSR (n, n), duplicates summed, indices sorted."""
     kept = tuple(blocks)
     places = [_places(block, numbering) for block in kept]
-    if sum(b.values.size for b in kept) > MANY_TERMS:
+    return assemble_terms(places, [b.values for b in kept], numbering.size)
+
+
+def assemble_terms(
+    places: list[NDArray[np.int32]], values: list[FloatArray], n: int
+) -> sp.csr_array:
+    """Sum of element matrices (n_cells, m, m) at places (n_cells, m) as CSR, indices sorted."""
+    if sum(v.size for v in values) > MANY_TERMS:
         from ssilang.kernel.matrices.gathered_rows import assemble_rows
 
-        return assemble_rows(places, [b.values for b in kept], numbering.size)
-    return assemble_triplets(places, [b.values for b in kept], numbering.size)
+        return assemble_rows(places, values, n)
+    return assemble_triplets(places, values, n)
 
 
 def assemble_triplets(

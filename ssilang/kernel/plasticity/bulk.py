@@ -16,12 +16,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.matrices.assembly import (
-    MANY_TERMS,
-    Numbering,
-    assemble_triplets,
-    block_indices,
-)
+from ssilang.kernel.matrices.assembly import Numbering, assemble_terms, block_indices
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
@@ -258,11 +253,7 @@ class Bulk:
         return Pattern.of(self._assembled(ones), self.places)
 
     def _assembled(self, values: list[FloatArray]) -> sp.csr_array:
-        if sum(v.size for v in values) > MANY_TERMS:
-            from ssilang.kernel.matrices.gathered_rows import assemble_rows
-
-            return assemble_rows(list(self.places), values, self.size)
-        return assemble_triplets(list(self.places), values, self.size)
+        return assemble_terms(list(self.places), values, self.size)
 
     def force(self, state: State) -> FloatArray:
         """Internal forces (n,) of a state."""

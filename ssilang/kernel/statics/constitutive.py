@@ -283,7 +283,6 @@ def _joint_answer(
         whole[..., :, :d] = 0.0
         whole[..., :d, :d] = local
         turned[:, :d], after, tangent = after, turned, whole
-        after[:, :d] = points.named(t)
     inner = shown_variables(law_of(zone.behaviour), new.reshape(n, g, -1), d)
     elastic = points.jumps(t - points.local(stress))
     rest = points.named(points.local(step) - elastic)

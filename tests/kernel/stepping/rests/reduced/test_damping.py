@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.linalg as la
 from references.soil_block import soil_block
 from references.whole_and_reduced import both, check, relative
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
 from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
+from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.damping import States, split, square_roots
 from ssilang.kernel.stepping.rests.reduced.loop import Reduced, reduced_step
@@ -140,6 +142,11 @@ def test_reactions_of_moving_supports():
     assert relative(found, exact) < 1e-3
 
 
+def test_supports_start_as_their_curve():
+    basis = Basis(shaken(soil_block(steps=2), start=0.03), 5e-3, 400)
+    np.testing.assert_allclose(basis.supports.start[:, 0], [0.03, 0.03, 0.0], atol=1e-9)
+
+
 def test_a_motion_that_starts_off_its_supports_runs_whole():
     problem = shaken(soil_block(steps=20))
     loading = problem.loading
@@ -226,11 +233,18 @@ def test_dashpots_are_eliminated_from_the_interface():
     np.testing.assert_allclose(step.condensed.S, J @ np.linalg.solve(A, J.T), rtol=1e-10)
 
 
-def test_damped_space_matches_the_response_at_its_shift_and_beside():
-    problem = with_edges(soil_block(steps=2))
+@pytest.mark.parametrize("edges", [True, False])
+def test_space_matches_the_response_at_its_shift_and_beside(edges):
+    """Its vectors are orthonormal; the shift is four times the lowest frequency."""
+    problem = with_edges(soil_block(steps=2)) if edges else soil_block(steps=2, damping=None)
     basis = Basis(problem, 5e-3, 441)
     basis.grow()
     model, T = basis.model(), problem.constraints.T
+    length = basis.vectors @ (basis.N @ basis.vectors.T)
+    np.testing.assert_allclose(length, np.eye(basis.size), atol=1e-13)
+    closed = closed_stiffness(problem).toarray()
+    squared = la.eigh(closed, basis.M.toarray(), eigvals_only=True, subset_by_index=[0, 0])
+    assert basis.shift == pytest.approx(4 * np.sqrt(squared[0]), rel=1e-2)
     K, M, C = (np.asarray((T.T @ X @ T).todense()) for X in (problem.K, problem.M, problem.C))
     J = (problem.interface.J @ T).toarray()
     for s, near in ((basis.shift, 1e-8), (0.95 * basis.shift, 1e-5)):
