@@ -71,10 +71,8 @@ def test_a_law_of_two_fields_may_take_one_after_the_other(found):
         "B = VARI 'NUAG' MO MA (T ET D) 'GRAVITE' ;"
     )
     dose = np.array([0.2, 0.3])  # at the centres, where it is 30 and 130 degrees
-    cold, warm = (
-        np.interp(dose, [0, 0.1, 0.4], [0.1, 0.3, 0.2]),
-        np.interp(dose, [0, 0.23, 0.4], [0.4, 0.12, 0.14]),
-    )
+    cold = np.interp(dose, [0, 0.1, 0.4], [0.1, 0.3, 0.2])
+    warm = np.interp(dose, [0, 0.23, 0.4], [0.4, 0.12, 0.14])
     wanted = cold + np.array([0.3, 1.0]) * (warm - cold)
     for field in found(script, "C", "B"):
         np.testing.assert_allclose(np.ravel(field.blocks[0].components["NU"]), wanted)

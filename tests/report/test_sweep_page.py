@@ -110,8 +110,7 @@ def test_the_page_is_made_again_in_french_and_damage_is_refused(
     assert "Les 4 premiers calculs" in page
     assert len(re.findall(r'<a href="runs/', page)) == 4
     (chart,) = json.loads(re.search(r'id="data-charts">(.*?)</script>', page, re.DOTALL)[1])
-    assert chart["title"] == "top (1 de plus dans sweep.csv)"
-    assert [line["name"] for line in chart["lines"]] == ["NAME = a.csv"]
+    assert (chart["title"], len(chart["lines"])) == ("top (1 de plus dans sweep.csv)", 1)
     (tmp_path / "runs").mkdir()
     (tmp_path / "sweep.csv").write_text("run;AG\n1;2\n")
     assert main(["report", str(tmp_path)]) == 2
