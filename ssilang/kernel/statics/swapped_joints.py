@@ -172,16 +172,19 @@ def _beside(
 
 
 def _way_between_tied(upper: IntArray, lower: IntArray, stiffness: Matrix) -> FloatArray:
-    """Way (n, 3) from lower to upper body: what cells and conditions tie to the sides' nodes."""
+    """Way (n, 3) from lower to upper body: what is tied to all nodes of a side."""
     points = stiffness.table.coordinates
     others = [b.nodes for b in stiffness.blocks if b.zone is None or not is_joint(b.zone)]
     body = bodies_of_nodes(stiffness, others)
     count = np.maximum(np.bincount(body), 1)
     middles = np.column_stack([np.bincount(body, x) / count for x in points.T])
-    tied = [(middles[body[side]] - points[side]).mean(axis=1) for side in (upper, lower)]
+    tied = np.zeros((2, len(upper), 3))
+    for side, way in zip((upper, lower), tied, strict=True):
+        whole = (body[side] == body[side][:, :1]).all(axis=1)
+        way[whole] = (middles[body[side]] - points[side]).mean(axis=1)[whole]
     apart = (body[upper] != body[lower]).all(axis=1)
-    way: FloatArray = (apart[:, None] * (tied[0] - tied[1])).round(9)
-    return way
+    between: FloatArray = (apart[:, None] * (tied[0] - tied[1])).round(9)
+    return between
 
 
 def _incidence(rows: IntArray, n_nodes: int) -> sp.csr_array:
