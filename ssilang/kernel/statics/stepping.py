@@ -117,21 +117,25 @@ def _at_load_step(
 
 
 def _cuts(problem: Problem) -> int:
-    """How often a step may be halved: whole footings lift off and yield within one."""
+    """How often a step may be halved, or -1: whole footings lift off and yield within one."""
     joints = problem.interface
-    return 0 if joints is None or not any(is_macro(j.zone) for j in joints.joints) else HALVINGS
+    return -1 if joints is None or not any(is_macro(j.zone) for j in joints.joints) else HALVINGS
 
 
 def _cut_step(
     problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray, cuts: int
 ) -> StepOutcome:
-    """Equilibrium for the second of two rows of load factors, on the way in halves if need be."""
-    before = [x.copy() for x in motion] if cuts else []
+    """Equilibrium for the second of two rows of load factors, on the way in halves if need be.
+
+    Where there is none, the motion stays at the last one.
+    """
+    before = [x.copy() for x in motion] if cuts >= 0 else []
     outcome = _step(problem, solver, motion, factors)
-    if outcome.turns > 0 or not cuts:
+    if outcome.turns > 0 or cuts < 0:
         return outcome
-    for array, old in zip(motion, before, strict=True):
-        array[...] = old
+    _go_back(motion, before)
+    if not cuts:
+        return outcome
     turns, du, middle = 0, np.zeros_like(motion.u), factors.mean(axis=0)
     for half in (np.stack([factors[0], middle]), np.stack([middle, factors[1]])):
         outcome = _cut_step(problem, solver, motion, half, cuts - 1)
@@ -271,6 +275,10 @@ def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: Float
     if outcome.turns > 0 and np.isfinite(outcome.du).all():
         motion.u[:] += outcome.du
         return
+    _go_back(motion, before)
+
+
+def _go_back(motion: Motion, before: list[FloatArray]) -> None:
     for array, old in zip(motion, before, strict=True):
         array[...] = old
 

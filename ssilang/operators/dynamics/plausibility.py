@@ -174,8 +174,7 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     loose = list(bodies.loose())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in asked()):
-        found = problem.interface
-        joints = () if found is None else found.joints
+        joints = () if (found := problem.interface) is None else found.joints
         slides = found is not None and (found.parameters[:, Parameter.KS1] == 0.0).any()
         told = {"macro": any(is_macro(j.zone) for j in joints), "slides": bool(slides)}
         yield "operators.dynamics.turns-away", told
