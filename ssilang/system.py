@@ -205,7 +205,7 @@ def end_group(process: subprocess.Popen[bytes]) -> None:
     """End a process that was started in a session of its own, and those that it started."""
     if hasattr(os, "killpg"):
         with suppress(ProcessLookupError):
-            _os.killpg(process.pid, _module("signal").SIGKILL)
+            _os.killpg(process.pid, signal.Signals["SIGKILL"])
     else:
         process.kill()
 
