@@ -12,6 +12,7 @@ import os
 import re
 import sys
 import time
+from base64 import b64encode
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TextIO, cast
@@ -224,8 +225,6 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         for picture in made[self._pictures :]:
             data: dict[str, Any] = {"text/plain": picture.path.name}
             if (png := picture._repr_png_()) is not None:
-                from base64 import b64encode
-
                 data["image/png"] = b64encode(png).decode("ascii")
             elif (svg := picture._repr_svg_()) is not None:
                 data["image/svg+xml"] = svg

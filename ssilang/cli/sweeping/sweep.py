@@ -305,18 +305,18 @@ def _tell_warnings(
 ) -> None:
     """What runs were warned of, once each; names whose values change nothing."""
     told = [("cli.sweep-warning", vars(w)) for w in warnings_of(options.folder, rows)]
-    code = options.deck.read_text(encoding="utf-8", errors="replace")
+    script = options.deck.read_text(encoding="utf-8", errors="replace")
     done = [row for row in rows if row["exit_code"] == 0]
-    idle = [name for name in idle_names(done, swept) if not _chooses(name, code)]
+    idle = [name for name in idle_names(done, swept) if not _chooses(name, script)]
     for code, data in [*told, *(("cli.value-idle", {"name": name}) for name in idle)]:
         err.write(sentence(code, data, options.language) + "\n")
 
 
-def _chooses(name: str, code: str) -> bool:
+def _chooses(name: str, script: str) -> bool:
     """Whether a script reads a number to compare it alone: it chooses a way to the same figures."""
     read, compared = rf"\b{re.escape(name)}\b", r"(?:EGA|NEG|>EG|<EG|>|<)"
     reads, given, asks = (
-        len(re.findall(pattern, code, re.IGNORECASE))
+        len(re.findall(pattern, script, re.IGNORECASE))
         for pattern in (read, rf"{read}\s*=", rf"{read}\s*{compared}|{compared}\s*{read}")
     )
     return 0 < asks == reads - given

@@ -178,9 +178,10 @@ class _Entering:
                 return
         if up > 0 and self.inputs.mass is not None and moved.any():
             axis = int(moved[:-1].argmax())
+            if (slender := self._slender(axis)) <= HIGH:
+                return
             found = longest_cell(stiffness, self.inputs.mass, self.axes[axis], 1.0)
-            slender = self._slender(axis) if found and found.speed < GROUND else 0.0
-            if slender > HIGH:
+            if found and found.speed < GROUND:
                 told = {"node": "", "count": 0, "slender": slender, "axis": self.axes[up]}
                 yield "operators.dynamics.column-bends", told
 
@@ -191,10 +192,12 @@ class _Entering:
         dashpots = [b for b in damping.blocks if b.kind == "AMORTISSEMENT"] if damping else []
         held = np.concatenate([numbering.nodes[rows], *(b.nodes.ravel() for b in dashpots)])
         blocks = [b.nodes.ravel() for b, _, _ in bordered_solids(self.inputs.stiffness)]
-        points = numbering.table.coordinates[np.concatenate([held[:0], *blocks])]
+        if not blocks or not len(held):
+            return 0.0
+        points = numbering.table.coordinates[np.concatenate(blocks)]
         size, low = np.ptp(points, axis=0), points[:, up].min()
         free = (numbering.table.coordinates[held, up] <= low + ROUNDING * size[up]).all()
-        return float(size[up] / size[axis]) if free and len(held) else 0.0
+        return float(size[up] / size[axis]) if free and size[axis] else 0.0
 
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""
