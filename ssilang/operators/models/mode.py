@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
+import ssilang.kernel.interface.family  # noqa: F401  joints as a family of elements
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
-from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
-from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.materials.behaviours import (
     CHANGED_LAWS,
     CREEP_WORDS,
@@ -39,8 +38,6 @@ from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
-
-register_family("joint", JointFamily())
 
 LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 """Elements that scripts also write in full."""

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from references.assembled import Bench
 from scipy.spatial.transform import Rotation
 
+import ssilang.kernel.interface.family  # noqa: F401  joints as a family of elements
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
