@@ -52,9 +52,14 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
     """
     told = teller(language)
     charts = charts_of(results, told)
+    found = results.summary.get("warnings", ())
+    rows = [
+        f"<li>{text(told('report.line', line=w['line']) if w['line'] else '')} {text(w['text'])}"
+        for w in found
+    ]
     sections = [
         section("checks", told("report.checks"), _checks(results, told)),
-        section("warnings", told("report.warnings"), _warnings(results, told)),
+        section("warnings", told("report.warnings"), f"<ul>{''.join(rows)}</ul>" if rows else ""),
     ]
     pictures = _pictures(results, told)
     rest = [
@@ -219,12 +224,7 @@ def _notes(results: Results, told: Teller) -> list[str]:
 
 def _unit(results: Results, unit: str) -> str:
     """A unit of the deck for an SI unit, '' where the deck names none."""
-    return written_unit(results.summary.get("units"), unit)
-
-
-def written_unit(units: dict[str, Any] | None, unit: str) -> str:
-    """What stands for an SI unit where `summary.json` names the deck's system."""
-    system = SYSTEMS.get(str((units or {}).get("system", "")))
+    system = SYSTEMS.get(str((results.summary.get("units") or {}).get("system", "")))
     return "" if system is None else system.written(unit)
 
 
@@ -264,15 +264,6 @@ def _meter(figure: dict[str, Any]) -> str:
         return ""
     part = abs(figure["value"] - figure["expected"]) / figure["tolerance"]
     return f'<meter min=0 max=1 high=1 value="{min(part, 1.0):.3g}"></meter> {100.0 * part:.3g} %'
-
-
-def _warnings(results: Results, told: Teller) -> str:
-    found = results.summary.get("warnings", ())
-    rows = [
-        f"<li>{text(told('report.line', line=w['line']) if w['line'] else '')} {text(w['text'])}"
-        for w in found
-    ]
-    return f"<ul>{''.join(rows)}</ul>" if rows else ""
 
 
 _SECTIONS = {

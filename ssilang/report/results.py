@@ -213,13 +213,7 @@ def tables_of(paths: list[Path], unread: list[str]) -> dict[str, dict[str, Float
 
 
 def _columns(path: Path) -> dict[str, FloatArray]:
-    """Columns of numbers by their titles.
-
-    Raises
-    ------
-    ValueError
-        If it holds anything else.
-    """
+    """Columns of numbers by their titles."""
     if path.stat().st_size > MOST_BYTES:
         raise OSError
     with path.open(encoding="utf-8", errors="replace", newline="") as file:

@@ -124,11 +124,6 @@ def link_to(folder: Path, run: str) -> str:
     return ""
 
 
-def label_of(row: Mapping[str, Any], names: Sequence[str]) -> str:
-    """The values of some names in a row, motions by their name."""
-    return ", ".join(Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in names)
-
-
 def grouped(
     rows: Sequence[Mapping[str, Any]], axis: str, figure: str, others: Sequence[str]
 ) -> dict[str, FloatArray]:
@@ -137,7 +132,8 @@ def grouped(
     for row in rows:
         x, y = (real(str(row.get(name))) for name in (axis, figure))
         if x is not None and y is not None:
-            groups.setdefault(label_of(row, others), []).append((x, y))
+            said = [Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in others]
+            groups.setdefault(", ".join(said), []).append((x, y))
     return {name: np.array(sorted(points)).T for name, points in groups.items()}
 
 

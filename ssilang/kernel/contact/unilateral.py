@@ -22,7 +22,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.elements.shapes.quadrature import quadrature
 from ssilang.kernel.matrices.matrix import Relations
-from ssilang.kernel.matrices.relations import joined, rows_from_table
+from ssilang.kernel.matrices.relations import across, joined, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -114,7 +114,12 @@ def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
     normals : array (n, dim)
         Outer normals of the side that the points belong to.
     """
-    shapes = _coordinates(side, points)
+    first = side.corners[:, 0]
+    edges = side.corners[:, 1:] - first[:, None]
+    metric = np.einsum("cid,cjd->cij", edges, edges)
+    right = np.einsum("ncd,cid->nci", points[:, None] - first[None], edges)
+    local = np.einsum("cij,ncj->nci", np.linalg.inv(metric), right)
+    shapes = np.concatenate([1 - local.sum(axis=2, keepdims=True), local], axis=2)
     offset = points[:, None] - side.corners[None, :, 0]
     gap = np.einsum("ncd,cd->nc", offset, side.normals)
     inside = (shapes >= -OUTSIDE).all(axis=2)
@@ -126,16 +131,6 @@ def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
     rows = np.arange(len(points))
     found = np.isfinite(cost[rows, best])
     return Projection(np.where(found, best, -1), shapes[rows, best], gap[rows, best])
-
-
-def _coordinates(side: Side, points: FloatArray) -> FloatArray:
-    """Shape functions (n, n_cells, k) of the feet of points on the cells' planes."""
-    first = side.corners[:, 0]
-    edges = side.corners[:, 1:] - first[:, None]
-    metric = np.einsum("cid,cjd->cij", edges, edges)
-    right = np.einsum("ncd,cid->nci", points[:, None] - first[None], edges)
-    local = np.einsum("cij,ncj->nci", np.linalg.inv(metric), right)
-    return np.concatenate([1 - local.sum(axis=2, keepdims=True), local], axis=2)
 
 
 NOTHING = 1e-13
@@ -372,21 +367,11 @@ def _gathered(
         return np.bincount(row, weight * values, n).astype(np.float64)
 
     middle = np.stack([mean(normal[:, i]) for i in range(d)], axis=1)
-    slips = tuple(gathered(t[row]) for t in _across(middle))
+    middle /= np.linalg.norm(middle, axis=1, keepdims=True)
+    slips = tuple(gathered(t[row]) for t in across(middle))
     x = np.einsum("nk,nkd->nd", points.shapes, slave.corners[points.cell])
     least = mean(distance - faced.gap)
     return Rows(unique, gathered(normal), slips, least, area, mean(x[:, 0]))
-
-
-def _across(normals: FloatArray) -> list[FloatArray]:
-    """Unit vectors across normals (n, dim): one in the plane, two in space."""
-    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    if normals.shape[1] == 2:
-        return [np.stack([-normals[:, 1], normals[:, 0]], axis=1)]
-    side = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = np.cross(normals, side)
-    first = first / np.linalg.norm(first, axis=1, keepdims=True)
-    return [first, np.cross(normals, first)]
 
 
 def _as_relations(

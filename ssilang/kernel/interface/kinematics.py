@@ -165,7 +165,11 @@ def _surface(
     if flat.any():
         raise MeshError("kernel.interface.joint-no-area", cells=_cells(flat), element=zone.element)
     _refuse_reversed(zone, frames[:, :, -1], np.einsum("gm,nmi->ngi", N, x_u - x_l), size)
-    _refuse_folded(zone, frames[:, :, -1])
+    normal = frames[:, :, -1]  # turns round between points where corners are in a wrong order
+    folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
+    if folded.any():
+        told = {"cells": _cells(folded), "element": zone.element}
+        raise MeshError("kernel.interface.joint-folded-part-negative", **told)
     weights = area * rule.weights * _thickness(zone, given, N, middle)
     _refuse_negative(zone, weights)
     return JointCells(zone, element, upper, lower, N, frames, weights)
@@ -194,14 +198,6 @@ def _refuse_reversed(zone: Zone, normal: FloatArray, gap: FloatArray, size: Floa
         raise MeshError(
             "kernel.interface.joint-normal-goes-first", cells=_cells(wrong), element=zone.element
         )
-
-
-def _refuse_folded(zone: Zone, normal: FloatArray) -> None:
-    """Refuse cells whose normal turns round between their points: corners in a wrong order."""
-    folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
-    if folded.any():
-        told = {"cells": _cells(folded), "element": zone.element}
-        raise MeshError("kernel.interface.joint-folded-part-negative", **told)
 
 
 def _refuse_negative(zone: Zone, weights: FloatArray) -> None:

@@ -125,11 +125,6 @@ class LinearSystem:
         """Number of displacements that stay after elimination."""
         return len(self.elimination.masters)
 
-    def _loads(self, f: FloatArray, d: FloatArray, start: FloatArray) -> FloatArray:
-        free = self.elimination.T.T @ (f - self.K @ start)
-        left = d[self.saddle] - self.rows.C[self.saddle] @ start
-        return np.concatenate([free, left])
-
     def _contact_columns(self, D: sp.csr_array) -> FloatArray:
         """Rows of `D T` at the contact rows as columns (n_masters + n_saddle, n_contact)."""
         part = (D[self.contact] @ self.elimination.T).T.toarray()
@@ -153,7 +148,9 @@ class LinearSystem:
             If unilateral conditions find no equilibrium.
         """
         start = self.elimination.particular(d)
-        b = self._loads(f, d, start)
+        free = self.elimination.T.T @ (f - self.K @ start)
+        left = d[self.saddle] - self.rows.C[self.saddle] @ start
+        b = np.concatenate([free, left])
         if len(self.contact):
             z, contact, active, iterations = self._solve_contact(b, d, start)
         else:
@@ -347,19 +344,14 @@ def solve(
         if not options.project:
             _taken(load, system.numbering)
         d = imposed_values(load, system.rows.multipliers)
-        _finite(system.numbering, f, d)
+        wrong = np.flatnonzero(~np.isfinite(f))
+        if len(wrong) or not np.isfinite(d).all():
+            at = [system.numbering.label(int(i)) for i in wrong[:1]]
+            raise KernelError("kernel.statics.load-not-finite", at=at)
         found = system.solve(f, d, options.project)
         pair = (system.rows.multipliers, found.multipliers)
         solutions.append(vector_to_field(found.u, system.numbering, multipliers=pair))
     return solutions
-
-
-def _finite(numbering: Numbering, f: FloatArray, d: FloatArray) -> None:
-    """Refuse second members that hold what no calculation can use."""
-    wrong = np.flatnonzero(~np.isfinite(f))
-    if len(wrong) or not np.isfinite(d).all():
-        at = [numbering.label(int(i)) for i in wrong[:1]]
-        raise KernelError("kernel.statics.load-not-finite", at=at)
 
 
 def _taken(load: NodeField, numbering: Numbering) -> None:

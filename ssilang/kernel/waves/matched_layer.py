@@ -54,13 +54,7 @@ def has_histories(matrix: Matrix | None) -> bool:
 def refuse_parts_of_layer(
     stiffness: Matrix | None, mass: Matrix | None, damping: Matrix | None
 ) -> None:
-    """Refuse a motion with some of a layer's matrices only.
-
-    Raises
-    ------
-    KernelError
-        Naming what is missing.
-    """
+    """Refuse a motion with some of a layer's matrices only."""
     given = {"RIGI": stiffness, "MASS": mass, "AMOR": damping}
     missing = [name for name, matrix in given.items() if not has_histories(matrix)]
     if 0 < len(missing) < len(given):
@@ -68,12 +62,7 @@ def refuse_parts_of_layer(
 
 
 def refuse_layer_at_rest(matrix: Matrix) -> None:
-    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's).
-
-    Raises
-    ------
-    KernelError
-    """
+    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's)."""
     kinds = {b.kind for b in matrix.blocks if HISTORIES[0] in b.unknowns}
     if kinds == {"RIGIDITE"}:
         raise KernelError("kernel.waves.matched-layer-at-rest")
@@ -173,7 +162,11 @@ def matched_layer(
     if apart > size:
         raise MeshError("kernel.waves.layer-apart", distance=apart)
     for zone in model.zones:
-        _refuse_inside(zone, low, high, size)
+        middles = zone.cells.coordinates[..., :2].mean(axis=1)
+        wrong = ((middles > low - size) & (middles < high + size)).all(axis=1)
+        if wrong.any():
+            place = zone.cells.shown_middle(int(np.argmax(wrong)))
+            raise MeshError("kernel.waves.layer-in-box", place=place, count=int(wrong.sum()))
     longest = max(float(longest_sides(z).max()) for z in model.zones)
     cells = float(thick[thick > 0].min() / longest)
     wanted = suited_reflection(cells) if reflection is None else reflection
@@ -211,14 +204,6 @@ def _refuse_others(zone: Zone) -> None:
         raise MaterialError(
             "kernel.waves.matched-layer-isotropic", behaviour=" ".join(zone.behaviour)
         )
-
-
-def _refuse_inside(zone: Zone, low: FloatArray, high: FloatArray, size: float) -> None:
-    middles = zone.cells.coordinates[..., :2].mean(axis=1)
-    wrong = ((middles > low - size) & (middles < high + size)).all(axis=1)
-    if wrong.any():
-        place = zone.cells.shown_middle(int(np.argmax(wrong)))
-        raise MeshError("kernel.waves.layer-in-box", place=place, count=int(wrong.sum()))
 
 
 def _blocks(

@@ -375,13 +375,7 @@ def outline_of(code: LawCode, p: FloatArray, dimension: int) -> Outline:
 
 
 def _check(parameters: FloatArray) -> None:
-    """Refuse a macro-element without stiffness or size.
-
-    Raises
-    ------
-    MaterialError
-        Naming the parameter.
-    """
+    """Refuse a macro-element without stiffness or size."""
     columns = columns_of(parameters)
     refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("LARG", "LONG", "RAYO"):

@@ -161,7 +161,9 @@ def _dissect(
         here = order[place]
         part_of[:] = -1
         part_of[here] = part
-        links = _inside(links, part_of)
+        one, other = part_of[links[0]], part_of[links[1]]
+        within = (one == other) & (one >= 0)
+        links = links[0][within], links[1][within]
         known = _Points(here, first, part, links)
         kind, cut = _best_cuts(known, parts.size, axes)
         # and those that no cut would part
@@ -178,13 +180,6 @@ def _dissect(
     return order, start, parent
 
 
-def _inside(links: Links, part_of: IntArray) -> Links:
-    """Links whose ends are of one part."""
-    one, other = part_of[links[0]], part_of[links[1]]
-    kept = (one == other) & (one >= 0)
-    return links[0][kept], links[1][kept]
-
-
 def _best_cuts(
     points: _Points, size: IntArray, axes: list[_Coordinate]
 ) -> tuple[IntArray, BoolArray]:
@@ -195,9 +190,17 @@ def _best_cuts(
     spans = np.array([_spans(axis.x[points.of], points.first) for axis in axes])
     widest = spans.max(axis=0)
     for axis, span in zip(axes, spans, strict=True):
-        cut = _middles(points, axis, size) - 1e-9 * widest
+        many = len(axis.values)
+        ordered = np.sort(points.part * many + axis.ranks[points.of])
+        cut = axis.values[ordered[points.first + size // 2] % many] - 1e-9 * widest
         upper = axis.x[points.of] >= cut[points.part]
-        touching = _touching(points, upper, len(axis.x))
+        n = len(axis.x)  # all points
+        side, touched = np.empty(n, bool), np.zeros(n, bool)
+        side[points.of] = upper
+        one, other = points.links
+        crossing = np.flatnonzero(side[one] != side[other])
+        touched[one[crossing]] = touched[other[crossing]] = True
+        touching = touched[points.of]
         below = points.numbers(~upper)
         above_touching, below_touching = (points.numbers(touching & u) for u in (upper, ~upper))
         score = np.minimum(above_touching, below_touching)
@@ -215,24 +218,6 @@ def _best_cuts(
 def _spans(x: FloatArray, first: IntArray) -> FloatArray:
     span: FloatArray = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
     return span
-
-
-def _middles(points: _Points, axis: _Coordinate, size: IntArray) -> FloatArray:
-    """Coordinate of each part that half of its points have before it."""
-    many = len(axis.values)
-    ordered = np.sort(points.part * many + axis.ranks[points.of])
-    middles: FloatArray = axis.values[ordered[points.first + size // 2] % many]
-    return middles
-
-
-def _touching(points: _Points, upper: BoolArray, n: int) -> BoolArray:
-    """Which points of a side are linked to the other; n is the number of all points."""
-    side, touching = np.empty(n, bool), np.zeros(n, bool)
-    side[points.of] = upper
-    one, other = points.links
-    crossing = np.flatnonzero(side[one] != side[other])
-    touching[one[crossing]] = touching[other[crossing]] = True
-    return touching[points.of]
 
 
 def _sorted(points: _Points, kind: IntArray) -> IntArray:

@@ -133,7 +133,11 @@ def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
     ptr, rows, above = _rows_below(tree, indptr, indices)
-    rows, at = rows.astype(np.int32), _places(tree.first, ptr)
+    k, below = np.diff(tree.first), np.diff(ptr)
+    whole, rest = np.divmod(k, WIDTH)
+    sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
+    sizes += rest * (rest + below)
+    rows, at = rows.astype(np.int32), np.append(0, np.cumsum(sizes))
     updates, waiting, front = _updates(tree.first, ptr, above)
     return _Plan(Columns(indptr, indices, lower.data), updates, ptr, rows, at, waiting, front)
 
@@ -179,15 +183,6 @@ def _depths(parent: IntArray) -> IntArray:
         depth += at >= 0
         at = np.where(at >= 0, parent[at], -1)
     return depth
-
-
-def _places(first: IntArray, ptr: IntArray) -> IntArray:
-    """`at` of the panels."""
-    k, below = np.diff(first), np.diff(ptr)
-    whole, rest = np.divmod(k, WIDTH)
-    sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
-    sizes += rest * (rest + below)
-    return np.append(0, np.cumsum(sizes))
 
 
 def _updates(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[Updates, int, int]:

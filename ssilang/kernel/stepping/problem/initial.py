@@ -214,13 +214,7 @@ def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArr
 
 
 def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
-    """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor.
-
-    Raises
-    ------
-    KernelError
-        If the mass is not positive.
-    """
+    """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor."""
     diagonal, columns = mass.diagonal(), force.reshape(len(force), -1).T
     found = [
         conjugate_gradients(

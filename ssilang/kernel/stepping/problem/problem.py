@@ -148,7 +148,8 @@ def make_problem(inputs: Inputs) -> Problem:
     given = tuple(m for m in matrices.values() if m is not None)
     assert stiffness is not None
     numbering = numbering_of(*given)
-    rows = constraint_matrix(_with_relations_of(stiffness, given), numbering)
+    relations = tuple(r for m in given for r in m.relations)
+    rows = constraint_matrix(Matrix(stiffness.table, (), relations), numbering)
     loading = loading_of(inputs.load, numbering, rows.multipliers)
     rows, imposed, contact = split_rows(rows, loading.imposed)
     loading = replace(loading, imposed=imposed)
@@ -160,7 +161,12 @@ def make_problem(inputs: Inputs) -> Problem:
     check_values(constraints, loading.imposed, numbering)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
-    _refuse_not_finite(assembled, loading)
+    for name, matrix in assembled.items():
+        if not np.isfinite(matrix.data).all():
+            raise KernelError("kernel.stepping.matrix-values-not-finite", name=name)
+    for _, ordinates in loading.curves:
+        if not np.isfinite(ordinates).all():
+            raise FieldError("kernel.stepping.load-curve-values-not")
     refuse_negative_mass(assembled["M"], numbering, HISTORIES)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
@@ -227,23 +233,9 @@ def _unknowns_of(zones: tuple[Zone, ...], like: Matrix) -> Matrix:
     return Matrix(like.table, tuple(blocks))
 
 
-def _with_relations_of(stiffness: Matrix, matrices: tuple[Matrix, ...]) -> Matrix:
-    relations = tuple(r for m in matrices for r in m.relations)
-    return Matrix(stiffness.table, (), relations)
-
-
 def _assembled(matrix: Matrix | None, numbering: Numbering) -> sp.csr_array:
     n = numbering.size
     return sp.csr_array((n, n)) if matrix is None else assemble(matrix, numbering)
-
-
-def _refuse_not_finite(matrices: dict[str, sp.csr_array], loading: Loading) -> None:
-    for name, matrix in matrices.items():
-        if not np.isfinite(matrix.data).all():
-            raise KernelError("kernel.stepping.matrix-values-not-finite", name=name)
-    for _, ordinates in loading.curves:
-        if not np.isfinite(ordinates).all():
-            raise FieldError("kernel.stepping.load-curve-values-not")
 
 
 def _start(given: NodeField | None, numbering: Numbering) -> FloatArray:

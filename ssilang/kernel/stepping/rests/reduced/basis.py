@@ -184,13 +184,7 @@ class Reduction:
 
 
 def refuse_reduction(problem: Problem) -> None:
-    """Refuse what reduced models do not do.
-
-    Raises
-    ------
-    KernelError
-        For unilateral and non-associated relations, adaptive or conserving steps.
-    """
+    """Refuse what reduced models do not do."""
     if problem.contact is not None:
         raise KernelError("kernel.stepping.reduction-unilateral")
     if not problem.constraints.associated:
@@ -222,7 +216,11 @@ class Basis:
         self.meet(problem)
         self.inputs = np.column_stack([self.J.T.toarray(), self.F])
         static = invert(closed_stiffness(problem), True, problem.solver)
-        self._make_room(largest, min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static)))
+        s = min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static))
+        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
+        self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
+        self._KV, self._RV = np.zeros((2, largest, largest))
+        self.size = self._fixed = 0
         self._inverse = self._inverted(self.shift**2)
         self._last = np.zeros((self.T.shape[1], 0))
         self._first_vectors(static, 2.0 / dt)
@@ -251,13 +249,6 @@ class Basis:
         self.F = np.hstack([forces, supports.columns.forces.T])
         start = np.column_stack([problem.u, v, a]) - supports.columns.X @ supports.start.T
         self._start = on_motions(T, start)
-
-    def _make_room(self, largest: int, s: float) -> None:
-        """Room for vectors that the shift s (1/s) measures."""
-        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
-        self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
-        self._KV, self._RV = np.zeros((2, largest, largest))
-        self.size = self._fixed = 0
 
     @property
     def vectors(self) -> FloatArray:

@@ -119,10 +119,6 @@ class States:
                 r = block.shape[1]
                 part = np.einsum("hrb,hrc->bc", block, x[:, :r])
                 x[:, :r] -= block @ part
-            x = _whitened(x)
+            found, lengths, _ = np.linalg.svd(np.concatenate(x), full_matrices=False)
+            x = np.stack(np.split(found[:, lengths > DEPENDENT], 2))
         self.blocks.append(x)
-
-
-def _whitened(x: FloatArray) -> FloatArray:
-    found, lengths, _ = np.linalg.svd(np.concatenate(x), full_matrices=False)
-    return np.stack(np.split(found[:, lengths > DEPENDENT], 2))

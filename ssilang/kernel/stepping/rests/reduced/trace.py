@@ -243,7 +243,13 @@ class Trace:
             self.motion, row, self.energies[run.first + 1 : run.last + 1], KEPT,
             jumps=np.zeros((len(row), *self.motion.w.shape)),
         )  # fmt: skip
-        done, turns, course = self._advance(self._step(run.dt), factors, to)
+        # steps as long as known ones but for rounding are these
+        dt = next((t for t in self._steps if abs(t - run.dt) <= SAME * t), run.dt)
+        if dt not in self._steps:
+            n, q = newmark_of(self.problem.scheme, dt), len(self.motion.delta)
+            many, m = self.model.trained and q > self.model.size, self._reduced
+            self._steps[dt] = Coordinates(m, n, self._joints) if many else reduced_step(m, n, q)
+        done, turns, course = self._advance(self._steps[dt], factors, to)
         if done < len(row):
             return None
         self.iterations = max(self.iterations, turns)
@@ -277,15 +283,6 @@ class Trace:
             x.energies[:] = history[-1]
         self._rates = np.array([course.v[-1], course.a[-1]])
         return done, turns, course
-
-    def _step(self, dt: float) -> ReducedStep | Coordinates:
-        """What steps dt need, or known ones that are as long but for rounding."""
-        dt = next((known for known in self._steps if abs(known - dt) <= SAME * known), dt)
-        if dt not in self._steps:
-            n, q = newmark_of(self.problem.scheme, dt), len(self.motion.delta)
-            many, m = self.model.trained and q > self.model.size, self._reduced
-            self._steps[dt] = Coordinates(m, n, self._joints) if many else reduced_step(m, n, q)
-        return self._steps[dt]
 
 
 class Difference:

@@ -57,7 +57,8 @@ class FullNewtonSolver:
             residual = float(np.abs(rest).max(initial=0.0)) / max(scale, 1e-300)
             if turn > 1 and residual <= TOLERANCE:
                 motion.contact[:] = pushed
-                self._commit(motion, trial)
+                if self.interface is not None:
+                    accept(trial, motion.joints)
                 return StepOutcome(du, turn, residual)
             try:
                 step, pushed = self._turn(motion, self.A + K, free, du, gap, pushed)
@@ -82,13 +83,7 @@ class FullNewtonSolver:
         gap: FloatArray,
         pushed: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:
-        """Increment of du for what is out of balance without contact, and the contact forces.
-
-        Raises
-        ------
-        SingularFactorError
-            If the matrix is singular and no relation holds what is free.
-        """
+        """Increment of du for what is out of balance without contact, and the contact forces."""
         T, V = self.constraints.T, self.constraints.V
         matrix = sp.csr_array(V.T @ A @ T)
         if self.contact is None or self.forces is None:
@@ -124,8 +119,3 @@ class FullNewtonSolver:
         interface_stiffness(joints.points, trial.D, K)
         tangent = sp.csr_array(joints.J.T @ sp.csr_array(self.share * K) @ joints.J)
         return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
-
-    def _commit(self, motion: Motion, trial: Trial) -> None:
-        if self.interface is not None:
-            now = motion.joints
-            accept(trial, now)

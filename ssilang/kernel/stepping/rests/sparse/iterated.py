@@ -140,7 +140,12 @@ class IteratedSolver:
     def _newton(
         self, now: InterfaceState, trial: Trial, r: FloatArray, start: FloatArray
     ) -> tuple[FloatArray, StepOutcome]:
-        reference = self._reference(now, r, start)
+        s, forces = self.system, [r]  # the joints' among them: the body may be one at rest
+        if start.any():
+            forces.append(s.A @ start)
+        if self.interface is not None:
+            forces.append(self.interface.J.T @ now.f)
+        reference = sum(float(np.linalg.norm(s.T.T @ f)) for f in forces) or 1.0
         du, rest = self._begin(now, trial, r, start)
         size, enough = float(np.linalg.norm(rest)), self.tolerance * reference
         for turn in range(1, TURNS + 1):
@@ -176,15 +181,6 @@ class IteratedSolver:
                 return led, left
             rest = self._rest(now, trial, r, start)
         return start.copy(), rest
-
-    def _reference(self, now: InterfaceState, r: FloatArray, start: FloatArray) -> float:
-        """Size of the forces of a step, the joints' among them: it may be one at rest."""
-        s, forces = self.system, [r]
-        if start.any():
-            forces.append(s.A @ start)
-        if self.interface is not None:
-            forces.append(self.interface.J.T @ now.f)
-        return sum(float(np.linalg.norm(s.T.T @ f)) for f in forces) or 1.0
 
     def _rest(self, now: InterfaceState, trial: Trial, r: FloatArray, du: FloatArray) -> FloatArray:
         """What is out of balance at du, on the scaled unknowns; the joints' answer into `trial`."""
