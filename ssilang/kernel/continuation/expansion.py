@@ -173,17 +173,14 @@ class FrequencyProblem:
         found: FloatArray = self.T.T @ (self.loading.forces @ self.loading.at(np.array([t]))[0])
         return found
 
-    def _slopes(self, t: float) -> tuple[FloatArray, float]:
-        h = CURVE_STEP * max(abs(t), 1e-3)
-        load = (self.load(t + h) - self.load(t - h)) / (2 * h)
-        return load, (self.frequency(t + h) - self.frequency(t - h)) / (2 * h)
-
     def at(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Residual and derivatives in q (r,) and t."""
         K, C, M = self.parts
         w = self.frequency(t)
         Z = K + w * C + w * w * M
-        load, (load_rate, rate) = self.load(t), self._slopes(t)
+        h = CURVE_STEP * max(abs(t), 1e-3)
+        load, load_rate = self.load(t), (self.load(t + h) - self.load(t - h)) / (2 * h)
+        rate = (self.frequency(t + h) - self.frequency(t - h)) / (2 * h)
         linear = Z @ u
         R, J = linear - load, Z
         if self.samples is not None:

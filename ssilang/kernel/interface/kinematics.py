@@ -245,8 +245,7 @@ def point_values(
     if values.shape[1] == 2 * m and support == "NOEUD":
         values = (values[:, :m] + values[:, m:]) / 2
     if values.shape[1] == m > 1 and support == "NOEUD":
-        interpolated: FloatArray = values @ shape.T
-        return interpolated
+        return values @ shape.T
     if values.shape[1] in (1, g):
         return np.broadcast_to(values, (n_cells, g)).copy()
     raise MaterialError(

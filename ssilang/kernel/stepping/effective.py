@@ -139,8 +139,7 @@ def _responses(constraints: Constraints, inverse: Inverse, right: sp.csc_array) 
 
 def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> FloatArray:
     assert problem.interface is not None
-    S: FloatArray = problem.interface.J @ _responses(problem.constraints, inverse, right)
-    return S
+    return problem.interface.J @ _responses(problem.constraints, inverse, right)
 
 
 def ordering_of(problem: Problem, right: sp.csc_array) -> Ordering | None:

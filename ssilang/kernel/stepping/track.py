@@ -226,22 +226,13 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """What reactions of a few unknowns follow from: `M a + C v + K u + J^T f - F`.
+    """What reactions of a few unknowns follow from: `M a + C v + K u + J^T f - F`."""
 
-    Attributes
-    ----------
-    at : array (p,)
-        The unknowns.
-    near : array (c,)
-        All that act on them.
-    M, C, K : csr arrays (p, c)
-    """
-
-    at: IntArray
-    near: IntArray
-    M: sp.csr_array
-    C: sp.csr_array
-    K: sp.csr_array
+    at: IntArray  # (p,) the unknowns
+    near: IntArray  # (c,) all that act on them
+    M: sp.csr_array  # (p, c)
+    C: sp.csr_array  # (p, c)
+    K: sp.csr_array  # (p, c)
 
     def of(self, rows: Rows) -> FloatArray:
         """Reactions (k, p) of rows that hold what is near."""

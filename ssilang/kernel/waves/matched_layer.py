@@ -254,24 +254,13 @@ def _inertia(zone: Zone, parameters: ZoneField, stretching: Stretching) -> list[
 
 @dataclass(frozen=True, eq=False)
 class _Histories:
-    """Unknown stress histories of a zone, at nodes of their own: one at each integration point.
-
-    Attributes
-    ----------
-    nodes : array (n_cells, p)
-    compliances : array (n_cells, p, 3, 3)
-        Times volumes.
-    ties : arrays (n_cells, 3 p, 2 k)
-        `volume sym(grad u L)`, with L_p (stiffness) and L_e (damping).
-    factors : arrays (n_cells, p)
-        c, a, b.
-    """
+    """Unknown stress histories of a zone, at nodes of their own: one at each integration point."""
 
     zone: Zone
-    nodes: IntArray
-    compliances: FloatArray
-    ties: tuple[FloatArray, FloatArray]
-    factors: tuple[FloatArray, FloatArray, FloatArray]
+    nodes: IntArray  # (n_cells, p)
+    compliances: FloatArray  # (n_cells, p, 3, 3) times volumes
+    ties: tuple[FloatArray, FloatArray]  # (n_cells, 3 p, 2 k) `volume sym(grad u L)`, L_p then L_e
+    factors: tuple[FloatArray, FloatArray, FloatArray]  # (n_cells, p) c, a, b
 
     @classmethod
     def of(cls, zone: Zone, parameters: ZoneField, stretching: Stretching) -> _Histories:

@@ -52,29 +52,14 @@ _PATTERNS = np.stack([_XI * _ETA, _XI * _ETA * _ZETA])
 
 @dataclass(frozen=True, eq=False)
 class _Brick:
-    """Some bricks seen from their centres.
+    """Some bricks seen from their centres."""
 
-    Attributes
-    ----------
-    axes : array (n, 3, 3)
-        Unit rows: along the first reference direction, in the surface, normal.
-    steps : array (n, 3, 3)
-        Rows: derivative of the place by each reference coordinate at the centre.
-    slopes : array (n, 3, 8)
-        Mean of the gradients of the shape functions over the line of points.
-    share : array (n, p)
-        Part of the volume that each point has.
-    line : CellGeometry
-        Gradients and volumes at the points.
-    nodes : array (n, 8, 3)
-    """
-
-    axes: FloatArray
-    steps: FloatArray
-    slopes: FloatArray
-    share: FloatArray
-    line: CellGeometry
-    nodes: FloatArray
+    axes: FloatArray  # (n, 3, 3) unit rows: along the first direction, in the surface, normal
+    steps: FloatArray  # (n, 3, 3) rows: derivative of the place by each coordinate, at the centre
+    slopes: FloatArray  # (n, 3, 8) mean gradients of the shape functions over the line of points
+    share: FloatArray  # (n, p) part of the volume that each point has
+    line: CellGeometry  # gradients and volumes at the points
+    nodes: FloatArray  # (n, 8, 3)
 
 
 def _bricks(zone: Zone, cells: slice = slice(None), support: Support = "STRESSES") -> _Brick:

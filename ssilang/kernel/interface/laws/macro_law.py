@@ -356,8 +356,7 @@ def _of_rectangle(slopes: FloatArray, v: FloatArray) -> FloatArray:
     b = np.where(flat, a, small)
     ends = ((a + b - v, 1.0), (a - b - v, -1.0), (b - a - v, -1.0), (-a - b - v, 1.0))
     cut = sum(sign * np.maximum(x, 0.0) ** 2 for x, sign in ends) / (8.0 * a * b)
-    found: FloatArray = np.clip(np.where(flat, (a - v) / (2.0 * a), cut), 0.0, 1.0)
-    return found
+    return np.clip(np.where(flat, (a - v) / (2.0 * a), cut), 0.0, 1.0)
 
 
 def outline_of(code: LawCode, p: FloatArray, dimension: int) -> Outline:

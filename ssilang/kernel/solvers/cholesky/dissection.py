@@ -23,21 +23,11 @@ THIN = 0.3  # axes along which a part is shorter than this of its longest are no
 
 @dataclass(frozen=True, eq=False)
 class Tree:
-    """Order of elimination.
+    """Order of elimination."""
 
-    Attributes
-    ----------
-    order : array (n,)
-        Unknown at each place.
-    first : array (n_supernodes + 1,)
-        First place of each supernode; descendants stand right before their ancestor.
-    parent : array (n_supernodes,)
-        Supernode that separated it from others, -1 for roots.
-    """
-
-    order: IntArray
-    first: IntArray
-    parent: IntArray
+    order: IntArray  # (n,) unknown at each place
+    first: IntArray  # (n_supernodes + 1,) first places; descendants right before their ancestor
+    parent: IntArray  # (n_supernodes,) supernode that separated it from others, -1 for roots
 
 
 def dissection(A: sp.csr_array, points: FloatArray, last: IntArray) -> Tree:
@@ -187,7 +177,9 @@ def _best_cuts(
     best, kinds = np.full(len(size), -1), np.zeros(len(points.of), np.int64)
     if not len(size):
         return kinds, best >= 0
-    spans = np.array([_spans(axis.x[points.of], points.first) for axis in axes])
+    first, places = points.first, [axis.x[points.of] for axis in axes]
+    ends = [(np.maximum.reduceat(x, first), np.minimum.reduceat(x, first)) for x in places]
+    spans = np.array([high - low for high, low in ends])
     widest = spans.max(axis=0)
     for axis, span in zip(axes, spans, strict=True):
         many = len(axis.values)
@@ -213,11 +205,6 @@ def _best_cuts(
         kind = np.where(border, BETWEEN, np.where(upper, ABOVE, BELOW))
         kinds = np.where(better[points.part], kind, kinds)
     return kinds, best >= 0
-
-
-def _spans(x: FloatArray, first: IntArray) -> FloatArray:
-    span: FloatArray = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
-    return span
 
 
 def _sorted(points: _Points, kind: IntArray) -> IntArray:

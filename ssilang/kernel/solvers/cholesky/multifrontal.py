@@ -60,21 +60,11 @@ class Panels(NamedTuple):
 
 
 class Updates(NamedTuple):
-    """What supernodes leave to those of their first rows below, -1 for none.
+    """What supernodes leave to those of their first rows below, -1 for none."""
 
-    Attributes
-    ----------
-    child : array (n_supernodes,)
-        The last one whose update each takes.
-    sibling : array (n_supernodes,)
-        The one that is taken after each.
-    spot : array (n_supernodes,)
-        Where the update of each waits on the stack.
-    """
-
-    child: IntArray
-    sibling: IntArray
-    spot: IntArray
+    child: IntArray  # (n_supernodes,) the last one whose update each takes
+    sibling: IntArray  # (n_supernodes,) the one that is taken after each
+    spot: IntArray  # (n_supernodes,) where the update of each waits on the stack
 
 
 class Columns(NamedTuple):

@@ -96,13 +96,11 @@ class OrthogonalConstraints:
 
     def particular(self, d: FloatArray) -> FloatArray:
         """A displacement (n,) with `C u = d`."""
-        found: FloatArray = self._inverse @ d
-        return found
+        return self._inverse @ d
 
     def multipliers(self, residual: FloatArray) -> FloatArray:
         """lambda (n_rows,) with `C^T lambda = residual`, of least norm."""
-        found: FloatArray = self._inverse.T @ residual
-        return found
+        return self._inverse.T @ residual
 
     def pushers(self, rows: IntArray) -> FloatArray:
         """Columns (n, m) of the inverse."""

@@ -188,8 +188,7 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
         q[heavy] = _solved(problem, sp.csc_array(mass[heavy][:, heavy]), (T.T @ force)[heavy])
     if not np.isfinite(q).all():
         raise KernelError("kernel.stepping.mass-matrix-singular-no")
-    a: FloatArray = T @ q
-    return a
+    return T @ q
 
 
 def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArray:

@@ -310,8 +310,7 @@ class Difference:
     @property
     def relative(self) -> FloatArray:
         """Relative differences of jumps, displacements, rotations, velocities, accelerations."""
-        found: FloatArray = self._gap / np.where(self._size > 0.0, self._size, 1.0)
-        return found
+        return self._gap / np.where(self._size > 0.0, self._size, 1.0)
 
     @property
     def estimate(self) -> float:

@@ -71,8 +71,7 @@ class FullNewtonSolver:
         """Forces (n,) of relations and friction."""
         if self.contact is None:
             return 0.0
-        found: FloatArray = self.contact.pushing.T @ forces
-        return found
+        return self.contact.pushing.T @ forces
 
     def _turn(
         self,

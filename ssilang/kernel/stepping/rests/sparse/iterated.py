@@ -50,29 +50,14 @@ SYMMETRIC = 1e-12  # of the largest tangent
 
 @dataclass(frozen=True, eq=False)
 class IteratedSystem:
-    """The matrix of a step with all joints closed, and its levels.
+    """The matrix of a step with all joints closed, and its levels."""
 
-    Attributes
-    ----------
-    factor : MultigridFactor
-        Of `scale T^T (A + c J^T K_0 J) T scale`, K_0 the closed joints' stiffness.
-    scale : array (r,)
-    T : csr array (n, r)
-        Motions of the scaled unknowns.
-    J : csr array (q, r)
-        Their jumps.
-    A : csr array (n, n)
-        The matrix without joints.
-    closed : array (n_points, d, d)
-        Tangents of the closed joints.
-    """
-
-    factor: MultigridFactor
-    scale: FloatArray
-    T: sp.csr_array
-    J: sp.csr_array
-    A: sp.csr_array
-    closed: FloatArray
+    factor: MultigridFactor  # of `scale T^T (A + c J^T K_0 J) T scale`, K_0 of the closed joints
+    scale: FloatArray  # (r,)
+    T: sp.csr_array  # (n, r) motions of the scaled unknowns
+    J: sp.csr_array  # (q, r) their jumps
+    A: sp.csr_array  # (n, n) the matrix without joints
+    closed: FloatArray  # (n_points, d, d) tangents of the closed joints
 
 
 def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> IteratedSystem:
@@ -190,8 +175,7 @@ class IteratedSolver:
             trial.delta[:] = now.delta + trial.y
             interface_response(self.interface.points, now.state, trial.delta, trial)
             rest -= self.interface.J.T @ (self.share * (trial.f - now.f))
-        found: FloatArray = self.system.T.T @ rest
-        return found
+        return self.system.T.T @ rest
 
     def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
         """Newton's increment (n,), and whether the linear iteration led anywhere."""
