@@ -40,20 +40,11 @@ _MOST_TAGS = 200  # different numbers in an array of integers that tells parts
 
 @dataclass(frozen=True)
 class Foreign:
-    """A format that meshio reads.
+    """A format that meshio reads."""
 
-    Attributes
-    ----------
-    reader : str
-        What meshio calls it.
-    endings : tuple of str
-    library : str
-        What meshio needs for it beside itself, '' if nothing.
-    """
-
-    reader: str
+    reader: str  # what meshio calls it
     endings: tuple[str, ...]
-    library: str = ""
+    library: str = ""  # what meshio needs for it beside itself, '' if nothing
 
 
 FOREIGN = {

@@ -80,21 +80,11 @@ Thing = Polygons | Dots | Darts
 
 @dataclass(frozen=True, eq=False)
 class Photograph:
-    """What the eye sees.
+    """What the eye sees."""
 
-    Attributes
-    ----------
-    image : array (rows, columns, 3) of uint8
-        From the upper left corner.
-    depth : array (rows, columns)
-        z-buffer: 0 at the eye, 1 where nothing is.
-    reach : (float, float)
-        How near to the eye (`View.depth`) 0 and 1 are.
-    """
-
-    image: NDArray[np.uint8]
-    depth: NDArray[np.float32]
-    reach: tuple[float, float]
+    image: NDArray[np.uint8]  # (rows, columns, 3) of uint8 from the upper left corner
+    depth: NDArray[np.float32]  # (rows, columns) z-buffer: 0 at the eye, 1 where nothing is
+    reach: tuple[float, float]  # how near to the eye (`View.depth`) 0 and 1 of the depth are
 
     def shows(self, flat: FloatArray, near: FloatArray, bounds: FloatArray) -> NDArray[np.bool_]:
         """Whether points are seen: on the sheet (n, 2), `near` the eye (n,).

@@ -208,30 +208,15 @@ STICKING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class FrictionRows:
-    """Places that rub.
+    """Places that rub."""
 
-    Attributes
-    ----------
-    H : csr array (k d, n)
-        Slips, d rows a place.
-    width : int
-        d, 1 in the plane, 2 in space.
-    normal : array (k,)
-        Unilateral row of each place, -1 for none.
-    coefficient, constant : arrays (k,)
-    watched : csr array (k, n)
-        Rows whose values are the limits where `normal` is -1.
-    offset : array (k,)
-        Values of these at zero displacement.
-    """
-
-    H: sp.csr_array
-    width: int
-    normal: IntArray
-    coefficient: FloatArray
-    constant: FloatArray
-    watched: sp.csr_array
-    offset: FloatArray
+    H: sp.csr_array  # (k d, n) slips, d rows a place
+    width: int  # d, 1 in the plane, 2 in space
+    normal: IntArray  # (k,) unilateral row of each place, -1 for none
+    coefficient: FloatArray  # (k,)
+    constant: FloatArray  # (k,)
+    watched: sp.csr_array  # (k, n) rows whose values are the limits where `normal` is -1
+    offset: FloatArray  # (k,) values of these at zero displacement
 
     def sticking(self, pushes: FloatArray, tau: FloatArray, u: FloatArray) -> BoolArray:
         """Places (k,) whose friction tau (k d,) stays under its limit."""

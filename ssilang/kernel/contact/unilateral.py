@@ -88,21 +88,11 @@ def side_of(mesh: Mesh, dimension: int) -> Side:
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """Where points fall on a side.
+    """Where points fall on a side."""
 
-    Attributes
-    ----------
-    cell : array (n,)
-        Cell, -1 for none.
-    shapes : array (n, k)
-        Shape functions there.
-    gap : array (n,)
-        Distance along the cell's normal, negative inside the body.
-    """
-
-    cell: IntArray
-    shapes: FloatArray
-    gap: FloatArray
+    cell: IntArray  # (n,) cell, -1 for none
+    shapes: FloatArray  # (n, k) shape functions there
+    gap: FloatArray  # (n,) distance along the cell's normal, negative inside the body
 
 
 def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
@@ -148,20 +138,11 @@ class ContactRelations:
 
 @dataclass(frozen=True)
 class Rubbing:
-    """Coulomb's friction of two sides.
-
-    Attributes
-    ----------
-    coefficient : float
-    cohesion : float
-        A stress.
-    turned : bool
-        Whether the model turns about its axis: areas are those of rings.
-    """
+    """Coulomb's friction of two sides."""
 
     coefficient: float
-    cohesion: float = 0.0
-    turned: bool = False
+    cohesion: float = 0.0  # a stress
+    turned: bool = False  # whether the model turns about its axis: areas are those of rings
 
 
 @dataclass(frozen=True, eq=False)

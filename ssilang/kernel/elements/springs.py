@@ -36,15 +36,9 @@ from ssilang.kernel.materials.model import Mode, Zone
 
 
 class StrainlessFamily(ElementFamily):
-    """A family without strains and stresses; its own methods make its matrices.
+    """A family without strains and stresses; its own methods make its matrices."""
 
-    Attributes
-    ----------
-    refusal : str
-        Code of the error where strains are asked for.
-    """
-
-    refusal: str
+    refusal: str  # code of the error where strains are asked for
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """None."""

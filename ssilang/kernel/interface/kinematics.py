@@ -25,29 +25,15 @@ from ssilang.messages.message import Sentence
 
 @dataclass(frozen=True, eq=False)
 class JointCells:
-    """Joints of one zone, ready to give jumps.
-
-    Attributes
-    ----------
-    zone : Zone
-    element : JointElement
-    upper, lower : array (n, m)
-        Facing nodes of the two sides, as made (not resolved).
-    shape : array (g, m)
-        Interpolation of the nodal jumps at the points.
-    frames : array (n, g, d, d)
-        Rows t1, [t2,] n.
-    weights : array (n, g)
-        Area of each point (times thickness, or 2 pi r); 1 for a joint of two points.
-    """
+    """Joints of one zone, ready to give jumps."""
 
     zone: Zone
     element: JointElement
-    upper: IntArray
+    upper: IntArray  # (n, m) facing nodes of the two sides, as made (not resolved)
     lower: IntArray
-    shape: FloatArray
-    frames: FloatArray
-    weights: FloatArray
+    shape: FloatArray  # (g, m) interpolation of the nodal jumps at the points
+    frames: FloatArray  # (n, g, d, d) rows t1, [t2,] n
+    weights: FloatArray  # (n, g) area of each point (times thickness, or 2 pi r); 1 of two points
 
     @property
     def operator(self) -> FloatArray:

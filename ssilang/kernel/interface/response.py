@@ -39,23 +39,13 @@ class Joints(NamedTuple):
 
 
 class InterfaceState(NamedTuple):
-    """What an interface is at the end of the last converged step.
+    """What an interface is at the end of the last converged step."""
 
-    Attributes
-    ----------
-    delta, f : arrays (q,)
-        Jumps of the pairs, forces on them.
-    w, t : arrays (n_points, d)
-        Local jumps and tractions, normal last.
-    state : array (n_points, N_STATE)
-        Internal variables of the laws.
-    """
-
-    delta: FloatArray
-    f: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
+    delta: FloatArray  # (q,) jumps of the pairs
+    f: FloatArray  # (q,) forces on them
+    w: FloatArray  # (n_points, d) local jumps, normal last
+    t: FloatArray  # (n_points, d) tractions
+    state: FloatArray  # (n_points, N_STATE) internal variables of the laws
 
 
 class Trial(NamedTuple):

@@ -90,26 +90,15 @@ class Solution:
 
 @dataclass(eq=False)
 class LinearSystem:
-    """A matrix with its conditions, factorised once.
-
-    Attributes
-    ----------
-    numbering, K, rows : unknowns, stiffness (n, n), conditions.
-    elimination : Elimination
-        Of the equalities that are eliminated.
-    saddle, contact : array of int
-        Rows that stand in the saddle point; rows that may be active or not.
-    inverse : Inverse
-        Of `[T^T K T, T^T D^T; C T, 0]` with the saddle rows.
-    """
+    """A matrix with its conditions, factorised once."""
 
     numbering: Numbering
-    K: sp.csr_array
-    rows: ConstraintRows
-    elimination: Elimination
-    saddle: IntArray
-    contact: IntArray
-    inverse: Inverse
+    K: sp.csr_array  # (n, n) stiffness
+    rows: ConstraintRows  # conditions
+    elimination: Elimination  # of the equalities that are eliminated
+    saddle: IntArray  # rows that stand in the saddle point
+    contact: IntArray  # rows that may be active or not
+    inverse: Inverse  # of `[T^T K T, T^T D^T; C T, 0]` with the saddle rows
     last_active: BoolArray | None = None
     _flexibility: FloatArray | None = field(default=None, repr=False)
 

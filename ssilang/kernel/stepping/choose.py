@@ -178,35 +178,17 @@ def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
 
 @dataclass(frozen=True)
 class Rule:
-    """One loop: when it fits, how it is made, what is said of it.
-
-    Attributes
-    ----------
-    name : str
-    loop : str
-        The word of the summary.
-    when : str
-        The condition, for the table.
-    said : str
-        Code of what is said of the choice; `q` is the number of the interface's unknowns.
-    fits, make : callables
-    renewable : bool
-        Whether loads may change from step to step (CHARMECA).
-    light : bool
-        Whether a run without its energies costs much less.
-    factorises : bool
-        Whether the step's matrix is factorised at each iteration.
-    """
+    """One loop: when it fits, how it is made, what is said of it."""
 
     name: str
-    loop: str
-    when: str
-    said: str
+    loop: str  # the word of the summary
+    when: str  # the condition, for the table
+    said: str  # code of what is said of the choice; `q` is the number of the interface's unknowns
     fits: Callable[[Case], bool]
     make: Callable[[Case], Loop]
-    renewable: bool = False
-    light: bool = False
-    factorises: bool = False
+    renewable: bool = False  # whether loads may change from step to step (CHARMECA)
+    light: bool = False  # whether a run without its energies costs much less
+    factorises: bool = False  # whether the step's matrix is factorised at each iteration
 
 
 RULES = (

@@ -59,15 +59,9 @@ class Forces:
 
 @dataclass(frozen=True, eq=False)
 class Followed(Forces):
-    """Multipliers LX of some relations: what reactions of a few unknowns make of them.
+    """Multipliers LX of some relations: what reactions of a few unknowns make of them."""
 
-    Attributes
-    ----------
-    nodes : array (m,)
-        Their nodes, increasing.
-    """
-
-    nodes: IntArray
+    nodes: IntArray  # (m,) their nodes, increasing
 
 
 def followed_of(problem: Problem, nodes: IntArray) -> Followed:
@@ -252,20 +246,11 @@ MOST = 8
 
 @dataclass(eq=False)
 class FootingHistories(Track):
-    """Loads of footings at the times it wants; rows are let go at once.
-
-    Attributes
-    ----------
-    footings : sequence of Footing
-    kept : list of lists of Loads
-        Of each footing, in order of time.
-    left_out : int
-        Smaller footings, which nobody follows.
-    """
+    """Loads of footings at the times it wants; rows are let go at once."""
 
     footings: Sequence[Footing] = field(kw_only=True)
-    left_out: int = field(default=0, kw_only=True)
-    kept: list[list[Loads]] = field(init=False)
+    left_out: int = field(default=0, kw_only=True)  # smaller footings, which nobody follows
+    kept: list[list[Loads]] = field(init=False)  # of each footing, in order of time
     instants: list[FloatArray] = field(default_factory=list, init=False)
     keeps: ClassVar[bool] = False
 
@@ -331,17 +316,11 @@ class ForceHistories(Track):
     """Sums of the forces of named relations on the body.
 
     Only the sums are kept: rows of all that acts on what they hold would be many numbers.
-
-    Attributes
-    ----------
-    problem : Problem
-    named : dict
-        Multiplier nodes of the relations of each name.
     """
 
     unknowns: IntArray = field(init=False)
     problem: Problem = field(kw_only=True)
-    named: dict[str, IntArray] = field(kw_only=True)
+    named: dict[str, IntArray] = field(kw_only=True)  # multiplier nodes of each name
     keeps: ClassVar[bool] = False
     _steps: list[IntArray] = field(init=False, default_factory=list)
     _sums: list[FloatArray] = field(init=False, default_factory=list)

@@ -296,23 +296,12 @@ def rows_of_tap(
 
 @dataclass(eq=False)
 class Track:
-    """An observer that takes rows: some unknowns, and the joints, at the times it wants.
+    """An observer that takes rows: some unknowns, and the joints, at the times it wants."""
 
-    Attributes
-    ----------
-    wanted : array (n_times,)
-    unknowns : array (p,)
-        Increasing.
-    pieces : list of Rows
-        What came, in order of time.
-    at_end : callable or None
-        Called when the run has ended.
-    """
-
-    wanted: BoolArray
-    unknowns: IntArray
-    pieces: list[Rows] = field(default_factory=list)
-    at_end: Callable[[], None] | None = None
+    wanted: BoolArray  # (n_times,)
+    unknowns: IntArray  # (p,) increasing
+    pieces: list[Rows] = field(default_factory=list)  # what came, in order of time
+    at_end: Callable[[], None] | None = None  # called when the run has ended
     keeps: ClassVar[bool] = True
 
     @cached_property

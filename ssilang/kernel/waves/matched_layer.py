@@ -77,26 +77,14 @@ SLACK = 1e-6
 
 @dataclass(frozen=True)
 class Stretching:
-    """How coordinates are stretched beyond a box.
+    """How coordinates are stretched beyond a box."""
 
-    Attributes
-    ----------
-    low, high : arrays (2,)
-        Corners of the box.
-    below, above : arrays (2,)
-        Thickness of the layer before `low` and beyond `high`, 0 without one.
-    speed : float
-        Of the fastest wave (m/s).
-    reflection : float
-        What comes back of a wave that meets the layer at a right angle, in theory.
-    """
-
-    low: FloatArray
-    high: FloatArray
-    below: FloatArray
-    above: FloatArray
-    speed: float
-    reflection: float
+    low: FloatArray  # (2,) lower corner of the box
+    high: FloatArray  # (2,) its upper corner
+    below: FloatArray  # (2,) thickness of the layer before `low`, 0 without one
+    above: FloatArray  # (2,) beyond `high`
+    speed: float  # of the fastest wave (m/s)
+    reflection: float  # what comes back of a wave that meets the layer at a right angle, in theory
 
     def rates(self, points: FloatArray) -> FloatArray:
         """Beta (..., 2) at points (..., 2), in 1/s.

@@ -288,23 +288,12 @@ FLAT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Base of a macro-element.
-
-    Attributes
-    ----------
-    code : LawCode
-    halves : array (d - 1,)
-        Half of its widths, along t1 and t2; its radius, of a disc.
-    area : float
-        In the plane that of the footing's whole length (1 m without LONG); 1 of two springs.
-    stiffness : float
-        Per unit area (Pa/m); of each of two springs (N/m).
-    """
+    """Base of a macro-element."""
 
     code: LawCode
-    halves: FloatArray
-    area: float
-    stiffness: float
+    halves: FloatArray  # (d - 1,) half of its widths, along t1 and t2; its radius, of a disc
+    area: float  # of the whole length (1 m without LONG) in the plane; 1 of two springs
+    stiffness: float  # per unit area (Pa/m); of each of two springs (N/m)
 
     def levers(self) -> FloatArray:
         """Levers (d - 1, 2) of the edges about the axes, the lowest and the highest."""

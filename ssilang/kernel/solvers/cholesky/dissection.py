@@ -92,23 +92,12 @@ class _Parts(NamedTuple):
 
 
 class _Points(NamedTuple):
-    """Points of the parts of one level, part after part.
+    """Points of the parts of one level, part after part."""
 
-    Attributes
-    ----------
-    of : array (n,)
-        Their numbers.
-    first : array (m,)
-        Place of the first point of each part.
-    part : array (n,)
-    links : Links
-        Numbers of points that are linked, both of one part.
-    """
-
-    of: IntArray
-    first: IntArray
-    part: IntArray
-    links: Links
+    of: IntArray  # (n,) their numbers
+    first: IntArray  # (m,) place of the first point of each part
+    part: IntArray  # (n,)
+    links: Links  # numbers of points that are linked, both of one part
 
     def numbers(self, chosen: BoolArray) -> IntArray:
         """How many chosen points are in each part."""

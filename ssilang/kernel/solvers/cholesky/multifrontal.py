@@ -39,24 +39,13 @@ class TooLargeError(Exception):
 
 
 class Panels(NamedTuple):
-    """A factor L of A[order][:, order] = L L^T.
+    """A factor L of A[order][:, order] = L L^T."""
 
-    Attributes
-    ----------
-    first : array (n_supernodes + 1,)
-        First column of each.
-    ptr, rows : arrays (n_supernodes + 1,), (ptr[-1],)
-        Rows below each supernode, increasing.
-    at : array (n_supernodes + 1,)
-        Where the values of each start.
-    values : array (at[-1],)
-    """
-
-    first: IntArray
-    ptr: IntArray
-    rows: NDArray[np.signedinteger[Any]]
-    at: IntArray
-    values: FloatArray
+    first: IntArray  # (n_supernodes + 1,) first column of each
+    ptr: IntArray  # (n_supernodes + 1,) where the rows of each begin
+    rows: NDArray[np.signedinteger[Any]]  # (ptr[-1],) rows below each supernode, increasing
+    at: IntArray  # (n_supernodes + 1,) where the values of each start
+    values: FloatArray  # (at[-1],)
 
 
 class Updates(NamedTuple):

@@ -56,47 +56,24 @@ MOST_SMALL = 1000
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """What a time integration needs, all on one numbering.
-
-    Attributes
-    ----------
-    numbering : Numbering
-    K, M, C : csr arrays (n, n)
-        Stiffness without the joints that a law replaces, mass, damping.
-    constraints : Constraints
-    multipliers : array (n_rows,)
-        Multiplier nodes of the conditions.
-    loading : Loading
-    interface : Interface or None
-    u, v : arrays (n,)
-        Initial displacement and velocity.
-    state : array (n_points, N_STATE)
-        Initial state of the joints.
-    times : array (n_steps + 1,)
-        Strictly increasing, the initial time first.
-    contact : ContactRows or None
-        Unilateral relations.
-    contact_options : ContactOptions
-    solver : Solver
-        Which solver takes the systems of its steps.
-    """
+    """What a time integration needs, all on one numbering."""
 
     numbering: Numbering
-    K: sp.csr_array
-    M: sp.csr_array
-    C: sp.csr_array
+    K: sp.csr_array  # (n, n) stiffness without the joints that a law replaces
+    M: sp.csr_array  # (n, n) mass
+    C: sp.csr_array  # (n, n) damping
     constraints: Constraints
-    multipliers: IntArray
+    multipliers: IntArray  # (n_rows,) multiplier nodes of the conditions
     loading: Loading
     interface: Interface | None
-    u: FloatArray
-    v: FloatArray
-    state: FloatArray
-    times: FloatArray
+    u: FloatArray  # (n,) initial displacement
+    v: FloatArray  # (n,) initial velocity
+    state: FloatArray  # (n_points, N_STATE) initial state of the joints
+    times: FloatArray  # (n_steps + 1,) strictly increasing, the initial time first
     scheme: Scheme = field(default_factory=Scheme)
-    contact: ContactRows | None = None
+    contact: ContactRows | None = None  # unilateral relations
     contact_options: ContactOptions = field(default_factory=ContactOptions)
-    solver: Solver = FIRST_FIT
+    solver: Solver = FIRST_FIT  # which solver takes the systems of its steps
 
     @property
     def small(self) -> bool:

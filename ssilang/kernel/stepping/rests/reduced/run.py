@@ -319,22 +319,12 @@ class ReducedIntegration:
 
 @dataclass(frozen=True, eq=False)
 class Expansion:
-    """Unknowns from coordinates of a model, and the motions of its supports.
+    """Unknowns from coordinates of a model, and the motions of its supports."""
 
-    Attributes
-    ----------
-    T : csr array (p, c)
-        Of the motions y that these unknowns need.
-    basis : array (r, c)
-    X : array (r, r)
-    moved : csr array (p, m)
-        Motions of the supports.
-    """
-
-    T: sp.csr_array
-    basis: FloatArray
-    X: FloatArray
-    moved: sp.csr_array
+    T: sp.csr_array  # (p, c) of the motions y that these unknowns need
+    basis: FloatArray  # (r, c)
+    X: FloatArray  # (r, r)
+    moved: sp.csr_array  # (p, m) motions of the supports
 
     @property
     def shape(self) -> tuple[int, int]:
