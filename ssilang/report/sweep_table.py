@@ -28,17 +28,11 @@ MOTION = "MOTION"
 
 @dataclass(frozen=True)
 class Sweep:
-    """A folder of a sweep: rows of its table by title, as they are written.
-
-    Attributes
-    ----------
-    swept, figures : lists of str
-        Titles of what was given and of what runs reported.
-    """
+    """A folder of a sweep: rows of its table by title, as they are written."""
 
     folder: Path
     rows: list[dict[str, str]]
-    swept: list[str]
+    swept: list[str]  # titles of what was given and of what runs reported
     figures: list[str]
 
 

@@ -26,7 +26,7 @@ class Layer:
     component: str = ""
     arrows: Arrows | None = None
     outline: bool = False  # only the edges are drawn, over everything (a frame of reference)
-    edges: bool = True  # false: a coloured layer shows its values without the edges of its cells
+    edges: bool = True  # False: a coloured layer shows its values without the edges of its cells
 
     def positions(self) -> FloatArray:
         """Coordinates of all nodes of the table, moved, shape (len(table), 3)."""

@@ -30,29 +30,15 @@ TOUCHING = 1e-11  # of the largest gap or displacement, which solvers leave: clo
 
 @dataclass(frozen=True, eq=False)
 class ContactRows:
-    """Unilateral conditions on one numbering.
+    """Unilateral conditions on one numbering."""
 
-    Attributes
-    ----------
-    G : csr array (m, n)
-        Rows times their sense.
-    sense : array (m,)
-        +1 MINI, -1 MAXI.
-    multipliers : array (m,)
-        Multiplier nodes.
-    imposed : array (m, k)
-        Imposed values times the sense, by load curve.
-    dual : csr array (m, n) or None
-        Rows that the reactions push by, times the sense; None: those of G.
-    friction : FrictionRows or None
-        Places that rub. Forces are then the reactions p (m,) and the frictions behind them.
-    """
-
-    G: sp.csr_array
-    sense: FloatArray
-    multipliers: IntArray
-    imposed: FloatArray
+    G: sp.csr_array  # (m, n) rows times their sense
+    sense: FloatArray  # (m,) +1 MINI, -1 MAXI
+    multipliers: IntArray  # (m,) multiplier nodes
+    imposed: FloatArray  # (m, k) imposed values times the sense, by load curve
+    # (m, n) rows that the reactions push by, times the sense; None: those of G
     dual: sp.csr_array | None = None
+    # places that rub; forces are then the reactions p (m,) and the frictions
     friction: FrictionRows | None = None
 
     def __len__(self) -> int:

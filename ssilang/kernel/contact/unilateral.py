@@ -370,23 +370,10 @@ def _as_relations(
 
 @dataclass(frozen=True)
 class ContactOptions:
-    """How unilateral relations are enforced.
+    """How unilateral relations are enforced."""
 
-    Attributes
-    ----------
-    method : 'LAGRANGE', 'PENALITE', 'AUGMENTE' or 'UZAWA'
-    coefficient : float or None
-        Penalty or augmentation.
-    correction : 'FAUX', 'MASSE' or 'RIGIDITE'
-        Of velocities when a relation closes.
-    persistent : bool
-        Relative velocity of relations that stay closed set to zero.
-    modified_mass : bool
-        Mass taken off the contact unknowns.
-    """
-
-    method: str = "LAGRANGE"
-    coefficient: float | None = None
-    correction: str = "FAUX"
-    persistent: bool = False
-    modified_mass: bool = False
+    method: str = "LAGRANGE"  # 'LAGRANGE', 'PENALITE', 'AUGMENTE' or 'UZAWA'
+    coefficient: float | None = None  # penalty or augmentation
+    correction: str = "FAUX"  # 'FAUX', 'MASSE' or 'RIGIDITE': of velocities when a relation closes
+    persistent: bool = False  # relative velocity of relations that stay closed set to zero
+    modified_mass: bool = False  # mass taken off the contact unknowns

@@ -55,27 +55,14 @@ MET = 1e-7  # mismatch of a redundant condition, relative to the largest displac
 
 @dataclass(frozen=True, slots=True)
 class SolveOptions:
-    """What RESO's words change.
+    """What RESO's words change."""
 
-    Attributes
-    ----------
-    unilateral : bool
-        False takes MINI and MAXI conditions for equalities ('NOUNIL').
-    eliminate : bool
-        False keeps every condition in a saddle point ('ELIM' 0).
-    project : bool
-        True leaves out the loads that work on free motions instead of refusing them ('NOID').
-    stabilise : bool
-        True adds to the diagonal until the matrix is positive ('STAB').
-    solver : Solver
-        Which solver takes the system.
-    """
-
-    unilateral: bool = True
-    eliminate: bool = True
+    unilateral: bool = True  # False takes MINI and MAXI conditions for equalities ('NOUNIL')
+    eliminate: bool = True  # False keeps every condition in a saddle point ('ELIM' 0)
+    # True leaves out the loads that work on free motions instead of refusing them ('NOID')
     project: bool = False
-    stabilise: bool = False
-    solver: Solver = FIRST_FIT
+    stabilise: bool = False  # True adds to the diagonal until the matrix is positive ('STAB')
+    solver: Solver = FIRST_FIT  # which solver takes the system
 
 
 @dataclass(frozen=True, eq=False)

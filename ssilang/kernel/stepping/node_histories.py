@@ -29,21 +29,12 @@ from ssilang.kernel.stepping.track import Rows, Track, balance_of, rows_of_snaps
 
 @dataclass(frozen=True, eq=False)
 class Forces:
-    """Sums of what conditions push by: linear in the reactions of a few unknowns.
+    """Sums of what conditions push by: linear in the reactions of a few unknowns."""
 
-    Attributes
-    ----------
-    at : array (p,)
-        Unknowns that the equalities hold.
-    forces : csr array (p, m)
-        The sums from the forces of the equalities on these; zero for unilateral ones.
-    contact : csr array (m, size)
-        The sums from the reactions of the unilateral relations.
-    """
-
-    at: IntArray
+    at: IntArray  # (p,) unknowns that the equalities hold
+    # (p, m) the sums from the forces of the equalities on these; zero for unilateral ones
     forces: sp.csr_array
-    contact: sp.csr_array
+    contact: sp.csr_array  # (m, size) the sums from the reactions of the unilateral relations
 
     def values(self, rows: Rows) -> FloatArray:
         """The sums (k, m)."""

@@ -183,11 +183,7 @@ class Basis:
         self.meet(problem)
         self.inputs = np.column_stack([self.J.T.toarray(), self.F])
         static = invert(closed_stiffness(problem), True, problem.solver)
-        s = min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static))
-        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
-        self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
-        self._KV, self._RV = np.zeros((2, largest, largest))
-        self.size = self._fixed = 0
+        self._make_room(largest, min(HIGHEST_SHIFT * 2.0 / dt, SHIFT * self._lowest(static)))
         self._inverse = self._inverted(self.shift**2)
         self._last = np.zeros((self.T.shape[1], 0))
         self._first_vectors(static, 2.0 / dt)
@@ -216,6 +212,13 @@ class Basis:
         self.F = np.hstack([forces, supports.columns.forces.T])
         start = np.column_stack([problem.u, v, a]) - supports.columns.X @ supports.start.T
         self._start = on_motions(T, start)
+
+    def _make_room(self, largest: int, s: float) -> None:
+        """Room for vectors that the shift s (1/s) measures."""
+        self.shift, self.N = s, sp.csr_array(self.M + self.K / s**2)
+        self._store = np.zeros((largest, self.T.shape[1]))  # one vector a row
+        self._KV, self._RV = np.zeros((2, largest, largest))
+        self.size = self._fixed = 0
 
     @property
     def vectors(self) -> FloatArray:
