@@ -57,8 +57,7 @@ class FullNewtonSolver:
             residual = float(np.abs(rest).max(initial=0.0)) / max(scale, 1e-300)
             if turn > 1 and residual <= TOLERANCE:
                 motion.contact[:] = pushed
-                if self.interface is not None:
-                    accept(trial, motion.joints)
+                self._commit(motion, trial)
                 return StepOutcome(du, turn, residual)
             try:
                 step, pushed = self._turn(motion, self.A + K, free, du, gap, pushed)
@@ -118,3 +117,8 @@ class FullNewtonSolver:
         interface_stiffness(joints.points, trial.D, K)
         tangent = sp.csr_array(joints.J.T @ sp.csr_array(self.share * K) @ joints.J)
         return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
+
+    def _commit(self, motion: Motion, trial: Trial) -> None:
+        if self.interface is not None:
+            now = motion.joints
+            accept(trial, now)

@@ -168,9 +168,7 @@ class SparseLoop:
             if outcome.turns <= 0:
                 return k, outcome.turns, outcome.residual
             worst, work = max(worst, outcome.turns), None
-            m = self.motion
-            m.u[:] += outcome.du
-            m.v[:], m.a[:] = advanced(n, outcome.du, m.v, m.a)
+            self._advance(n, outcome.du)
             if impact is not None and contact is not None:
                 rate = contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
                 work = impact.correct(self.motion, rate)
@@ -215,6 +213,11 @@ class SparseLoop:
         if self._by.Jt is not None:
             r -= self._by.Jt @ self.motion.f
         return r
+
+    def _advance(self, n: Newmark, du: FloatArray) -> None:
+        m = self.motion
+        m.u[:] += du
+        m.v[:], m.a[:] = advanced(n, du, m.v, m.a)
 
     def _account(
         self, n: Newmark, du: FloatArray, dd: FloatArray, loads: FloatArray, pushed: FloatArray,
