@@ -317,7 +317,10 @@ class Builder:
         for way, t, a in self._loads:
             curve = Curve((CurvePart(t, a),))
             parts.append(LoadPart("MECA", self._force(M, way), curve))
-        rest = self._at_rest(K, weight) if start == "rest" and self.gravity else None
+        rest = None
+        if start == "rest" and self.gravity:  # under the weight, with closed joints
+            closed = tuple(elements.stiffness(zone, material) for zone, material in self._joints)
+            rest = solve(Matrix(self.table, (*K.blocks, *closed), K.relations), [weight])[0]
         alpha, beta = self._damping
         damped = (*M.scaled(alpha).blocks, *K.scaled(beta).blocks)
         C = Matrix(self.table, damped, kind="AMORTISSEMENT")
@@ -353,12 +356,6 @@ class Builder:
             for name, a in zip(self.unknowns, acceleration, strict=True)
         }
         return product(M, NodeField.of(self.table, nodes, values, "DIFFUS"))
-
-    def _at_rest(self, K: Matrix, weight: NodeField) -> NodeField:
-        """Displacements under the weight, with closed joints."""
-        closed = tuple(elements.stiffness(zone, material) for zone, material in self._joints)
-        whole = Matrix(self.table, (*K.blocks, *closed), K.relations)
-        return solve(whole, [weight])[0]
 
     def _velocity(self) -> NodeField | None:
         if not self._speeds:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Iterable, Sequence, Sized
+from collections.abc import Callable, Sequence, Sized
 from html import escape
 from typing import Any
 
@@ -37,16 +37,13 @@ def html_of(value: Any) -> str:
 
 def rows_html(heads: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
     """A table with a row of heads; of many rows the first and the last."""
-    shown = [_row(row) for row in rows]
+    cells = ["".join(f"<td>{escape(_cell(c))}</td>" for c in row) for row in rows]
+    shown = [f"<tr>{row}</tr>" for row in cells]
     if len(rows) > 2 * ENDS:
         left = f'<tr><td colspan="{len(heads)}">... {len(rows) - 2 * ENDS} ...</td></tr>'
         shown = [*shown[:ENDS], left, *shown[-ENDS:]]
     head = "".join(f"<th>{escape(h)}</th>" for h in heads)
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(shown)}</tbody></table>"
-
-
-def _row(cells: Iterable[object]) -> str:
-    return "<tr>" + "".join(f"<td>{escape(_cell(c))}</td>" for c in cells) + "</tr>"
 
 
 def _cell(value: object) -> str:

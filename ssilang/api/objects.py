@@ -161,15 +161,12 @@ def held(value: Any, language: str = "en") -> Any:
     if hasattr(value, "__fspath__"):
         return Mot(value.__fspath__())
     if hasattr(value, "index") and hasattr(value, "to_numpy"):  # a Series
-        return _curve(value.index, value.to_numpy(), str(getattr(value, "name", "") or ""))
+        name = str(getattr(value, "name", "") or "")
+        x, y = np.asarray(value.index, float), np.asarray(value.to_numpy(), float)
+        return Curve((CurvePart(x, y, "", name[:12], name),))
     if isinstance(value, (list, tuple, range, np.ndarray)):
         return _list(value, language)
     raise refused("api.no-such-object", language, kind=type(value).__name__)
-
-
-def _curve(x: Any, y: Any, name: str) -> Curve:
-    part = CurvePart(np.asarray(x, float), np.asarray(y, float), "", name[:12], name)
-    return Curve((part,))
 
 
 def _list(value: Any, language: str) -> Any:

@@ -83,7 +83,7 @@ def run(
     """
     source = source_of(script, language)
     options = RunOptions(
-        output_directory=_folder(out),
+        output_directory=Path(tempfile.mkdtemp(prefix="ssilang-") if out is None else out),
         allowed=folders(allow),
         language=language,
         summary=out is not None or report,
@@ -153,10 +153,6 @@ def folders(allow: Allowed) -> list[Path]:
     """Folders as they are, one or several."""
     several = allow if isinstance(allow, (list, tuple)) else [allow]
     return [Path(p).resolve() for p in several]
-
-
-def _folder(out: Script | None) -> Path:
-    return Path(out) if out is not None else Path(tempfile.mkdtemp(prefix="ssilang-"))
 
 
 def _given(name: str, value: Any, language: str) -> Any:

@@ -23,24 +23,14 @@ from ssilang.kernel.matrices.matrix import Matrix
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """An assembled matrix, its multipliers behind its unknowns: [K D^T; C 0].
+    """An assembled matrix, its multipliers behind its unknowns: [K D^T; C 0]."""
 
-    Attributes
-    ----------
-    rows, columns, values : arrays (n_terms,)
-        Lower triangle if `symmetric`, by columns.
-    size : int
-    nodes : array (size,)
-        Node of each unknown, multiplier nodes last.
-    names, duals : tuple of str, length size
-    """
-
-    rows: IntArray
+    rows: IntArray  # (n_terms,) lower triangle if `symmetric`, by columns
     columns: IntArray
     values: FloatArray
     size: int
     symmetric: bool
-    nodes: IntArray
+    nodes: IntArray  # (size,) node of each unknown, multiplier nodes last
     names: tuple[str, ...]
     duals: tuple[str, ...]
 

@@ -31,19 +31,11 @@ MOST_POINTS = 4000
 
 @dataclass(eq=False)
 class Recording:
-    """What is taken down during a run.
-
-    Attributes
-    ----------
-    folder : Path
-    told : dict
-        The deck: `name`, `text`.
-    calculations, drawings, shapes, verdicts : list of dict
-        As `contents.json` has them; those beyond the most are only counted.
-    """
+    """What is taken down during a run."""
 
     folder: Path
-    told: dict[str, Any]
+    told: dict[str, Any]  # the deck: `name`, `text`
+    # as `contents.json` has them; those beyond the most are only counted
     calculations: list[dict[str, Any]] = field(default_factory=list)
     drawings: list[dict[str, Any]] = field(default_factory=list)
     shapes: list[dict[str, Any]] = field(default_factory=list)

@@ -357,14 +357,7 @@ class RunOutput:
 
 
 def _place(folder: Path, name: str) -> Path:
-    """Where a name leads, through all links.
-
-    Raises
-    ------
-    OutputError
-        For a name that no file can have: too long, with a sign that names have not, or a link
-        that leads to itself.
-    """
+    """Where a name leads, through all links."""
     if names_foreign_drive(name):
         raise OutputError("io.no-such-place", name=_shown(name), reason=Sentence("io.reason-drive"))
     try:

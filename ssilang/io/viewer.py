@@ -92,7 +92,9 @@ class Series:
             raise
         except Exception as problem:  # whatever a library says of a file that is none of its own
             raise InputError(
-                "io.not-viewed", path=self.path, reason=_first_line(problem)
+                "io.not-viewed",
+                path=self.path,
+                reason=(str(problem).strip() or type(problem).__name__).splitlines()[0],
             ) from problem
         if self.at(0).n_points == 0:
             raise InputError("io.not-viewed-no-points", path=self.path)
@@ -155,10 +157,6 @@ def _other(path: Path) -> Any:
     except SystemExit:  # its way to say that no format of that ending fits
         said = " ".join(told.getvalue().split())
         raise InputError("io.not-viewed", path=path, reason=said or "meshio") from None
-
-
-def _first_line(problem: Exception) -> str:
-    return (str(problem).strip() or type(problem).__name__).splitlines()[0]
 
 
 def chosen_file(path: Path) -> Path:
@@ -281,7 +279,12 @@ class _Scene:
         else:
             self._add(data, name, values, row)
         if camera is None:
-            _look(self.plotter)
+            self.plotter.enable_parallel_projection()
+            low_x, high_x, low_y, high_y, low_z, high_z = self.plotter.bounds
+            if high_z - low_z <= 1e-9 * max(high_x - low_x, high_y - low_y, 1e-300):
+                self.plotter.view_xy()
+            else:
+                self.plotter.view_vector(DEFAULT_DIRECTION, viewup=(0.0, 0.0, 1.0))
             if self.plotter.scalar_bars:  # the scene to the left of it
                 self.plotter.camera.zoom(0.86)
                 self.plotter.camera.SetWindowCenter(0.14, 0.0)
@@ -388,13 +391,3 @@ def _common_range(several: list[Any]) -> tuple[float, float] | None:
     if not known or not sum(map(len, known)):
         return None
     return min(float(v.min()) for v in known), max(float(v.max()) for v in known)
-
-
-def _look(plotter: Any) -> None:
-    """From above on what lies in a plane, else as TRAC does; nothing is nearer than its size."""
-    plotter.enable_parallel_projection()
-    low_x, high_x, low_y, high_y, low_z, high_z = plotter.bounds
-    if high_z - low_z <= 1e-9 * max(high_x - low_x, high_y - low_y, 1e-300):
-        plotter.view_xy()
-    else:
-        plotter.view_vector(DEFAULT_DIRECTION, viewup=(0.0, 0.0, 1.0))

@@ -33,24 +33,15 @@ class Line:
 
 @dataclass(frozen=True)
 class Chart:
-    """One picture of curves.
+    """One picture of curves."""
 
-    Attributes
-    ----------
-    group : str
-        'verdict', 'footing', 'energy', 'curves', 'tables', 'sweep', 'fragility' or 'floors'.
-    x, y : str
-        Names of the axes with their units.
-    log : (bool, bool)
-        Whether the axes are logarithmic.
-    """
-
+    # 'verdict', 'footing', 'energy', 'curves', 'tables', 'sweep', 'fragility' or 'floors'
     group: str
     title: str
-    x: str
+    x: str  # names of the axes with their units
     y: str
     lines: list[Line]
-    log: tuple[bool, bool] = (False, False)
+    log: tuple[bool, bool] = (False, False)  # whether the axes are logarithmic
     loop: bool = field(default=False)
 
     def told(self) -> dict[str, Any]:

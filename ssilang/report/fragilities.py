@@ -141,21 +141,14 @@ class Asked:
 
 @dataclass(frozen=True)
 class Fit:
-    """A fragility that was asked for: found, or why there is none.
-
-    Attributes
-    ----------
-    method : 'counts' or 'cloud'
-    worst : dict
-        Row of the run with the largest demand, or the least.
-    """
+    """A fragility that was asked for: found, or why there is none."""
 
     limit: Limit
     intensity: str
-    method: str
+    method: str  # 'counts' or 'cloud'
     found: Fragility | None
     problem: Refusal | None
-    worst: dict[str, str]
+    worst: dict[str, str]  # row of the run with the largest demand, or the least
     exceeded: int
     runs: int
 

@@ -52,9 +52,14 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
     """
     told = teller(language)
     charts = charts_of(results, told)
+    found = results.summary.get("warnings", ())
+    rows = [
+        f"<li>{text(told('report.line', line=w['line']) if w['line'] else '')} {text(w['text'])}"
+        for w in found
+    ]
     sections = [
         section("checks", told("report.checks"), _checks(results, told)),
-        section("warnings", told("report.warnings"), _warnings(results, told)),
+        section("warnings", told("report.warnings"), f"<ul>{''.join(rows)}</ul>" if rows else ""),
     ]
     pictures = _pictures(results, told)
     rest = [
@@ -68,7 +73,8 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
     ]
     data = json_in_page([c.told() for c in charts])
     other = "".join([*sections, *rest])
-    room = LARGEST - len(other.encode()) - len(data.encode()) - sum(map(len, _assets().values()))
+    held = ("vtk.js", "uPlot.iife.min.js", "charts.js", "scene.js", "page.css", "page.html")
+    room = LARGEST - sum(len(x.encode()) for x in (other, data, *map(asset, held)))
     scenes, faults = _scenes(results, room, told)
     viewer = section("scene", told("report.scene"), _viewer(scenes, faults, told))
     body = [_head(results, told), sections[0], sections[1], viewer, *rest]
@@ -108,11 +114,6 @@ _WORDS = {
 # ---- pieces --------------------------------------------------------------------------------------
 
 
-def _assets() -> dict[str, bytes]:
-    names = ("vtk.js", "uPlot.iife.min.js", "charts.js", "scene.js", "page.css", "page.html")
-    return {name: asset(name).encode() for name in names}
-
-
 def _head(results: Results, told: Teller) -> str:
     summary = results.summary
     code = summary.get("exit_code")
@@ -134,8 +135,11 @@ def _head(results: Results, told: Teller) -> str:
     if judged:
         good = f"{len(judged) - len(failed)} / {len(judged)}"
         cards.append((told("report.checks-held"), good, "bad" if failed else "good"))
-    worst, mark = _imbalance(results)
-    if worst:
+    runs = _runs(results)
+    off = [c for c in runs if c.get("energy_imbalance_from")]
+    moving = [c for c in off if not c.get("static")]  # in statics it is one of load steps, no fault
+    if worst := max((c.get("energy_imbalance") or 0.0 for c in moving or runs), default=0.0):
+        mark = "warn" if moving else "" if off else "good"
         cards.append((told("report.energy-imbalance"), f"{100.0 * worst:.2g} %", mark))
     openings = _all(results, "opening_")
     openings += [
@@ -144,7 +148,9 @@ def _head(results: Results, told: Teller) -> str:
         if x["kind"] == "OUVERTURE" and x["value"] is not None
     ]  # fmt: skip
     if openings:
-        top = f"{max(float(v.max()) for v in openings):.4g} {_unit(results, 'm')}"
+        system = SYSTEMS.get(str((summary.get("units") or {}).get("system", "")))
+        unit = "" if system is None else system.written("m")
+        top = f"{max(float(v.max()) for v in openings):.4g} {unit}"
         cards.append((told("report.largest-opening"), top.strip(), ""))
     shares = _all(results, "share_")
     if shares:
@@ -160,15 +166,6 @@ def _head(results: Results, told: Teller) -> str:
     lines.append(f"<p class=facts>{text(_facts(results, told))}</p>")
     lines += [f"<p class=note>{text(note)}</p>" for note in _notes(results, told)]
     return "\n".join([*lines, "</header>"])
-
-
-def _imbalance(results: Results) -> tuple[float, str]:
-    """The worst imbalance of energy and its mark; in statics it is one of load steps, no fault."""
-    runs = _runs(results)
-    off = [c for c in runs if c.get("energy_imbalance_from")]
-    moving = [c for c in off if not c.get("static")]
-    worst = max((c.get("energy_imbalance") or 0.0 for c in moving or runs), default=0.0)
-    return worst, "warn" if moving else "" if off else "good"
 
 
 def _all(results: Results, name: str) -> list[FloatArray]:
@@ -217,17 +214,6 @@ def _notes(results: Results, told: Teller) -> list[str]:
     return notes
 
 
-def _unit(results: Results, unit: str) -> str:
-    """A unit of the deck for an SI unit, '' where the deck names none."""
-    return written_unit(results.summary.get("units"), unit)
-
-
-def written_unit(units: dict[str, Any] | None, unit: str) -> str:
-    """What stands for an SI unit where `summary.json` names the deck's system."""
-    system = SYSTEMS.get(str((units or {}).get("system", "")))
-    return "" if system is None else system.written(unit)
-
-
 def _runs(results: Results) -> list[dict[str, Any]]:
     statistics = results.summary.get("statistics", {})
     found: list[dict[str, Any]] = statistics.get("calculations", [])
@@ -264,15 +250,6 @@ def _meter(figure: dict[str, Any]) -> str:
         return ""
     part = abs(figure["value"] - figure["expected"]) / figure["tolerance"]
     return f'<meter min=0 max=1 high=1 value="{min(part, 1.0):.3g}"></meter> {100.0 * part:.3g} %'
-
-
-def _warnings(results: Results, told: Teller) -> str:
-    found = results.summary.get("warnings", ())
-    rows = [
-        f"<li>{text(told('report.line', line=w['line']) if w['line'] else '')} {text(w['text'])}"
-        for w in found
-    ]
-    return f"<ul>{''.join(rows)}</ul>" if rows else ""
 
 
 _SECTIONS = {

@@ -53,38 +53,23 @@ class Shapes:
 
 @dataclass(frozen=True)
 class Results:
-    """A folder of results.
-
-    Attributes
-    ----------
-    summary : dict
-        As `summary.json` has it; empty for a run that never came to write it.
-    deck, text : str
-        Its name and its text, '' if that is gone or no longer what ran.
-    recorded : bool
-        Whether the run took down what a report shows.
-    verdicts : list of lists of dict
-        Pictures of each verdict; its figures stand in the summary's statistics.
-    series, tables, pictures : lists of Path
-        What the deck itself wrote.
-    unread : list of str
-        Files that are damaged.
-    """
+    """A folder of results."""
 
     folder: Path
-    summary: dict[str, Any]
-    deck: str
+    summary: dict[str, Any]  # as `summary.json` has it; empty for a run that never came to write it
+    deck: str  # its name and its text, '' if that is gone or no longer what ran
     text: str
-    recorded: bool = False
+    recorded: bool = False  # whether the run took down what a report shows
     calculations: list[Calculation] = field(default_factory=list)
     drawings: list[dict[str, Any]] = field(default_factory=list)
     shapes: list[Shapes] = field(default_factory=list)
     left_out: dict[str, int] = field(default_factory=dict)
+    # pictures of each verdict; its figures stand in the summary's statistics
     verdicts: list[list[dict[str, Any]]] = field(default_factory=list)
-    series: list[Path] = field(default_factory=list)
+    series: list[Path] = field(default_factory=list)  # what the deck itself wrote
     tables: dict[str, dict[str, FloatArray]] = field(default_factory=dict)
     pictures: list[Path] = field(default_factory=list)
-    unread: list[str] = field(default_factory=list)
+    unread: list[str] = field(default_factory=list)  # files that are damaged
 
 
 def read_results(folder: Path) -> Results:
@@ -213,13 +198,7 @@ def tables_of(paths: list[Path], unread: list[str]) -> dict[str, dict[str, Float
 
 
 def _columns(path: Path) -> dict[str, FloatArray]:
-    """Columns of numbers by their titles.
-
-    Raises
-    ------
-    ValueError
-        If it holds anything else.
-    """
+    """Columns of numbers by their titles."""
     if path.stat().st_size > MOST_BYTES:
         raise OSError
     with path.open(encoding="utf-8", errors="replace", newline="") as file:

@@ -117,7 +117,11 @@ def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
     fields = []
     for name in [n for n in frames[0] if all(n in frame for frame in frames)]:
         values = np.stack([frame[name] for frame in frames])
-        numbers, scale = _quantised(values)
+        there = np.isfinite(values)  # in 16 bits
+        largest = float(np.abs(values[there]).max(initial=0.0))
+        scale = largest / LARGEST if largest > 0.0 else 1.0
+        numbers = np.full(values.shape, -LARGEST - 1, "<i2")
+        numbers[there] = np.rint(values[there] / scale).astype("<i2")
         arrays[f"field:{name}"] = np.diff(numbers, axis=0, prepend=np.zeros_like(numbers[:1]))
         kept = values[np.isfinite(values)]
         low, high = (float(kept.min()), float(kept.max())) if kept.size else (0.0, 0.0)
@@ -137,16 +141,6 @@ def _packed(path: Path, steps: _Steps, most: int) -> tuple[dict[str, Any], str]:
     return told, base64.b64encode(zlib.compress(blob, 9)).decode()
 
 
-def _quantised(values: FloatArray) -> tuple[NDArray[np.int16], float]:
-    """Values in 16 bits, and what one of these is worth."""
-    there = np.isfinite(values)
-    largest = float(np.abs(values[there]).max(initial=0.0))
-    scale = largest / LARGEST if largest > 0.0 else 1.0
-    numbers = np.full(values.shape, -LARGEST - 1, "<i2")
-    numbers[there] = np.rint(values[there] / scale).astype("<i2")
-    return numbers, scale
-
-
 class _Shape:
     """What one sees of a grid.
 
@@ -164,7 +158,12 @@ class _Shape:
 
     def __init__(self, grid: Any) -> None:
         self._size, self._types = grid.n_points, np.asarray(grid.celltypes).copy()
-        self.joints = _joint_cells(grid)
+        found = np.zeros(grid.n_cells, bool)
+        for name in ("opening", "traction"):
+            values = grid.cell_data.get(name)
+            if values is not None:
+                found |= np.isfinite(np.asarray(values, float).reshape(len(found), -1)).any(axis=1)
+        self.joints = found & np.isin(grid.celltypes, list(_UPPER))
         self.bodies = np.flatnonzero(~self.joints)
         grid.point_data["_row"] = np.arange(grid.n_points)
         self.flat = bool(np.ptp(grid.points[:, 2]) == 0.0 if grid.n_points else True)
@@ -245,16 +244,6 @@ def _mises(s: FloatArray) -> FloatArray:
         0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3.0 * (xy**2 + yz**2 + xz**2)
     )
     return found
-
-
-def _joint_cells(grid: Any) -> BoolArray:
-    """Which cells (n,) are joints: those that have an opening or a traction."""
-    found = np.zeros(grid.n_cells, bool)
-    for name in ("opening", "traction"):
-        values = grid.cell_data.get(name)
-        if values is not None:
-            found |= np.isfinite(np.asarray(values, float).reshape(len(found), -1)).any(axis=1)
-    return found & np.isin(grid.celltypes, list(_UPPER))
 
 
 def _cells_of(grid: Any) -> tuple[IntArray, IntArray]:

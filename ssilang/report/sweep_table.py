@@ -28,17 +28,11 @@ MOTION = "MOTION"
 
 @dataclass(frozen=True)
 class Sweep:
-    """A folder of a sweep: rows of its table by title, as they are written.
-
-    Attributes
-    ----------
-    swept, figures : lists of str
-        Titles of what was given and of what runs reported.
-    """
+    """A folder of a sweep: rows of its table by title, as they are written."""
 
     folder: Path
     rows: list[dict[str, str]]
-    swept: list[str]
+    swept: list[str]  # titles of what was given and of what runs reported
     figures: list[str]
 
 
@@ -124,11 +118,6 @@ def link_to(folder: Path, run: str) -> str:
     return ""
 
 
-def label_of(row: Mapping[str, Any], names: Sequence[str]) -> str:
-    """The values of some names in a row, motions by their name."""
-    return ", ".join(Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in names)
-
-
 def grouped(
     rows: Sequence[Mapping[str, Any]], axis: str, figure: str, others: Sequence[str]
 ) -> dict[str, FloatArray]:
@@ -137,7 +126,8 @@ def grouped(
     for row in rows:
         x, y = (real(str(row.get(name))) for name in (axis, figure))
         if x is not None and y is not None:
-            groups.setdefault(label_of(row, others), []).append((x, y))
+            said = [Path(row[n]).stem if n == MOTION else f"{n} = {row[n]}" for n in others]
+            groups.setdefault(", ".join(said), []).append((x, y))
     return {name: np.array(sorted(points)).T for name, points in groups.items()}
 
 

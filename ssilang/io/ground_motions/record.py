@@ -29,31 +29,15 @@ def plain_unit(said: str) -> str:
 
 @dataclass(frozen=True)
 class GroundMotion:
-    """A record.
+    """A record."""
 
-    Attributes
-    ----------
-    values : array (n,)
-        In the file's unit.
-    dt : float
-        Step (s); 0 if `given` has the times.
-    event : str
-    quantity : 'ACCE', 'VITE' or 'DEPL'
-    unit : str
-        What the file says it is, '' where it says nothing.
-    given : array (n,), optional
-        Times (s) of a file that lists them.
-    left_out : int
-        Values behind those that the file says it has.
-    """
-
-    values: FloatArray
-    dt: float
+    values: FloatArray  # (n,) in the file's unit
+    dt: float  # step (s); 0 if `given` has the times
     event: str
-    quantity: str
-    unit: str = ""
-    given: FloatArray | None = None
-    left_out: int = 0
+    quantity: str  # 'ACCE', 'VITE' or 'DEPL'
+    unit: str = ""  # what the file says it is, '' where it says nothing
+    given: FloatArray | None = None  # (n,) times (s) of a file that lists them
+    left_out: int = 0  # values behind those that the file says it has
 
     @property
     def in_si(self) -> float:

@@ -40,20 +40,11 @@ _MOST_TAGS = 200  # different numbers in an array of integers that tells parts
 
 @dataclass(frozen=True)
 class Foreign:
-    """A format that meshio reads.
+    """A format that meshio reads."""
 
-    Attributes
-    ----------
-    reader : str
-        What meshio calls it.
-    endings : tuple of str
-    library : str
-        What meshio needs for it beside itself, '' if nothing.
-    """
-
-    reader: str
+    reader: str  # what meshio calls it
     endings: tuple[str, ...]
-    library: str = ""
+    library: str = ""  # what meshio needs for it beside itself, '' if nothing
 
 
 FOREIGN = {
@@ -92,7 +83,9 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
     """
     with _guarded(path, kind) as said:
         read = _READERS.get(kind, _by_meshio)(path, kind)
-        return _gathered(read, kind, _remarks(said.getvalue())).sound(path.name, kind)
+        remarks = re.split(r"(?:Warning|Info|Error):", " ".join(said.getvalue().split()))
+        told = tuple(t.strip() for t in remarks if t.strip())
+        return _gathered(read, kind, told).sound(path.name, kind)
 
 
 def foreign_mesh(path: Path, kind: str) -> Any:
@@ -126,12 +119,6 @@ def _first_line(error: Exception) -> str:
     shown = text[0][:120] if text else ""
     kind = type(error).__name__
     return shown if len(shown) >= 12 or (not shown and kind == "ReadError") else f"{kind} {shown}"
-
-
-def _remarks(text: str) -> tuple[str, ...]:
-    """What meshio printed, a remark each."""
-    flat = " ".join(text.split())
-    return tuple(t.strip() for t in re.split(r"(?:Warning|Info|Error):", flat) if t.strip())
 
 
 # nodes of a text of version 2; meshio counts them, whatever their numbers

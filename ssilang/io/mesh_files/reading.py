@@ -40,10 +40,6 @@ class Asked:
     allowed: Callable[[str], Path] = Path
 
 
-def _abaqus(path: Path, asked: Asked) -> FileMesh:
-    return read_abaqus(path, lambda name: asked.allowed(str(path.parent / name)))
-
-
 def _stl(path: Path, asked: Asked) -> FileMesh:
     corners = read_stl(path)
     count = len(corners)
@@ -51,7 +47,10 @@ def _stl(path: Path, asked: Asked) -> FileMesh:
 
 
 _OWN: dict[str, tuple[tuple[str, ...], Callable[[Path, Asked], FileMesh]]] = {
-    "ABAQUS": ((".inp",), _abaqus),
+    "ABAQUS": (
+        (".inp",),
+        lambda path, asked: read_abaqus(path, lambda name: asked.allowed(str(path.parent / name))),
+    ),
     "UNV": ((".unv",), lambda path, asked: read_unv(path)),
     "STL": ((".stl",), _stl),
     "GEO": ((".geo",), lambda path, asked: read_geo(path, asked.dimension)),

@@ -42,7 +42,12 @@ def read_unv(path: Path) -> FileMesh:
     try:
         for number, body in _datasets(lines):
             if number in (2411, 781):
-                _read_nodes(body, labels, points)
+                for head, line in zip(body[::2], body[1::2], strict=False):
+                    labels.append(int(head.split()[0]))
+                    x, y, z = (
+                        float(t.replace("D", "E").replace("d", "e")) for t in line.split()[:3]
+                    )
+                    points.append([x, y, z])
             elif number in (2412, 780):
                 rows += _read_cells(body, left_out)
             elif number in (2467, 2470, 2477, 2435, 2452):
@@ -59,13 +64,6 @@ def _datasets(lines: list[str]) -> Iterator[tuple[int, list[str]]]:
     for start, end in zip(marks[::2], marks[1::2], strict=False):
         if end > start + 1:
             yield int(lines[start + 1].split()[0]), lines[start + 2 : end]
-
-
-def _read_nodes(body: list[str], labels: list[int], points: list[list[float]]) -> None:
-    for head, line in zip(body[::2], body[1::2], strict=False):
-        labels.append(int(head.split()[0]))
-        x, y, z = (float(t.replace("D", "E").replace("d", "e")) for t in line.split()[:3])
-        points.append([x, y, z])
 
 
 def _read_cells(body: list[str], left_out: dict[str, int]) -> list[tuple[int, str, list[int]]]:

@@ -16,31 +16,17 @@ from ssilang.kernel.mesh.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Layer:
-    """A mesh of a picture.
-
-    Attributes
-    ----------
-    displacement, scale
-        The mesh is moved by `scale` times the displacement.
-    colour : int or None
-        Of all cells, instead of their own.
-    field, component
-        Values that colour it.
-    outline : bool
-        Only the edges are drawn, over everything (a frame of reference).
-    edges : bool
-        False: a coloured layer shows its values without the edges of its cells.
-    """
+    """A mesh of a picture."""
 
     mesh: Mesh
-    displacement: NodeField | None = None
+    displacement: NodeField | None = None  # the mesh is moved by `scale` times the displacement
     scale: float = 0.0
-    colour: int | None = None
-    field: NodeField | CellField | None = None
+    colour: int | None = None  # of all cells, instead of their own
+    field: NodeField | CellField | None = None  # values that colour it
     component: str = ""
     arrows: Arrows | None = None
-    outline: bool = False
-    edges: bool = True
+    outline: bool = False  # only the edges are drawn, over everything (a frame of reference)
+    edges: bool = True  # False: a coloured layer shows its values without the edges of its cells
 
     def positions(self) -> FloatArray:
         """Coordinates of all nodes of the table, moved, shape (len(table), 3)."""

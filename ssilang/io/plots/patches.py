@@ -18,24 +18,12 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """Faces of one kind that belong to one block of cells.
+    """Faces of one kind that belong to one block of cells."""
 
-    Attributes
-    ----------
-    kind : str
-        POI1, SEG2, SEG3, TRI3, TRI6, QUA4 or QUA8; nodes along the contour.
-    nodes : array (n, k)
-    cells : array (n,)
-        Row of the owner in its block.
-    local : array (k,)
-        Local numbers of the nodes in the owner.
-    block : CellBlock
-    """
-
-    kind: str
-    nodes: IntArray
-    cells: IntArray
-    local: IntArray
+    kind: str  # POI1, SEG2, SEG3, TRI3, TRI6, QUA4 or QUA8; nodes along the contour
+    nodes: IntArray  # (n, k)
+    cells: IntArray  # (n,) row of the owner in its block
+    local: IntArray  # (k,) local numbers of the nodes in the owner
     block: CellBlock
 
     @property

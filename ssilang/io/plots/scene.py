@@ -82,7 +82,12 @@ def draw_scene(
             drawn[-1].begin()
             if component and len(panels) > 1:
                 axes.set_title(component, fontsize=10.5)
-        _caption(figure, options)
+        head(figure, options.title)
+        foot = list(options.notes)
+        if options.date:
+            foot.append(datetime.now().strftime("%Y-%m-%d %H:%M"))
+        if foot:
+            figure.supxlabel("   ".join(foot), fontsize=8, color="#5b616a")
         if options.annotation is not None:
             draw_categories(figure, options.annotation)
         if any(view.solid for view in views):
@@ -285,12 +290,3 @@ def _ends(prepared: list[tuple[Layer, list[Faces]]]) -> Ends:
         "max": np.unique(where[what >= what.max() - slack], axis=0),
     }
     return {name: points for name, points in ends.items() if len(points) <= _MOST_ENDS}
-
-
-def _caption(figure: Figure, options: PictureOptions) -> None:
-    head(figure, options.title)
-    foot = list(options.notes)
-    if options.date:
-        foot.append(datetime.now().strftime("%Y-%m-%d %H:%M"))
-    if foot:
-        figure.supxlabel("   ".join(foot), fontsize=8, color="#5b616a")

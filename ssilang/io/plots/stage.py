@@ -80,21 +80,11 @@ Thing = Polygons | Dots | Darts
 
 @dataclass(frozen=True, eq=False)
 class Photograph:
-    """What the eye sees.
+    """What the eye sees."""
 
-    Attributes
-    ----------
-    image : array (rows, columns, 3) of uint8
-        From the upper left corner.
-    depth : array (rows, columns)
-        z-buffer: 0 at the eye, 1 where nothing is.
-    reach : (float, float)
-        How near to the eye (`View.depth`) 0 and 1 are.
-    """
-
-    image: NDArray[np.uint8]
-    depth: NDArray[np.float32]
-    reach: tuple[float, float]
+    image: NDArray[np.uint8]  # (rows, columns, 3) of uint8 from the upper left corner
+    depth: NDArray[np.float32]  # (rows, columns) z-buffer: 0 at the eye, 1 where nothing is
+    reach: tuple[float, float]  # how near to the eye (`View.depth`) 0 and 1 of the depth are
 
     def shows(self, flat: FloatArray, near: FloatArray, bounds: FloatArray) -> NDArray[np.bool_]:
         """Whether points are seen: on the sheet (n, 2), `near` the eye (n,).
@@ -157,7 +147,11 @@ class Stage:
         plotter.render_window.SetSize(*pixels)  # pyvista's own way draws once more
         for thing in things:
             _ADD[type(thing)](plotter, thing, sheet, per_point)
-        low, high = _near_and_far(plotter)
+        *_, low, high = plotter.renderer.ComputeVisiblePropBounds()
+        if not low <= high:  # nothing is there
+            low, high = 0.0, 0.0
+        margin = 0.05 * (high - low) + 0.05
+        low, high = low - margin, high + margin
         camera = plotter.camera
         camera.position, camera.focal_point, camera.up = (0, 0, high), (0, 0, low), (0, 1, 0)
         camera.clipping_range = (0.0, high - low)
@@ -237,11 +231,6 @@ def _window_kind() -> str:
 
     Left to itself VTK asks for an X server first and says so when there is none, and dies where
     it finds no OSMesa.
-
-    Raises
-    ------
-    NoGraphicsError
-        If none works.
     """
     try:
         import pyvista  # noqa: F401
@@ -324,15 +313,6 @@ def _library(name: str) -> str:
     except OSError:
         return ""
     return f"{path} {found.st_size} {found.st_mtime_ns}"
-
-
-def _near_and_far(plotter: Any) -> tuple[float, float]:
-    """Depths behind and before all that is drawn."""
-    *_, low, high = plotter.renderer.ComputeVisiblePropBounds()
-    if not low <= high:  # nothing is there
-        low, high = 0.0, 0.0
-    margin = 0.05 * (high - low) + 0.05
-    return low - margin, high + margin
 
 
 def _colours(window: Any, columns: int, rows: int) -> NDArray[np.uint8]:

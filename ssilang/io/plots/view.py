@@ -42,18 +42,11 @@ class Plane:
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A parallel projection.
+    """A parallel projection."""
 
-    Attributes
-    ----------
-    axes : array (3, 3)
-        Rows: to the right on the sheet, upwards on the sheet, towards the eye.
-    solid : bool
-        True for a view in space, False for the plane x, y.
-    """
-
+    # (3, 3) rows: to the right on the sheet, upwards on the sheet, towards the eye
     axes: FloatArray
-    solid: bool = True
+    solid: bool = True  # True for a view in space, False for the plane x, y
 
     def project(self, points: FloatArray) -> FloatArray:
         """Sheet coordinates (..., 2) of points (..., 3)."""

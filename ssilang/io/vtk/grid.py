@@ -26,26 +26,13 @@ class DataArray:
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """An unstructured grid in VTK's numbering.
+    """An unstructured grid in VTK's numbering."""
 
-    Attributes
-    ----------
-    nodes : array (n,)
-        Node numbers of the rows of `points`, increasing.
-    points : array (n, 3)
-    connectivity : array of int
-        Rows of `points` of all cells, one after the other, in VTK's node order.
-    offsets : array (n_cells,)
-        End of each cell in `connectivity`.
-    types : array (n_cells,) of uint8
-    point_data, cell_data : mapping of str to DataArray
-    """
-
-    nodes: IntArray
-    points: FloatArray
-    connectivity: IntArray
-    offsets: IntArray
-    types: NDArray[np.uint8]
+    nodes: IntArray  # (n,) node numbers of the rows of `points`, increasing
+    points: FloatArray  # (n, 3)
+    connectivity: IntArray  # rows of `points` of all cells, one after the other, in VTK's order
+    offsets: IntArray  # (n_cells,) end of each cell in `connectivity`
+    types: NDArray[np.uint8]  # (n_cells,) of uint8
     point_data: dict[str, DataArray] = field(default_factory=dict)
     cell_data: dict[str, DataArray] = field(default_factory=dict)
 

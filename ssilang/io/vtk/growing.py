@@ -215,7 +215,11 @@ class Stack:
 
     def append(self, block: NDArray[np.generic]) -> int:
         """Add a block; returns the row with which it begins."""
-        packed = deflated(block)
+        rows = np.ascontiguousarray(block)  # deflated: first bytes of all rows, then second ones
+        width = hdf5.row_size(rows.shape, rows.dtype)
+        if width > 1:
+            rows = np.ascontiguousarray(rows.view(np.uint8).reshape(-1, width).T)
+        packed = zlib.compress(rows.data, hdf5.LEVEL)
         self._index.append(self._file.add(packed), len(packed))
         self.count += 1
         self._file.change(self.address, self._header())
@@ -236,15 +240,6 @@ def write_once(file: GrowingFile, values: NDArray[np.generic]) -> int:
     where = file.add(values.tobytes()) if values.size else hdf5.UNDEFINED
     messages = hdf5.contiguous(values.shape, values.dtype, where, values.nbytes)
     return file.add(hdf5.header(messages))
-
-
-def deflated(block: NDArray[np.generic]) -> bytes:
-    """A block's bytes, the first byte of each row first, then all second ones, deflated."""
-    rows = np.ascontiguousarray(block)
-    width = hdf5.row_size(rows.shape, rows.dtype)
-    if width > 1:
-        rows = np.ascontiguousarray(rows.view(np.uint8).reshape(-1, width).T)
-    return zlib.compress(rows.data, hdf5.LEVEL)
 
 
 class _Node:

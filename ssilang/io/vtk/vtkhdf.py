@@ -181,7 +181,12 @@ class _Fields:
         """Add a step; an array that it, or a step before, does not have is NaN there."""
         for name, array in arrays.items():
             if name not in self._stacks and array.values.size:
-                self._add(_plain(array.values), name, step)
+                values = _plain(array.values)
+                self._stacks[name] = Stack(self._file, values.shape, values.dtype)
+                self._starts[name] = Column(self._file, "<i8")
+                for _ in range(step):
+                    self._starts[name].append(self._gap(name))
+                self.links_changed = True
                 self.columns[name] = array.columns
         for name, stack in self._stacks.items():
             found = arrays.get(name)
@@ -198,13 +203,6 @@ class _Fields:
     def shapes(self) -> dict[str, tuple[int, ...]]:
         """Shape of each array of a step."""
         return {name: stack.shape for name, stack in self._stacks.items()}
-
-    def _add(self, values: NDArray[np.generic], name: str, step: int) -> None:
-        self._stacks[name] = Stack(self._file, values.shape, values.dtype)
-        self._starts[name] = Column(self._file, "<i8")
-        for _ in range(step):
-            self._starts[name].append(self._gap(name))
-        self.links_changed = True
 
     def _gap(self, name: str) -> int:
         if name not in self._nowhere:

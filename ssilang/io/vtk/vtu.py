@@ -121,14 +121,9 @@ def _native(values: NDArray[Any]) -> NDArray[Any]:
 
 def _encoded(values: NDArray[Any], encoding: Encoding, kept: bool) -> str:
     if encoding is Encoding.TEXT:
-        return "\n" + "\n".join(" ".join(_digits(x) for x in np.atleast_1d(row)) for row in values)
+        return "\n" + "\n".join(" ".join(map(repr, np.atleast_1d(row).tolist())) for row in values)
     pack = _packed_once if kept else _packed
     return pack(values.tobytes(), encoding is Encoding.ZIP)
-
-
-def _digits(x: np.generic) -> str:
-    value = x.item()
-    return repr(value) if isinstance(value, float) else str(value)
 
 
 def _packed(raw: bytes, deflate: bool) -> str:

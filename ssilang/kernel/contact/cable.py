@@ -24,24 +24,13 @@ from ssilang.kernel.mesh.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class Bars:
-    """Bars of a cable.
+    """Bars of a cable."""
 
-    Attributes
-    ----------
-    cells : array (n, 2)
-    stiffness : array (n,)
-        E S / L.
-    tension : array (n,)
-        At zero displacement.
-    angular, linear : arrays (n,)
-        f (1/rad) and phi (1/m).
-    """
-
-    cells: IntArray
-    stiffness: FloatArray
-    tension: FloatArray
-    angular: FloatArray
-    linear: FloatArray
+    cells: IntArray  # (n, 2)
+    stiffness: FloatArray  # (n,) E S / L
+    tension: FloatArray  # (n,) at zero displacement
+    angular: FloatArray  # (n,) f (1/rad)
+    linear: FloatArray  # (n,) phi (1/m)
 
 
 @dataclass(frozen=True, eq=False)

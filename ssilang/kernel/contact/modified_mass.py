@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.cholesky.inverse import invert
@@ -32,10 +31,7 @@ def without_contact_mass(M: sp.csr_array, K: sp.csr_array, G: sp.csr_array) -> s
     follow = -inverse.solve(K[c][:, rest].toarray())
     P = sp.lil_array((n, n))
     P[rest, rest] = 1.0
-    full = sp.csr_array(P) + _placed(follow, c, rest, n)
+    row, column = np.nonzero(follow)
+    placed = (follow[row, column], (c[row], rest[column]))
+    full = sp.csr_array(P) + sp.csr_array(placed, shape=(n, n))
     return sp.csr_array(full.T @ M @ full)
-
-
-def _placed(block: FloatArray, rows: IntArray, columns: IntArray, n: int) -> sp.csr_array:
-    r, c = np.nonzero(block)
-    return sp.csr_array((block[r, c], (rows[r], columns[c])), shape=(n, n))

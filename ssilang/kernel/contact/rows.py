@@ -30,29 +30,15 @@ TOUCHING = 1e-11  # of the largest gap or displacement, which solvers leave: clo
 
 @dataclass(frozen=True, eq=False)
 class ContactRows:
-    """Unilateral conditions on one numbering.
+    """Unilateral conditions on one numbering."""
 
-    Attributes
-    ----------
-    G : csr array (m, n)
-        Rows times their sense.
-    sense : array (m,)
-        +1 MINI, -1 MAXI.
-    multipliers : array (m,)
-        Multiplier nodes.
-    imposed : array (m, k)
-        Imposed values times the sense, by load curve.
-    dual : csr array (m, n) or None
-        Rows that the reactions push by, times the sense; None: those of G.
-    friction : FrictionRows or None
-        Places that rub. Forces are then the reactions p (m,) and the frictions behind them.
-    """
-
-    G: sp.csr_array
-    sense: FloatArray
-    multipliers: IntArray
-    imposed: FloatArray
+    G: sp.csr_array  # (m, n) rows times their sense
+    sense: FloatArray  # (m,) +1 MINI, -1 MAXI
+    multipliers: IntArray  # (m,) multiplier nodes
+    imposed: FloatArray  # (m, k) imposed values times the sense, by load curve
+    # (m, n) rows that the reactions push by, times the sense; None: those of G
     dual: sp.csr_array | None = None
+    # places that rub; forces are then the reactions p (m,) and the frictions
     friction: FrictionRows | None = None
 
     def __len__(self) -> int:
@@ -208,30 +194,15 @@ STICKING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class FrictionRows:
-    """Places that rub.
+    """Places that rub."""
 
-    Attributes
-    ----------
-    H : csr array (k d, n)
-        Slips, d rows a place.
-    width : int
-        d, 1 in the plane, 2 in space.
-    normal : array (k,)
-        Unilateral row of each place, -1 for none.
-    coefficient, constant : arrays (k,)
-    watched : csr array (k, n)
-        Rows whose values are the limits where `normal` is -1.
-    offset : array (k,)
-        Values of these at zero displacement.
-    """
-
-    H: sp.csr_array
-    width: int
-    normal: IntArray
-    coefficient: FloatArray
-    constant: FloatArray
-    watched: sp.csr_array
-    offset: FloatArray
+    H: sp.csr_array  # (k d, n) slips, d rows a place
+    width: int  # d, 1 in the plane, 2 in space
+    normal: IntArray  # (k,) unilateral row of each place, -1 for none
+    coefficient: FloatArray  # (k,)
+    constant: FloatArray  # (k,)
+    watched: sp.csr_array  # (k, n) rows whose values are the limits where `normal` is -1
+    offset: FloatArray  # (k,) values of these at zero displacement
 
     def sticking(self, pushes: FloatArray, tau: FloatArray, u: FloatArray) -> BoolArray:
         """Places (k,) whose friction tau (k d,) stays under its limit."""

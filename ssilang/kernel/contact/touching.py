@@ -31,23 +31,12 @@ OF_LINES, OF_PROJECTILE = "MULT4", "MULT3"
 
 @dataclass(frozen=True, eq=False)
 class Nose:
-    """Front of a rigid projectile, whose foremost point is its node.
+    """Front of a rigid projectile, whose foremost point is its node."""
 
-    Attributes
-    ----------
-    shape : 'HEMI', 'PLAT' or 'CONE'
-    axis : array (2,)
-        Unit vector out of the nose.
-    size : float
-        Radius ('HEMI'), or width.
-    angle : float
-        Of a cone, from its axis to its side, radians.
-    """
-
-    shape: str
-    axis: FloatArray
-    size: float
-    angle: float = 0.0
+    shape: str  # 'HEMI', 'PLAT' or 'CONE'
+    axis: FloatArray  # (2,) unit vector out of the nose
+    size: float  # radius ('HEMI'), or width
+    angle: float = 0.0  # of a cone, from its axis to its side, radians
 
     def touched(self, away: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Outer normals (n, 2) and gaps (n,) at places `away` (n, 2) from the point.

@@ -22,7 +22,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.elements.shapes.quadrature import quadrature
 from ssilang.kernel.matrices.matrix import Relations
-from ssilang.kernel.matrices.relations import joined, rows_from_table
+from ssilang.kernel.matrices.relations import across, joined, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -88,21 +88,11 @@ def side_of(mesh: Mesh, dimension: int) -> Side:
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """Where points fall on a side.
+    """Where points fall on a side."""
 
-    Attributes
-    ----------
-    cell : array (n,)
-        Cell, -1 for none.
-    shapes : array (n, k)
-        Shape functions there.
-    gap : array (n,)
-        Distance along the cell's normal, negative inside the body.
-    """
-
-    cell: IntArray
-    shapes: FloatArray
-    gap: FloatArray
+    cell: IntArray  # (n,) cell, -1 for none
+    shapes: FloatArray  # (n, k) shape functions there
+    gap: FloatArray  # (n,) distance along the cell's normal, negative inside the body
 
 
 def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
@@ -114,7 +104,12 @@ def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
     normals : array (n, dim)
         Outer normals of the side that the points belong to.
     """
-    shapes = _coordinates(side, points)
+    first = side.corners[:, 0]
+    edges = side.corners[:, 1:] - first[:, None]
+    metric = np.einsum("cid,cjd->cij", edges, edges)
+    right = np.einsum("ncd,cid->nci", points[:, None] - first[None], edges)
+    local = np.einsum("cij,ncj->nci", np.linalg.inv(metric), right)
+    shapes = np.concatenate([1 - local.sum(axis=2, keepdims=True), local], axis=2)
     offset = points[:, None] - side.corners[None, :, 0]
     gap = np.einsum("ncd,cd->nc", offset, side.normals)
     inside = (shapes >= -OUTSIDE).all(axis=2)
@@ -126,16 +121,6 @@ def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
     rows = np.arange(len(points))
     found = np.isfinite(cost[rows, best])
     return Projection(np.where(found, best, -1), shapes[rows, best], gap[rows, best])
-
-
-def _coordinates(side: Side, points: FloatArray) -> FloatArray:
-    """Shape functions (n, n_cells, k) of the feet of points on the cells' planes."""
-    first = side.corners[:, 0]
-    edges = side.corners[:, 1:] - first[:, None]
-    metric = np.einsum("cid,cjd->cij", edges, edges)
-    right = np.einsum("ncd,cid->nci", points[:, None] - first[None], edges)
-    local = np.einsum("cij,ncj->nci", np.linalg.inv(metric), right)
-    return np.concatenate([1 - local.sum(axis=2, keepdims=True), local], axis=2)
 
 
 NOTHING = 1e-13
@@ -153,20 +138,11 @@ class ContactRelations:
 
 @dataclass(frozen=True)
 class Rubbing:
-    """Coulomb's friction of two sides.
-
-    Attributes
-    ----------
-    coefficient : float
-    cohesion : float
-        A stress.
-    turned : bool
-        Whether the model turns about its axis: areas are those of rings.
-    """
+    """Coulomb's friction of two sides."""
 
     coefficient: float
-    cohesion: float = 0.0
-    turned: bool = False
+    cohesion: float = 0.0  # a stress
+    turned: bool = False  # whether the model turns about its axis: areas are those of rings
 
 
 @dataclass(frozen=True, eq=False)
@@ -372,21 +348,11 @@ def _gathered(
         return np.bincount(row, weight * values, n).astype(np.float64)
 
     middle = np.stack([mean(normal[:, i]) for i in range(d)], axis=1)
-    slips = tuple(gathered(t[row]) for t in _across(middle))
+    middle /= np.linalg.norm(middle, axis=1, keepdims=True)
+    slips = tuple(gathered(t[row]) for t in across(middle))
     x = np.einsum("nk,nkd->nd", points.shapes, slave.corners[points.cell])
     least = mean(distance - faced.gap)
     return Rows(unique, gathered(normal), slips, least, area, mean(x[:, 0]))
-
-
-def _across(normals: FloatArray) -> list[FloatArray]:
-    """Unit vectors across normals (n, dim): one in the plane, two in space."""
-    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    if normals.shape[1] == 2:
-        return [np.stack([-normals[:, 1], normals[:, 0]], axis=1)]
-    side = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = np.cross(normals, side)
-    first = first / np.linalg.norm(first, axis=1, keepdims=True)
-    return [first, np.cross(normals, first)]
 
 
 def _as_relations(
@@ -404,23 +370,10 @@ def _as_relations(
 
 @dataclass(frozen=True)
 class ContactOptions:
-    """How unilateral relations are enforced.
+    """How unilateral relations are enforced."""
 
-    Attributes
-    ----------
-    method : 'LAGRANGE', 'PENALITE', 'AUGMENTE' or 'UZAWA'
-    coefficient : float or None
-        Penalty or augmentation.
-    correction : 'FAUX', 'MASSE' or 'RIGIDITE'
-        Of velocities when a relation closes.
-    persistent : bool
-        Relative velocity of relations that stay closed set to zero.
-    modified_mass : bool
-        Mass taken off the contact unknowns.
-    """
-
-    method: str = "LAGRANGE"
-    coefficient: float | None = None
-    correction: str = "FAUX"
-    persistent: bool = False
-    modified_mass: bool = False
+    method: str = "LAGRANGE"  # 'LAGRANGE', 'PENALITE', 'AUGMENTE' or 'UZAWA'
+    coefficient: float | None = None  # penalty or augmentation
+    correction: str = "FAUX"  # 'FAUX', 'MASSE' or 'RIGIDITE': of velocities when a relation closes
+    persistent: bool = False  # relative velocity of relations that stay closed set to zero
+    modified_mass: bool = False  # mass taken off the contact unknowns

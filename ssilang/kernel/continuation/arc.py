@@ -38,31 +38,17 @@ class System(Protocol):
 
 @dataclass(frozen=True)
 class Lengths:
-    """How far steps go.
+    """How far steps go."""
 
-    Attributes
-    ----------
-    start, least, most : float
-        Lengths ds.
-    ideal, turns : float, int
-        Iterations that keep the length, and most of them.
-    u_ref, t_ref : float
-        Units of the lengths.
-    tolerance : float
-        Of the residual, over the forces.
-    bend : float
-        Greatest cosine loss between two steps: steps that turn by more than this angle (radians)
-        are cut.
-    """
-
-    start: float
-    least: float
-    most: float
-    ideal: float = 6.0
-    turns: int = 24
-    u_ref: float = 1.0
-    t_ref: float = 1.0
-    tolerance: float = 1e-6
+    start: float  # lengths ds: the first
+    least: float  # the least
+    most: float  # the largest
+    ideal: float = 6.0  # iterations that keep the length
+    turns: int = 24  # iterations at most
+    u_ref: float = 1.0  # unit of u in the lengths
+    t_ref: float = 1.0  # unit of t in them
+    tolerance: float = 1e-6  # of the residual, over the forces
+    # steps that turn by more than this angle (radians) from the one before are cut
     bend: float = np.pi
 
 

@@ -134,30 +134,17 @@ CURVE_STEP = 1e-6
 
 @dataclass(eq=False)
 class FrequencyProblem:
-    """`Z(w(t)) U - F_nl(U) - F(t) = 0` on the coefficients U = T q that supports leave.
-
-    Attributes
-    ----------
-    K, C, M : csr arrays (n, n)
-        `Z = K + w C + w^2 M`.
-    T : csr array (n, r)
-    loading : Loading
-        F in pseudo-time.
-    frequency : callable
-        w of t.
-    places : array (2 H + 1, m)
-        Where the coefficients of the unknowns with nonlinear forces stand in U.
-    samples : callable or None
-    """
+    """`Z(w(t)) U - F_nl(U) - F(t) = 0` on the coefficients U = T q that supports leave."""
 
     numbering: Numbering
-    K: sp.csr_array
+    K: sp.csr_array  # (n, n) `Z = K + w C + w^2 M`
     C: sp.csr_array
     M: sp.csr_array
-    T: sp.csr_array
-    loading: Loading
-    frequency: Callable[[float], float]
+    T: sp.csr_array  # (n, r)
+    loading: Loading  # F in pseudo-time
+    frequency: Callable[[float], float]  # w of t
     basis: Basis
+    # (2 H + 1, m) where the coefficients of the unknowns with nonlinear forces stand in U
     places: IntArray
     samples: Samples | None = None
     size: float = 0.0
@@ -173,17 +160,14 @@ class FrequencyProblem:
         found: FloatArray = self.T.T @ (self.loading.forces @ self.loading.at(np.array([t]))[0])
         return found
 
-    def _slopes(self, t: float) -> tuple[FloatArray, float]:
-        h = CURVE_STEP * max(abs(t), 1e-3)
-        load = (self.load(t + h) - self.load(t - h)) / (2 * h)
-        return load, (self.frequency(t + h) - self.frequency(t - h)) / (2 * h)
-
     def at(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Residual and derivatives in q (r,) and t."""
         K, C, M = self.parts
         w = self.frequency(t)
         Z = K + w * C + w * w * M
-        load, (load_rate, rate) = self.load(t), self._slopes(t)
+        h = CURVE_STEP * max(abs(t), 1e-3)
+        load, load_rate = self.load(t), (self.load(t + h) - self.load(t - h)) / (2 * h)
+        rate = (self.frequency(t + h) - self.frequency(t - h)) / (2 * h)
         linear = Z @ u
         R, J = linear - load, Z
         if self.samples is not None:

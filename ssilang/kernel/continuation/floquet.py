@@ -56,16 +56,12 @@ def monodromy(M: FloatArray, C: FloatArray, K: FloatArray, w: float) -> FloatArr
         A.append(matrix)
     omega = 0.5 * h * (A[0] + A[1]) + np.sqrt(3.0) / 12.0 * h * h * (A[1] @ A[0] - A[0] @ A[1])
     total = np.eye(2 * n)
-    for factor in _exponential(omega):
+    one = np.eye(omega.shape[-1])
+    square = omega @ omega
+    even, odd = one + square / 10.0, 0.5 * omega + omega @ square / 120.0
+    for factor in np.asarray(np.linalg.solve(even - odd, even + odd), dtype=np.float64):
         total = factor @ total
     return total
-
-
-def _exponential(X: FloatArray) -> FloatArray:
-    one = np.eye(X.shape[-1])
-    square = X @ X
-    even, odd = one + square / 10.0, 0.5 * X + X @ square / 120.0
-    return np.asarray(np.linalg.solve(even - odd, even + odd), dtype=np.float64)
 
 
 def exponents(M: FloatArray, C: FloatArray, K: FloatArray, w: float) -> FloatArray:

@@ -32,20 +32,12 @@ from ssilang.kernel.modal.links import (
 
 @dataclass(frozen=True, eq=False)
 class Basis:
-    """H harmonics at N instants of one period.
-
-    Attributes
-    ----------
-    values, rates : array (N, 2 H + 1)
-        1, cos k theta, sin k theta and their derivatives in theta.
-    back : array (2 H + 1, N)
-        From samples to coefficients.
-    """
+    """H harmonics at N instants of one period."""
 
     harmonics: int
-    values: FloatArray
+    values: FloatArray  # (N, 2 H + 1) 1, cos k theta, sin k theta and their derivatives in theta
     rates: FloatArray
-    back: FloatArray
+    back: FloatArray  # (2 H + 1, N) from samples to coefficients
 
 
 def basis_at(harmonics: int, angles: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -84,20 +76,14 @@ def derivative_matrix(harmonics: int) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class Oscillators:
-    """M, C, K (n, n) and the forces of `M q'' + C q' + K q = f(q, q') + F`.
-
-    Attributes
-    ----------
-    load : array (2 H + 1, n)
-        Coefficients of F; times w^2 where `unbalance`.
-    """
+    """M, C, K (n, n) and the forces of `M q'' + C q' + K q = f(q, q') + F`."""
 
     M: FloatArray
     C: FloatArray
     K: FloatArray
     basis: Basis
     forces: Forces
-    load: FloatArray
+    load: FloatArray  # (2 H + 1, n) coefficients of F; times w^2 where `unbalance`
     unbalance: bool = False
 
     @property

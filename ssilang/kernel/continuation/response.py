@@ -99,23 +99,13 @@ class Bifurcation:
 
 @dataclass(eq=False)
 class Response:
-    """Solutions of a branch.
-
-    Attributes
-    ----------
-    frequencies : list of float
-    coefficients : list of array (2 H + 1, n)
-    exponents : list of array (2 n,)
-    unstable : list of bool
-    energies : list of float
-        Of normal modes.
-    """
+    """Solutions of a branch."""
 
     frequencies: list[float] = field(default_factory=list)
-    coefficients: list[FloatArray] = field(default_factory=list)
-    exponents: list[FloatArray] = field(default_factory=list)
+    coefficients: list[FloatArray] = field(default_factory=list)  # (2 H + 1, n) each
+    exponents: list[FloatArray] = field(default_factory=list)  # (2 n,) each
     unstable: list[bool] = field(default_factory=list)
-    energies: list[float] = field(default_factory=list)
+    energies: list[float] = field(default_factory=list)  # of normal modes
     bifurcations: list[Bifurcation] = field(default_factory=list)
     ended: str = ""
 

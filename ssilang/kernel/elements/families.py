@@ -140,13 +140,11 @@ def mass(zone: Zone, material: CellField, lumped: bool = False) -> ElementMatric
     if lumped:
         rotations = np.array([u.startswith("R") for u in layout.unknowns])
         summed = zone.cells.kind.degree == 1 and not rotations.any()
-        values = row_sums(values) if summed else scaled_diagonal(values, layout.unknowns)
+        if summed:
+            values = _diagonal(values.sum(axis=2))
+        else:
+            values = scaled_diagonal(values, layout.unknowns)
     return element_matrices(zone, layout, values, "MASSE", keep_zone=False)
-
-
-def row_sums(values: FloatArray) -> FloatArray:
-    """Diagonal matrices (n, m, m) of the sums of rows."""
-    return _diagonal(values.sum(axis=2))
 
 
 def scaled_diagonal(values: FloatArray, unknowns: tuple[str, ...]) -> FloatArray:

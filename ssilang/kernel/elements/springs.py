@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import ComplexArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
@@ -36,15 +36,9 @@ from ssilang.kernel.materials.model import Mode, Zone
 
 
 class StrainlessFamily(ElementFamily):
-    """A family without strains and stresses; its own methods make its matrices.
+    """A family without strains and stresses; its own methods make its matrices."""
 
-    Attributes
-    ----------
-    refusal : str
-        Code of the error where strains are asked for.
-    """
-
-    refusal: str
+    refusal: str  # code of the error where strains are asked for
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """None."""
@@ -196,7 +190,10 @@ def in_series(zone: Zone, parameters: ZoneField, kind: str) -> tuple[FloatArray,
     inner = [i for i in range(ends) if not (plain and outer.unknowns[i] in _ROTATIONS)]
     local = np.concatenate([outer.local, np.full(len(inner), 2 if two else 1)])
     names = (*outer.unknowns, *(outer.unknowns[i] for i in inner))
-    raw = np.column_stack([zone.cells.raw, _inner_nodes(zone)])
+    known: dict[str, Any] = zone.options  # inner nodes are the same for each matrix
+    if "INNER" not in known:
+        known["INNER"] = zone.cells.nodes.add(zone.cells.coordinates.mean(axis=1))
+    raw = np.column_stack([zone.cells.raw, known["INNER"]])
     layout = Layout(zone.cells.nodes, raw, local, names)
     out = np.zeros((len(zone.cells), len(names), len(names)))
     elastic = kind == "RIGIDITE"
@@ -209,27 +206,13 @@ def in_series(zone: Zone, parameters: ZoneField, kind: str) -> tuple[FloatArray,
         values = np.broadcast_to(parameters.at("VISC", "RIGIDITE")[:, 0], (len(zone.cells),))
     for place, i in enumerate(inner):
         other = i if elastic else i + ends if two else None
-        _join(out, m + place, other, values)
+        one = m + place
+        out[:, one, one] += values
+        if other is not None:
+            out[:, other, other] += values
+            out[:, one, other] -= values
+            out[:, other, one] -= values
     return out, layout
-
-
-def _join(out: FloatArray, one: int, other: int | None, values: FloatArray) -> None:
-    """Add a spring between two rows, or between one and the ground."""
-    out[:, one, one] += values
-    if other is not None:
-        out[:, other, other] += values
-        out[:, one, other] -= values
-        out[:, other, one] -= values
-
-
-def _inner_nodes(zone: Zone) -> IntArray:
-    """Nodes (n_cells,) where springs and dashpots in series meet, the same for each matrix."""
-    known: dict[str, Any] = zone.options
-    if "INNER" not in known:
-        cells = zone.cells
-        known["INNER"] = cells.nodes.add(cells.coordinates.mean(axis=1))
-    nodes: IntArray = known["INNER"]
-    return nodes
 
 
 def dynamic_stiffness(

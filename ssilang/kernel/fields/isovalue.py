@@ -202,7 +202,10 @@ def _without_parts(meshes: list[Mesh], nodes: NodeTable) -> Mesh:
         alone = np.ones(len(block), dtype=bool)
         for larger, other in by_size.items():
             if larger > size:
-                alone &= ~np.isin(cell_keys(block), cell_keys(_faces(other, size)))
+                places = list(combinations(range(other.kind.n_nodes), size))
+                table = other.connectivity[:, places].reshape(-1, size)
+                faces = CellBlock.make(other.nodes, _SIMPLICES[size - 1], table)
+                alone &= ~np.isin(cell_keys(block), cell_keys(faces))
         if alone.any():
             kept.append(
                 CellBlock.make(
@@ -210,10 +213,3 @@ def _without_parts(meshes: list[Mesh], nodes: NodeTable) -> Mesh:
                 )
             )
     return Mesh(nodes, tuple(kept))
-
-
-def _faces(block: CellBlock, size: int) -> CellBlock:
-    """All faces of `size` nodes of simplices."""
-    places = list(combinations(range(block.kind.n_nodes), size))
-    table = block.connectivity[:, places].reshape(-1, size)
-    return CellBlock.make(block.nodes, _SIMPLICES[size - 1], table)

@@ -25,29 +25,14 @@ from ssilang.kernel.interface.point_state import CLOSED, OPEN, WHOLE, energies_o
 
 @dataclass(frozen=True, eq=False)
 class Bed:
-    """Places under one macro-element.
+    """Places under one macro-element."""
 
-    Attributes
-    ----------
-    owner : int
-        Point of the macro-element in the interface.
-    first : int
-        Its first place among the points of the interface; the others follow.
-    arms : array (g, d - 1)
-        Where they are, along t1 and t2 from the centre; in 2D along the base, so that the place
-        opens by `v + theta s`.
-    areas : array (g,)
-    parameters : array (N_PARAMETERS,)
-        Means over the area.
-    strengths : array (g,)
-        What the ground bears at each place, pressed or dragged, over the mean.
-    """
-
-    owner: int
-    first: int
-    arms: FloatArray
-    areas: FloatArray
-    parameters: FloatArray
+    owner: int  # point of the macro-element in the interface
+    first: int  # its first place among the points of the interface; the others follow
+    arms: FloatArray  # (g, d - 1) along t1 and t2 from the centre; in 2D it opens by `v + theta s`
+    areas: FloatArray  # (g,)
+    parameters: FloatArray  # (N_PARAMETERS,) means over the area
+    # (g,) what the ground bears at each place, pressed or dragged, over the mean
     strengths: FloatArray
 
     @property

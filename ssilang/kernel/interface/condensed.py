@@ -21,19 +21,11 @@ from ssilang.kernel.interface.response import InterfaceState, Trial
 
 
 class Condensed(NamedTuple):
-    """What all but the interface is to the interface.
+    """What all but the interface is to the interface."""
 
-    Attributes
-    ----------
-    S, R : arrays (q, q)
-        Compliance, stiffness that it holds in excess (no rows: none).
-    c : float
-        Share of the end of the step in its equilibrium.
-    """
-
-    S: FloatArray
-    R: FloatArray
-    c: float
+    S: FloatArray  # (q, q) compliance
+    R: FloatArray  # (q, q) stiffness that it holds in excess (no rows: none)
+    c: float  # share of the end of the step in its equilibrium
 
 
 def condensed_of(S: FloatArray, c: float) -> Condensed:

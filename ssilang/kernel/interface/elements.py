@@ -26,28 +26,15 @@ from ssilang.kernel.materials.model import Mode, Zone
 
 @dataclass(frozen=True)
 class JointElement:
-    """One joint element.
-
-    Attributes
-    ----------
-    cell_type : str
-    face : str
-        Cell type of one side ('POI1' for two points).
-    dimension : int
-        Of space; the jump has as many components.
-    strains, stresses : tuple of str
-        Names of the jump's and the traction's components, shear first, normal last.
-    rule : str
-        'GAUSS', or 'LOBATTO': integration at the nodes.
-    """
+    """One joint element."""
 
     name: str
     cell_type: str
-    face: str
-    dimension: int
-    strains: tuple[str, ...]
-    stresses: tuple[str, ...]
-    rule: str = "GAUSS"
+    face: str  # cell type of one side ('POI1' for two points)
+    dimension: int  # of space; the jump has as many components
+    strains: tuple[str, ...]  # of the jump, shear first, normal last
+    stresses: tuple[str, ...]  # of the traction
+    rule: str = "GAUSS"  # 'GAUSS', or 'LOBATTO': integration at the nodes
 
 
 _LINE = (("DRSN", "DRN"), ("SMSN", "SMN"))

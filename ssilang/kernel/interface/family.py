@@ -138,7 +138,13 @@ class JointFamily(ElementFamily):
                 place = len(order) + i + (len(springs) == 3)
                 full[..., place, place] = values[:, None]
             if len(springs) == 3:
-                _twist_by_bed(joints, joint_parameters(joints, parameters), full[..., d, d])
+                # against twist of macro-elements whose ground yields the bed has a spring
+                table = joint_parameters(joints, parameters)
+                for row, value in zip(table, full[..., d, d], strict=True):
+                    if yields(row) and (row[Parameter.LONG] > 0.0 or row[Parameter.RAYO] > 0.0):
+                        if value.any():
+                            raise MaterialError("kernel.interface.bed-has-its-own-twist")
+                        value[:] = twisting_stiffness(law_of(joints.zone.behaviour).code, row)
         return full
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
@@ -158,15 +164,6 @@ class JointFamily(ElementFamily):
             rows = [i for i, u in enumerate(layout.unknowns) if u == unknown]
             values[:, np.array(rows)[:, None], rows] = scalar
         return values, layout
-
-
-def _twist_by_bed(joints: JointCells, table: FloatArray, spring: FloatArray) -> None:
-    """The spring (n, 1) against twist of macro-elements whose ground yields: that of the bed."""
-    for row, value in zip(table, spring, strict=True):
-        if yields(row) and (row[Parameter.LONG] > 0.0 or row[Parameter.RAYO] > 0.0):
-            if value.any():
-                raise MaterialError("kernel.interface.bed-has-its-own-twist")
-            value[:] = twisting_stiffness(law_of(joints.zone.behaviour).code, row)
 
 
 def _full_moduli(joints: JointCells, given: ZoneField, size: int) -> FloatArray:

@@ -128,7 +128,12 @@ class Footing:
         share: FloatArray = (wn <= 0.0) @ self.weights / self.area
         if self.ends is not None:
             jumps, pushes = self._at_ends(wn), self._at_ends(-tn)
-            share = self._share(jumps)
+            # of the area, where normal jumps leave no gap
+            low, high = jumps.min(axis=2), jumps.max(axis=2)
+            shut = np.where(high <= 0.0, 1.0, 0.0)
+            partly = (low < 0.0) & (high > 0.0)
+            shut[partly] = low[partly] / (low - high)[partly]
+            share = shut @ self.lengths / self.area
             opening = np.maximum(opening, jumps.max(axis=(1, 2)))
             closed = (jumps <= 0.0).all(axis=2, keepdims=True)  # beside a gap it is no line
             pressure = np.maximum(pressure, np.where(closed, pushes, 0.0).max(axis=(1, 2)))
@@ -162,14 +167,6 @@ class Footing:
         """Values (k, g) of the points at both ends of each cell, (k, n_cells, 2)."""
         assert self.ends is not None
         return (self.ends @ values.T).T.reshape(len(values), -1, 2)
-
-    def _share(self, jumps: FloatArray) -> FloatArray:
-        """Share (k,) of the area where normal jumps (k, n_cells, 2) leave no gap."""
-        low, high = jumps.min(axis=2), jumps.max(axis=2)
-        closed = np.where(high <= 0.0, 1.0, 0.0)
-        partly = (low < 0.0) & (high > 0.0)
-        closed[partly] = low[partly] / (low - high)[partly]
-        return closed @ self.lengths / self.area
 
 
 def footings_of(interface: Interface, numbering: Numbering) -> tuple[Footing, ...]:
@@ -222,17 +219,15 @@ def _in_space(values: FloatArray) -> FloatArray:
     return made
 
 
-def _upside_down(parts: list[tuple[JointCells, int, IntArray]]) -> bool:
-    """Whether the side named first is the one below: what stands on it is the structure."""
-    n: Any = sum(np.einsum("ng,ngi->i", j.weights[c], j.frames[c][:, :, -1]) for j, _, c in parts)
-    return bool(n[-1] < -0.5 * np.linalg.norm(n))
-
-
 def _footing(parts: list[tuple[JointCells, int, IntArray]], numbering: Numbering) -> Footing:
     """The footing of some cells of zones, whose points begin at a place."""
     points, weights, frames, places, rows = [], [], [], [], []
     d = parts[0][0].element.dimension
-    turned = _upside_down(parts)
+    # where the side named first is the one below, what stands on it is the structure
+    normal: Any = sum(
+        np.einsum("ng,ngi->i", j.weights[c], j.frames[c][:, :, -1]) for j, _, c in parts
+    )
+    turned = bool(normal[-1] < -0.5 * np.linalg.norm(normal))
     for j, first, cells in parts:
         n, g = len(cells), j.weights.shape[1]
         nodes = j.zone.cells.nodes

@@ -25,29 +25,15 @@ from ssilang.messages.message import Sentence
 
 @dataclass(frozen=True, eq=False)
 class JointCells:
-    """Joints of one zone, ready to give jumps.
-
-    Attributes
-    ----------
-    zone : Zone
-    element : JointElement
-    upper, lower : array (n, m)
-        Facing nodes of the two sides, as made (not resolved).
-    shape : array (g, m)
-        Interpolation of the nodal jumps at the points.
-    frames : array (n, g, d, d)
-        Rows t1, [t2,] n.
-    weights : array (n, g)
-        Area of each point (times thickness, or 2 pi r); 1 for a joint of two points.
-    """
+    """Joints of one zone, ready to give jumps."""
 
     zone: Zone
     element: JointElement
-    upper: IntArray
+    upper: IntArray  # (n, m) facing nodes of the two sides, as made (not resolved)
     lower: IntArray
-    shape: FloatArray
-    frames: FloatArray
-    weights: FloatArray
+    shape: FloatArray  # (g, m) interpolation of the nodal jumps at the points
+    frames: FloatArray  # (n, g, d, d) rows t1, [t2,] n
+    weights: FloatArray  # (n, g) area of each point (times thickness, or 2 pi r); 1 of two points
 
     @property
     def operator(self) -> FloatArray:
@@ -165,7 +151,11 @@ def _surface(
     if flat.any():
         raise MeshError("kernel.interface.joint-no-area", cells=_cells(flat), element=zone.element)
     _refuse_reversed(zone, frames[:, :, -1], np.einsum("gm,nmi->ngi", N, x_u - x_l), size)
-    _refuse_folded(zone, frames[:, :, -1])
+    normal = frames[:, :, -1]  # turns round between points where corners are in a wrong order
+    folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
+    if folded.any():
+        told = {"cells": _cells(folded), "element": zone.element}
+        raise MeshError("kernel.interface.joint-folded-part-negative", **told)
     weights = area * rule.weights * _thickness(zone, given, N, middle)
     _refuse_negative(zone, weights)
     return JointCells(zone, element, upper, lower, N, frames, weights)
@@ -194,14 +184,6 @@ def _refuse_reversed(zone: Zone, normal: FloatArray, gap: FloatArray, size: Floa
         raise MeshError(
             "kernel.interface.joint-normal-goes-first", cells=_cells(wrong), element=zone.element
         )
-
-
-def _refuse_folded(zone: Zone, normal: FloatArray) -> None:
-    """Refuse cells whose normal turns round between their points: corners in a wrong order."""
-    folded = (np.einsum("ngi,ni->ng", normal, normal[:, 0]) <= 0.0).any(axis=1)
-    if folded.any():
-        told = {"cells": _cells(folded), "element": zone.element}
-        raise MeshError("kernel.interface.joint-folded-part-negative", **told)
 
 
 def _refuse_negative(zone: Zone, weights: FloatArray) -> None:
@@ -249,8 +231,7 @@ def point_values(
     if values.shape[1] == 2 * m and support == "NOEUD":
         values = (values[:, :m] + values[:, m:]) / 2
     if values.shape[1] == m > 1 and support == "NOEUD":
-        interpolated: FloatArray = values @ shape.T
-        return interpolated
+        return values @ shape.T
     if values.shape[1] in (1, g):
         return np.broadcast_to(values, (n_cells, g)).copy()
     raise MaterialError(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -66,17 +68,12 @@ def _macro(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> Fl
     return np.where((np.abs(t - whole).max(axis=1) <= WHOLE * size), CLOSED, OPEN)
 
 
-def _lead(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> FloatArray:
-    return np.full(len(w), CLOSED)
-
-
-def _pendulum(w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> FloatArray:
-    return np.where(t[:, -1] < 0, CLOSED, OPEN)
-
-
-_STATES = {
-    LawCode.SDM: _sdm, LawCode.MOHR: _mohr, LawCode.LEAD: _lead, LawCode.PENDULUM: _pendulum,
-}  # fmt: skip
+_STATES: dict[int, Callable[[FloatArray, FloatArray, FloatArray, FloatArray], FloatArray]] = {
+    LawCode.SDM: _sdm,
+    LawCode.MOHR: _mohr,
+    LawCode.LEAD: lambda w, t, state, p: np.full(len(w), CLOSED),
+    LawCode.PENDULUM: lambda w, t, state, p: np.where(t[:, -1] < 0, CLOSED, OPEN),
+}
 """By law; all others are macro-elements."""
 
 

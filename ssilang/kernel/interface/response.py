@@ -16,78 +16,41 @@ from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
 
 
 class Joints(NamedTuple):
-    """The points of an interface, as compiled code takes them.
+    """The points of an interface, as compiled code takes them."""
 
-    Attributes
-    ----------
-    pairs : array (n_points, m)
-        Pairs of facing nodes that each point interpolates.
-    B : array (n_points, d, m d)
-        Local jump of a point from the jumps of its pairs.
-    weights : array (n_points,)
-    codes : array (n_points,)
-        Laws (`LawCode`).
-    p : array (n_points, N_PARAMETERS)
-        Their parameters, C-contiguous.
-    """
-
-    pairs: IntArray
-    B: FloatArray
-    weights: FloatArray
-    codes: IntArray
-    p: FloatArray
+    pairs: IntArray  # (n_points, m) pairs of facing nodes that each point interpolates
+    B: FloatArray  # (n_points, d, m d) local jump of a point from the jumps of its pairs
+    weights: FloatArray  # (n_points,)
+    codes: IntArray  # (n_points,) laws (`LawCode`)
+    p: FloatArray  # (n_points, N_PARAMETERS) their parameters, C-contiguous
 
 
 class InterfaceState(NamedTuple):
-    """What an interface is at the end of the last converged step.
+    """What an interface is at the end of the last converged step."""
 
-    Attributes
-    ----------
-    delta, f : arrays (q,)
-        Jumps of the pairs, forces on them.
-    w, t : arrays (n_points, d)
-        Local jumps and tractions, normal last.
-    state : array (n_points, N_STATE)
-        Internal variables of the laws.
-    """
-
-    delta: FloatArray
-    f: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
+    delta: FloatArray  # (q,) jumps of the pairs
+    f: FloatArray  # (q,) forces on them
+    w: FloatArray  # (n_points, d) local jumps, normal last
+    t: FloatArray  # (n_points, d) tractions
+    state: FloatArray  # (n_points, N_STATE) internal variables of the laws
 
 
 class Trial(NamedTuple):
-    """The end of a step while it is iterated on: jumps that are tried, and what the laws give.
+    """The end of a step while it is iterated on: jumps that are tried, and what the laws give."""
 
-    Attributes
-    ----------
-    y0, y : arrays (q,)
-        Increments of the jumps under the forces of the start, and those that are tried.
-    delta, f : arrays (q,)
-        Jumps tried, forces.
-    w, t : arrays (n_points, d)
-    state : array (n_points, N_STATE)
-    D : array (n_points, d, d)
-        Tangents dt/dw.
-    h, r, dy : arrays (q,)
-        Load that corrects the linear solution, residual, Newton's direction.
-    mean : array (n_points, d)
-        Tractions that are means over the step; f and D are theirs (no rows: those of the end).
-    """
-
-    y0: FloatArray
-    y: FloatArray
-    delta: FloatArray
-    f: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
-    D: FloatArray
-    h: FloatArray
-    r: FloatArray
-    dy: FloatArray
+    y0: FloatArray  # (q,) increments of the jumps under the forces of the start
+    y: FloatArray  # (q,) those that are tried
+    delta: FloatArray  # (q,) jumps tried
+    f: FloatArray  # (q,) forces
+    w: FloatArray  # (n_points, d)
+    t: FloatArray  # (n_points, d)
+    state: FloatArray  # (n_points, N_STATE)
+    D: FloatArray  # (n_points, d, d) tangents dt/dw
+    h: FloatArray  # (q,) load that corrects the linear solution
+    r: FloatArray  # (q,) residual
+    dy: FloatArray  # (q,) Newton's direction
+    # (n_points, d) tractions that are means over the step; f and D are theirs (no rows: those of
+    # the end)
     mean: FloatArray
 
 

@@ -149,7 +149,9 @@ def sum_of_outer_products(
     rows = {place: i for i, place in enumerate(places)}
     vectors = np.zeros((len(fields), len(places)))
     for vector, field in zip(vectors, fields, strict=True):
-        _fill(vector, field, rows)
+        for name, part in field.components.items():
+            unknown = PRIMAL_OF.get(name, name)
+            vector[[rows[unknown, int(node)] for node in part.nodes]] += part.values
     values = (vectors.T * np.asarray(factors, dtype=float)) @ vectors
     nodes, local = np.unique([node for _, node in places], return_inverse=True)
     names = tuple(name for name, _ in places)
@@ -158,14 +160,6 @@ def sum_of_outer_products(
         table, nodes[None, :], local.astype(np.int64), names, duals, values[None], kind
     )
     return Matrix(table, (block,), (), kind)
-
-
-def _fill(vector: FloatArray, field: NodeField, rows: dict[tuple[str, int], int]) -> None:
-    """Add the values of a field to its rows."""
-    for name, part in field.components.items():
-        unknown = PRIMAL_OF.get(name, name)
-        where = [rows[unknown, int(node)] for node in part.nodes]
-        vector[where] += part.values
 
 
 def cable_stiffness(mesh: Mesh, dimension: int, force: float, percent: float) -> Matrix:
@@ -229,13 +223,10 @@ def filter_weights(
         points = weights.table.coordinates[part.nodes]
         tree = cKDTree(points)
         near = tree.sparse_distance_matrix(tree, radius, output_type="coo_matrix")
-        i = np.concatenate([near.row, np.arange(n)]).astype(np.int64)
-        j = np.concatenate([near.col, np.arange(n)]).astype(np.int64)
-        d = np.concatenate([near.data, np.zeros(n)])
-        own = (near.row == near.col).nonzero()[0]
-        kept = np.ones(len(i), bool)
-        kept[own] = False
-        i, j, d = i[kept], j[kept], d[kept]
+        other = near.row != near.col
+        i = np.concatenate([near.row[other], np.arange(n)]).astype(np.int64)
+        j = np.concatenate([near.col[other], np.arange(n)]).astype(np.int64)
+        d = np.concatenate([near.data[other], np.zeros(n)])
         values = np.maximum(1.0 - d / radius, 0.0) ** power * part.values[j]
         shares = sp.coo_array((values, (i, j)), shape=(n, n)).tocsr()
     else:

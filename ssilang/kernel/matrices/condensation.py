@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
@@ -50,14 +52,9 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
     S = sp.csr_array(rows.C @ sp.diags_array(weights) @ rows.D.T)
     order = np.argsort(rows.multipliers, kind="stable")
     S = sp.csr_array(S[order][:, order])
-    marks = Numbering(
-        numbering.table,
-        ("LX",),
-        ("FLX",),
-        rows.multipliers[order],
-        np.zeros(len(order), dtype=np.int64),
-        numbering.version,
-    )
+    codes = np.zeros(len(order), dtype=np.int64)
+    own = {"unknowns": ("LX",), "duals": ("FLX",), "codes": codes}
+    marks = replace(numbering, nodes=rows.multipliers[order], **own)
     return matrix_from_sparse(S, marks, "RIGIDITE", rows.associated)
 
 
@@ -84,14 +81,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     K = assemble(body, numbering)
     T, kept = _given(relations, numbering) if given else _eliminated(rows_only, numbering)
     A = sp.csr_array(T.T @ K @ T)
-    masters = Numbering(
-        numbering.table,
-        numbering.unknowns,
-        numbering.duals,
-        numbering.nodes[kept],
-        numbering.codes[kept],
-        numbering.version,
-    )
+    masters = replace(numbering, nodes=numbering.nodes[kept], codes=numbering.codes[kept])
     return matrix_from_sparse(A, masters, matrix.kind, is_symmetric(matrix))
 
 
@@ -150,8 +140,6 @@ def dependence(matrix: Matrix) -> tuple[Matrix, Matrix]:
     T = sp.csr_array(found @ ones)
     made = []
     for A, names in ((T, numbering.unknowns), (sp.csr_array(T.T), numbering.duals)):
-        marks = Numbering(
-            numbering.table, names, names, numbering.nodes, numbering.codes, numbering.version
-        )
+        marks = replace(numbering, unknowns=names, duals=names)
         made.append(matrix_from_sparse(A, marks, DEPENDENCE, False))
     return made[0], made[1]

@@ -43,7 +43,10 @@ def assemble_rows(
         users = _Users(start, _sorted_users(heads.ravel(), start))
         lengths = _row_lengths(heads, users, heads.shape[1], n)
         if run > 1:
-            lengths = run * _spread(lengths, run)
+            spread = lengths.copy()  # of the heads of runs, to all rows of the run
+            for i in range(1, run):
+                spread[i:] += lengths[: len(lengths) - i]
+            lengths = run * spread
         indptr = np.zeros(n + 1, dtype=np.int64)
         np.cumsum(lengths, out=indptr[1:])
         indices = np.empty(indptr[-1], dtype=np.int32)
@@ -83,14 +86,6 @@ def _by_node(places: Index, run: int) -> NDArray[np.int64]:
     if run == 1:
         return np.arange(places.shape[1])
     return np.argsort(places[0], kind="stable")
-
-
-def _spread(lengths: NDArray[np.int64], run: int) -> NDArray[np.int64]:
-    """Number of columns of the heads of runs, given to all rows of the run."""
-    spread = lengths.copy()
-    for i in range(1, run):
-        spread[i:] += lengths[: len(lengths) - i]
-    return spread
 
 
 class _Users(NamedTuple):

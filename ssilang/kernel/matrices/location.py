@@ -96,21 +96,13 @@ def _outside(cell_type: str, xi: FloatArray) -> FloatArray:
     if cell_type in SIDES:
         excess = polygon_excess(SIDES[cell_type], xi)
     else:
-        excess = _EXCESS.get(shape, _box)(xi)
+        excess = _EXCESS[shape](xi) if shape in _EXCESS else np.abs(xi) - 1.0
     worst: FloatArray = np.clip(excess, 0.0, None).max(axis=1, initial=0.0)
     return worst
 
 
-def _box(xi: FloatArray) -> FloatArray:
-    return np.abs(xi) - 1.0
-
-
 def _simplex(xi: FloatArray) -> FloatArray:
     return np.column_stack([-xi, xi.sum(axis=1) - 1.0])
-
-
-def _prism(xi: FloatArray) -> FloatArray:
-    return np.column_stack([_simplex(xi[:, :2]), np.abs(xi[:, 2]) - 1.0])
 
 
 def _pyramid(xi: FloatArray) -> FloatArray:
@@ -120,7 +112,7 @@ def _pyramid(xi: FloatArray) -> FloatArray:
 _EXCESS: dict[str, Callable[[FloatArray], FloatArray]] = {
     "triangle": _simplex,
     "tetrahedron": _simplex,
-    "prism": _prism,
+    "prism": lambda xi: np.column_stack([_simplex(xi[:, :2]), np.abs(xi[:, 2]) - 1.0]),
     "pyramid": _pyramid,
     "point": np.abs,
 }

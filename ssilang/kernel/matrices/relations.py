@@ -293,15 +293,14 @@ def mirror_rows(
     plane; antisymmetry holds the others. In 2D the rotation is about an axis in the plane.
     """
     dim = len(displacement) or (3 if len(rotation) == 3 else 2)
-    across = [normal[:dim]]
-    within = _tangents(normal)[: dim - 1] if dim == 3 else [np.array([-normal[1], normal[0]])]
+    along, within = [normal[:dim]], across(normal[None, : max(dim, 2)])
     rows = [
         blocked_along(table, nodes, displacement, d)
-        for d in (across if mirrored else within)
+        for d in (along if mirrored else within)
         if len(displacement)
     ]
     if len(rotation) == 3:
-        turned = within if mirrored else across
+        turned = within if mirrored else along
         rows += [blocked_along(table, nodes, rotation, d) for d in turned]
     elif len(rotation) == 1 and mirrored:
         rows.append(blocked(table, nodes, rotation))
@@ -310,11 +309,14 @@ def mirror_rows(
     return joined(rows)
 
 
-def _tangents(normal: FloatArray) -> list[FloatArray]:
-    side = np.eye(3)[int(np.argmin(np.abs(normal)))]
-    first = np.cross(normal, side)
-    first = first / np.linalg.norm(first)
-    return [first, np.cross(normal, first)]
+def across(vectors: FloatArray) -> list[FloatArray]:
+    """Unit vectors across unit vectors (n, dim): one in the plane, two in space."""
+    if vectors.shape[1] == 2:
+        return [np.stack([-vectors[:, 1], vectors[:, 0]], axis=1)]
+    side = np.eye(3)[np.abs(vectors).argmin(axis=1)]
+    first = np.cross(vectors, side)
+    first = first / np.linalg.norm(first, axis=1, keepdims=True)
+    return [first, np.cross(vectors, first)]
 
 
 # --- springs to the ground -------------------------------------------------------------------

@@ -38,42 +38,22 @@ LARGEST = 6000  # masters; the condensed matrix is full
 
 @dataclass(frozen=True, eq=False)
 class SuperElement:
-    """A body seen from its master unknowns (SUPERELE).
+    """A body seen from its master unknowns (SUPERELE)."""
 
-    Attributes
-    ----------
-    source : Matrix
-        The stiffness that was condensed.
-    stiffness : Matrix
-        One full element matrix on the masters, with the conditions that were kept.
-    numbering : Numbering
-        Of `source`, n unknowns.
-    masters : array (m,)
-        Their indices in `numbering`.
-    asked : array (a,)
-        Positions in `masters` of those that were asked for; the others are unknowns of kept
-        conditions.
-    shapes : array (n, m)
-        Displacement for a unit of each master.
-    elimination, inverse, saddle
-        Of the inner unknowns, the masters being held by the last m rows of `rows`.
-    rows : ConstraintRows
-        Conditions inside (none if they were kept), then one row a master.
-    inner_rows : int
-        How many of `rows` are conditions inside.
-    """
-
-    source: Matrix
-    stiffness: Matrix
-    numbering: Numbering
-    masters: IntArray
+    source: Matrix  # the stiffness that was condensed
+    stiffness: Matrix  # one full element matrix on the masters, with the conditions that were kept
+    numbering: Numbering  # of `source`, n unknowns
+    masters: IntArray  # (m,) their indices in `numbering`
+    # (a,) positions in `masters` of those that were asked for; the others are unknowns of kept
+    # conditions
     asked: IntArray
-    shapes: FloatArray
+    shapes: FloatArray  # (n, m) displacement for a unit of each master
+    # of the inner unknowns, the masters being held by the last m rows of `rows`
     elimination: Elimination
     inverse: Inverse
     saddle: IntArray
-    rows: ConstraintRows
-    inner_rows: int
+    rows: ConstraintRows  # conditions inside (none if they were kept), then one row a master
+    inner_rows: int  # how many of `rows` are conditions inside
 
 
 def condense(

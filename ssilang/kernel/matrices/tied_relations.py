@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.matrices.matrix import Relations
-from ssilang.kernel.matrices.relations import Term, joined, relation_rows, rows_from_table
+from ssilang.kernel.matrices.relations import Term, across, joined, relation_rows, rows_from_table
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -212,7 +212,7 @@ def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 
     tangents = _line_tangents(line)[own, :dim]
     rows = []
     for inside, nodes, weights in _held(own, mesh, tolerance):
-        for normal in _across(tangents[inside]):
+        for normal in across(tangents[inside]):
             values = (normal[:, :, None] * weights[:, None, :]).reshape(len(nodes), -1)
             names = tuple(u for u in unknowns for _ in range(nodes.shape[1]))
             rows.append(rows_from_table(mesh.nodes, np.tile(nodes, (1, dim)), names, values))
@@ -251,13 +251,3 @@ def _line_tangents(line: Mesh) -> FloatArray:
     length = np.linalg.norm(total, axis=1, keepdims=True)
     unit: FloatArray = np.divide(total, length, out=np.zeros_like(total), where=length > 0.0)
     return unit
-
-
-def _across(tangents: FloatArray) -> list[FloatArray]:
-    """Directions normal to the tangents (n, dim): one in the plane, two in space."""
-    if tangents.shape[1] == 2:
-        return [np.column_stack([-tangents[:, 1], tangents[:, 0]])]
-    sides = np.eye(3)[np.argmin(np.abs(tangents), axis=1)]
-    first = np.cross(tangents, sides)
-    first /= np.linalg.norm(first, axis=1, keepdims=True)
-    return [first, np.cross(tangents, first)]

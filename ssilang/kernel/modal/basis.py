@@ -140,35 +140,20 @@ def static_complement(
 
 @dataclass(frozen=True, eq=False)
 class ReducedProblem:
-    """Matrices on the unknowns q that stay, `u = T q`, with the conditions `S q = 0` left over.
-
-    Attributes
-    ----------
-    stiffness, mass : csr arrays (n, n) on `numbering`, for reactions and generalised masses.
-    K, M : csr arrays (r, r)
-    C : csr array (r, r) or None
-        Damping.
-    S : csr array (m, r)
-        Conditions too full to be eliminated.
-    T : csr array (n, r)
-    multipliers : array (n_rows,)
-        Multiplier nodes of all conditions.
-    solver : Solver
-        Which solver takes `K - s M`.
-    """
+    """Matrices on the unknowns q that stay, `u = T q`, with the conditions `S q = 0` left over."""
 
     numbering: Numbering
-    stiffness: sp.csr_array
-    mass: sp.csr_array
-    K: sp.csr_array
-    M: sp.csr_array
-    C: sp.csr_array | None
-    S: sp.csr_array
-    T: sp.csr_array
+    stiffness: sp.csr_array  # (n, n) on `numbering`, for reactions
+    mass: sp.csr_array  # (n, n) on `numbering`, for generalised masses
+    K: sp.csr_array  # (r, r)
+    M: sp.csr_array  # (r, r)
+    C: sp.csr_array | None  # (r, r) damping
+    S: sp.csr_array  # (m, r) conditions too full to be eliminated
+    T: sp.csr_array  # (n, r)
     symmetric: bool
     elimination: Elimination
-    multipliers: IntArray
-    solver: Solver = FIRST_FIT
+    multipliers: IntArray  # (n_rows,) multiplier nodes of all conditions
+    solver: Solver = FIRST_FIT  # which solver takes `K - s M`
 
     @property
     def size(self) -> int:

@@ -45,19 +45,12 @@ class ModalRun:
 
 @dataclass(frozen=True, eq=False)
 class ModalProblem:
-    """What moves: modes, the forces on them and their links.
+    """What moves: modes, the forces on them and their links."""
 
-    Attributes
-    ----------
-    M, C, K : arrays (n, n)
-    spaces, amplitudes : arrays (p, n) and (p, 2 steps + 1)
-        Forces and their values at each half step.
-    """
-
-    M: FloatArray
-    C: FloatArray
-    K: FloatArray
-    spaces: FloatArray
+    M: FloatArray  # (n, n)
+    C: FloatArray  # (n, n)
+    K: FloatArray  # (n, n)
+    spaces: FloatArray  # (p, n) and (p, 2 steps + 1) forces and their values at each half step
     amplitudes: FloatArray
     links: LinkArrays
 

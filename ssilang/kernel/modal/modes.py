@@ -107,7 +107,15 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
     moving = tuple((free * (problem.mass @ free)).sum(axis=0).tolist())
     for value, q in zip(pairs.values, pairs.shapes.T, strict=True):
         u = problem.T @ q
-        u = u / largest_displacement(problem.numbering, u)
+        # translations that are rounding beside the rotations (a shaft in torsion) do not count
+        named = set().union(*TRANSLATIONS)
+        codes = [c for c, name in enumerate(problem.numbering.unknowns) if name in named]
+        moved = np.where(np.isin(problem.numbering.codes, codes), u, 0.0)
+        if np.abs(moved).max(initial=0.0) <= ROUNDING * np.abs(u).max(initial=0.0):
+            moved = u
+        top = np.abs(moved).max()
+        first = int(np.argmax(np.abs(moved) > (1.0 - 1e-9) * top))
+        u = u / float(moved[first])
         inertia = problem.mass @ u
         multipliers = (problem.multipliers, problem.reactions(u, float(value)))
         shape = vector_to_field(u, problem.numbering, multipliers=multipliers)
@@ -117,21 +125,6 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
         frequency = frequency_of(value) if abs(value) > rounding else 0.0
         found.append(Mode(frequency, mass, shape, (x, y, z), moving))
     return found
-
-
-def largest_displacement(numbering: Numbering, u: FloatArray) -> float:
-    """The translation component of largest size, with its sign; any unknown's if none moves.
-
-    Translations that are rounding beside the rotations (a shaft in torsion) do not count.
-    """
-    named = set().union(*TRANSLATIONS)
-    codes = [c for c, name in enumerate(numbering.unknowns) if name in named]
-    moved = np.where(np.isin(numbering.codes, codes), u, 0.0)
-    if np.abs(moved).max(initial=0.0) <= ROUNDING * np.abs(u).max(initial=0.0):
-        moved = u
-    top = np.abs(moved).max()
-    first = int(np.argmax(np.abs(moved) > (1.0 - 1e-9) * top))
-    return float(moved[first])
 
 
 def unit_translations(numbering: Numbering) -> FloatArray:

@@ -64,26 +64,16 @@ def is_shape(zone: Zone) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class ShapePoint:
-    """One shape of a model: its node, unknown, field, and what it was made with.
-
-    Attributes
-    ----------
-    frequency, mass : float
-        Of modes (0 for static shapes).
-    damping : float
-        Generalised damping (N s/m for a shape in metres).
-    push, inertia : NodeField or None
-        Stiffness and mass of the body times the shape (RIDE, MADE).
-    """
+    """One shape of a model: its node, unknown, field, and what it was made with."""
 
     node: int
     unknown: str
     field: NodeField
-    frequency: float
+    frequency: float  # of modes (0 for static shapes)
     mass: float
-    damping: float
-    push: NodeField | None
-    inertia: NodeField | None
+    damping: float  # generalised (N s/m for a shape in metres)
+    push: NodeField | None  # stiffness of the body times the shape (RIDE)
+    inertia: NodeField | None  # mass of the body times the shape (MADE)
 
 
 def shape_points(zones: tuple[Zone, ...], material: CellField) -> list[ShapePoint]:

@@ -144,7 +144,11 @@ def evolution(
     ends = [levels[band, k] for k in range(resolution.processes + 1)]
     zero = np.zeros(len(f))
     rows = [*pairwise(ends), *[(zero, zero)] * after]
-    free = _free_motion(w0, damping, step)
+    # how displacement and velocity of the free oscillator change in a step
+    decay, wd = damping * w0, w0 * np.sqrt(1.0 - damping**2)
+    cosine, sine, fade = np.cos(wd * step), np.sin(wd * step) / wd, np.exp(-decay * step)
+    to_u, to_v = [cosine + decay * sine, sine], [-w0 * w0 * sine, cosine - decay * sine]
+    free = fade * np.array([to_u, to_v])
     turn = np.exp(1j * w * step)
     # answers H e^(st) to -e^(st) and (H' + H t) e^(st) to -t e^(st), s = i w
     s = 1j * w
@@ -171,13 +175,6 @@ def evolution(
             )
     times: FloatArray = step * np.arange(len(moments), dtype=float)
     return times, np.array(moments)
-
-
-def _free_motion(w0: float, damping: float, step: float) -> FloatArray:
-    """How displacement and velocity of the free oscillator change in a step, (2, 2)."""
-    a, wd = damping * w0, w0 * np.sqrt(1.0 - damping**2)
-    c, s, e = np.cos(wd * step), np.sin(wd * step) / wd, np.exp(-a * step)
-    return np.asarray(e * np.array([[c + a * s, s], [-w0 * w0 * s, c - a * s]]))
 
 
 def _below(level: float, times: FloatArray, moments: FloatArray) -> float:

@@ -77,14 +77,6 @@ class FreeField:
     begun: float
 
 
-def _layer(soil: SoilColumn, i: int, omega: FloatArray) -> tuple[ComplexArray, ComplexArray]:
-    """Wave number and complex modulus of a layer."""
-    alpha, beta = (c[i] for c in soil.rayleigh())
-    modulus = soil.modulus[i] * (1 + 1j * omega * beta)
-    k = omega * np.sqrt(soil.density[i] * (1 - 1j * alpha / omega) / modulus)
-    return k, modulus
-
-
 def transfers(
     soil: SoilColumn, omega: FloatArray, depths: FloatArray
 ) -> tuple[ComplexArray, ComplexArray, ComplexArray, ComplexArray]:
@@ -99,7 +91,9 @@ def transfers(
     tops = soil.tops
     where = np.clip(np.searchsorted(tops, depths * (1 - 1e-9), "right") - 1, 0, len(tops) - 2)
     for i, h in enumerate(soil.thickness):
-        k, modulus = _layer(soil, i, omega)
+        alpha, beta = (c[i] for c in soil.rayleigh())
+        modulus = soil.modulus[i] * (1 + 1j * omega * beta)
+        k = omega * np.sqrt(soil.density[i] * (1 - 1j * alpha / omega) / modulus)
         for row in np.flatnonzero(where == i):
             u_at[row], s_at[row] = _down(u, s, k, modulus, depths[row] - tops[i])
             e_at[row] = s_at[row] / modulus
@@ -179,22 +173,15 @@ def free_field(
     drift = (mean * times - start)[None]
     stress = history(s[rows] * surface / -(omega**2))
     strain = history(e[rows] * surface / -(omega**2))
+    # stress that a uniform acceleration and velocity of the column ask for
+    above = np.clip(depths[:, None] - soil.tops[None, :-1], 0, soil.thickness)
+    mass = above @ soil.density
+    damped = above @ (soil.density * soil.rayleigh()[0])
     return FreeField(
         times,
         history(motion, mean),
         speed + drift,
-        stress + _slow_stress(soil, depths, mean, drift),
+        stress - (mass[:, None] * mean + damped[:, None] * drift),
         np.abs(strain).max(axis=1),
         float(np.ptp(speed[:, 0]) / max(np.abs(speed - speed[:, :1]).max(), 1e-300)),
     )
-
-
-def _slow_stress(
-    soil: SoilColumn, depths: FloatArray, mean: float, drift: FloatArray
-) -> FloatArray:
-    """Stress that a uniform acceleration and velocity of the column ask for."""
-    tops = soil.tops
-    above = np.clip(depths[:, None] - tops[None, :-1], 0, soil.thickness)
-    mass = above @ soil.density
-    damped = above @ (soil.density * soil.rayleigh()[0])
-    return -(mass[:, None] * mean + damped[:, None] * drift)

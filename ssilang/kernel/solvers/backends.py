@@ -60,8 +60,7 @@ class SuperLUFactor:
 
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b."""
-        x: FloatArray = self.lu.solve(np.ascontiguousarray(b.T).T if b.ndim == 2 else b)
-        return x
+        return self.lu.solve(np.ascontiguousarray(b.T).T if b.ndim == 2 else b)
 
     def negative_pivots(self) -> int:
         """Number of negative eigenvalues of a symmetric A (Sylvester), if no row was swapped.

@@ -59,26 +59,14 @@ FIRST_FIT = Solver()
 
 @dataclass(frozen=True, eq=False)
 class Ordering:
-    """What helps to order the unknowns of a matrix.
+    """What helps to order the unknowns of a matrix."""
 
-    Attributes
-    ----------
-    points : array (n, d)
-        Coordinates of the unknowns.
-    last : array of int
-        Unknowns to be eliminated last, together.
-    rigid : array (n, k) or None
-        Rigid motions of the unknowns, for multigrid.
-    nodes : array (n,) or None
-        Node of each unknown, for multigrid: unknowns side by side of one node go together.
-    once : bool
-        Whether a few solves follow rather than thousands: the factor must then pay at once.
-    """
-
-    points: FloatArray
-    last: IntArray
-    rigid: FloatArray | None = None
+    points: FloatArray  # (n, d) coordinates of the unknowns
+    last: IntArray  # unknowns to be eliminated last, together
+    rigid: FloatArray | None = None  # (n, k) rigid motions of the unknowns, for multigrid
+    # (n,) node of each unknown, for multigrid: unknowns side by side of one node go together
     nodes: IntArray | None = None
+    # whether a few solves follow rather than thousands: the factor must then pay at once
     once: bool = False
 
     def of(self, kept: IntArray) -> Ordering:

@@ -35,24 +35,13 @@ Variables = Mapping[str, FloatArray]
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What a law answers at the points of 'STRESSES' of a zone.
+    """What a law answers at the points of 'STRESSES' of a zone."""
 
-    Attributes
-    ----------
-    stress : array (n_cells, n_stresses, n_points)
-    variables : mapping of str to array (n_cells, n_points)
-    inelastic : mapping of str to array (n_cells, n_points)
-        Step of inelastic strain.
-    tangent : array (n_cells, n_points, n_stresses, n_strains)
-    symmetric : bool
-        Whether the tangent is symmetric whatever the state.
-    """
-
-    stress: FloatArray
-    variables: Variables
-    inelastic: Variables
-    tangent: FloatArray
-    symmetric: bool = True
+    stress: FloatArray  # (n_cells, n_stresses, n_points)
+    variables: Variables  # (n_cells, n_points) each
+    inelastic: Variables  # (n_cells, n_points) each: step of inelastic strain
+    tangent: FloatArray  # (n_cells, n_points, n_stresses, n_strains)
+    symmetric: bool = True  # whether the tangent is symmetric whatever the state
 
 
 Law = Callable[[Zone, CellField, FloatArray, ZoneField, FloatArray], Answer]

@@ -25,16 +25,10 @@ NEAR = 1e-6
 
 @dataclass(frozen=True)
 class DoubledSupports:
-    """Held nodes without stiffness, and the nodes with stiffness at the same places.
+    """Held nodes without stiffness, and the nodes with stiffness at the same places."""
 
-    Attributes
-    ----------
-    held, body : array (n,)
-        Node numbers, pairwise at the same place.
-    """
-
-    held: IntArray
-    body: IntArray
+    held: IntArray  # (n,) nodes
+    body: IntArray  # (n,) nodes, pairwise at the same place
 
 
 def doubled_supports(matrix: Matrix, used: IntArray | None = None) -> DoubledSupports | None:

@@ -55,27 +55,14 @@ MET = 1e-7  # mismatch of a redundant condition, relative to the largest displac
 
 @dataclass(frozen=True, slots=True)
 class SolveOptions:
-    """What RESO's words change.
+    """What RESO's words change."""
 
-    Attributes
-    ----------
-    unilateral : bool
-        False takes MINI and MAXI conditions for equalities ('NOUNIL').
-    eliminate : bool
-        False keeps every condition in a saddle point ('ELIM' 0).
-    project : bool
-        True leaves out the loads that work on free motions instead of refusing them ('NOID').
-    stabilise : bool
-        True adds to the diagonal until the matrix is positive ('STAB').
-    solver : Solver
-        Which solver takes the system.
-    """
-
-    unilateral: bool = True
-    eliminate: bool = True
+    unilateral: bool = True  # False takes MINI and MAXI conditions for equalities ('NOUNIL')
+    eliminate: bool = True  # False keeps every condition in a saddle point ('ELIM' 0)
+    # True leaves out the loads that work on free motions instead of refusing them ('NOID')
     project: bool = False
-    stabilise: bool = False
-    solver: Solver = FIRST_FIT
+    stabilise: bool = False  # True adds to the diagonal until the matrix is positive ('STAB')
+    solver: Solver = FIRST_FIT  # which solver takes the system
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,26 +77,15 @@ class Solution:
 
 @dataclass(eq=False)
 class LinearSystem:
-    """A matrix with its conditions, factorised once.
-
-    Attributes
-    ----------
-    numbering, K, rows : unknowns, stiffness (n, n), conditions.
-    elimination : Elimination
-        Of the equalities that are eliminated.
-    saddle, contact : array of int
-        Rows that stand in the saddle point; rows that may be active or not.
-    inverse : Inverse
-        Of `[T^T K T, T^T D^T; C T, 0]` with the saddle rows.
-    """
+    """A matrix with its conditions, factorised once."""
 
     numbering: Numbering
-    K: sp.csr_array
-    rows: ConstraintRows
-    elimination: Elimination
-    saddle: IntArray
-    contact: IntArray
-    inverse: Inverse
+    K: sp.csr_array  # (n, n) stiffness
+    rows: ConstraintRows  # conditions
+    elimination: Elimination  # of the equalities that are eliminated
+    saddle: IntArray  # rows that stand in the saddle point
+    contact: IntArray  # rows that may be active or not
+    inverse: Inverse  # of `[T^T K T, T^T D^T; C T, 0]` with the saddle rows
     last_active: BoolArray | None = None
     _flexibility: FloatArray | None = field(default=None, repr=False)
 
@@ -124,11 +100,6 @@ class LinearSystem:
     def n_masters(self) -> int:
         """Number of displacements that stay after elimination."""
         return len(self.elimination.masters)
-
-    def _loads(self, f: FloatArray, d: FloatArray, start: FloatArray) -> FloatArray:
-        free = self.elimination.T.T @ (f - self.K @ start)
-        left = d[self.saddle] - self.rows.C[self.saddle] @ start
-        return np.concatenate([free, left])
 
     def _contact_columns(self, D: sp.csr_array) -> FloatArray:
         """Rows of `D T` at the contact rows as columns (n_masters + n_saddle, n_contact)."""
@@ -153,7 +124,9 @@ class LinearSystem:
             If unilateral conditions find no equilibrium.
         """
         start = self.elimination.particular(d)
-        b = self._loads(f, d, start)
+        free = self.elimination.T.T @ (f - self.K @ start)
+        left = d[self.saddle] - self.rows.C[self.saddle] @ start
+        b = np.concatenate([free, left])
         if len(self.contact):
             z, contact, active, iterations = self._solve_contact(b, d, start)
         else:
@@ -347,19 +320,14 @@ def solve(
         if not options.project:
             _taken(load, system.numbering)
         d = imposed_values(load, system.rows.multipliers)
-        _finite(system.numbering, f, d)
+        wrong = np.flatnonzero(~np.isfinite(f))
+        if len(wrong) or not np.isfinite(d).all():
+            at = [system.numbering.label(int(i)) for i in wrong[:1]]
+            raise KernelError("kernel.statics.load-not-finite", at=at)
         found = system.solve(f, d, options.project)
         pair = (system.rows.multipliers, found.multipliers)
         solutions.append(vector_to_field(found.u, system.numbering, multipliers=pair))
     return solutions
-
-
-def _finite(numbering: Numbering, f: FloatArray, d: FloatArray) -> None:
-    """Refuse second members that hold what no calculation can use."""
-    wrong = np.flatnonzero(~np.isfinite(f))
-    if len(wrong) or not np.isfinite(d).all():
-        at = [numbering.label(int(i)) for i in wrong[:1]]
-        raise KernelError("kernel.statics.load-not-finite", at=at)
 
 
 def _taken(load: NodeField, numbering: Numbering) -> None:

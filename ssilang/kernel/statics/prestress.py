@@ -21,28 +21,14 @@ from ssilang.kernel.mesh.nodes import NodeTable
 
 @dataclass(frozen=True)
 class Losses:
-    """Parameters of the losses, in SI units.
+    """Parameters of the losses, in SI units."""
 
-    Attributes
-    ----------
-    angular, linear : float
-        f (1/rad) and phi (1/m).
-    slip : float
-        g (m) at the anchorage.
-    threshold : float
-        mu_0.
-    strength : float
-        f_prg (Pa), guaranteed strength.
-    relaxation : float
-        rho, per cent at 1 000 hours.
-    """
-
-    angular: float = 0.18
-    linear: float = 0.002
-    slip: float = 0.0
-    threshold: float = 0.43
-    strength: float = 1.7e9
-    relaxation: float = 2.5
+    angular: float = 0.18  # f (1/rad)
+    linear: float = 0.002  # phi (1/m)
+    slip: float = 0.0  # g (m) at the anchorage
+    threshold: float = 0.43  # mu_0
+    strength: float = 1.7e9  # f_prg (Pa), guaranteed strength
+    relaxation: float = 2.5  # rho, per cent at 1 000 hours
 
 
 NO_LOSSES = Losses(0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
@@ -50,17 +36,10 @@ NO_LOSSES = Losses(0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
 
 @dataclass(frozen=True, eq=False)
 class Cable:
-    """Bars of one cable in order from one end to the other.
+    """Bars of one cable in order from one end to the other."""
 
-    Attributes
-    ----------
-    bars : array (n,)
-        Rows of the cells.
-    nodes : array (n + 1,)
-    """
-
-    bars: IntArray
-    nodes: IntArray
+    bars: IntArray  # (n,) rows of the cells
+    nodes: IntArray  # (n + 1,)
 
     def turned(self) -> Cable:
         """The same cable from its other end."""

@@ -38,21 +38,11 @@ AGAINST = -0.1
 
 @dataclass(frozen=True)
 class SwappedJoints:
-    """A zone of joints that is the wrong way round.
+    """A zone of joints that is the wrong way round."""
 
-    Attributes
-    ----------
-    middle : array (3,)
-    points : bool
-        Whether they are joints of two points, whose direction was given.
-    overlap : float
-        How far the sides lie inside each other (m), 0 where they lie at the same place: there
-        the order of the nodes alone decides.
-    """
-
-    middle: FloatArray
-    points: bool
-    overlap: float
+    middle: FloatArray  # (3,)
+    points: bool  # whether they are joints of two points, whose direction was given
+    overlap: float  # how far the sides lie inside each other (m); at 0 the order of nodes decides
 
 
 def swapped_joints(

@@ -34,18 +34,6 @@ Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]
 """Criterion (m,) from parameters, stresses (m, 6), internal variables (m, k)."""
 
 
-def _perfect(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
-    return np.asarray(mises(s)[0] - p["SIGY"])
-
-
-def _isotropic(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
-    return np.asarray(mises(s)[0] - p.curve("ECRO", v[:, 0])[0])
-
-
-def _kinematic(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
-    return np.asarray(mises(s - v[:, 1:7])[0] - p["SIGY"])
-
-
 def _trace(s: FloatArray) -> FloatArray:
     return np.asarray(s[:, :3].sum(axis=1))
 
@@ -65,17 +53,13 @@ def _hardening_cone(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatAr
     return np.asarray(p["ALFA"] * _trace(s) + p["BETA"] * mises(s)[0] - strength)
 
 
-def _rounded_coulomb(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
-    return rounded_coulomb.criterion(p, s)
-
-
 CRITERIA: dict[str, Criterion] = {
-    "PARFAIT": _perfect,
-    "ISOTROPE": _isotropic,
-    "CINEMATIQUE": _kinematic,
+    "PARFAIT": lambda p, s, v: np.asarray(mises(s)[0] - p["SIGY"]),
+    "ISOTROPE": lambda p, s, v: np.asarray(mises(s)[0] - p.curve("ECRO", v[:, 0])[0]),
+    "CINEMATIQUE": lambda p, s, v: np.asarray(mises(s - v[:, 1:7])[0] - p["SIGY"]),
     "DRUCKER_PARFAIT": _cone_of_strengths,
     "DRUCKER_PRAGER": _hardening_cone,
-    "RH_COULOMB": _rounded_coulomb,
+    "RH_COULOMB": lambda p, s, v: rounded_coulomb.criterion(p, s),
 }
 """By the word after PLASTIQUE."""
 

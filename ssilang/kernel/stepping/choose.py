@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
@@ -129,15 +129,6 @@ def _adaptive(case: Case) -> Loop:
     return AdaptiveLoop(case.problem, case.motion, case.dt, case.closed, part)
 
 
-def _conserving(case: Case) -> Loop:
-    return _dense(case) if case.dense else _condensed(case)
-
-
-def _stops(case: Case) -> Loop:
-    assert case.stops is not None
-    return case.stops
-
-
 def _by(way: str) -> Callable[[Case], Loop]:
     """One of the ways to step on modes."""
 
@@ -152,10 +143,6 @@ def _dense(case: Case) -> DenseLoop:
     from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
 
     return DenseLoop(case.problem, case.motion, case.effective)
-
-
-def _interleaved(case: Case) -> Loop:
-    return InterleavedLoop(case.problem, case.motion, case.effective)
 
 
 def _iterated(case: Case) -> Loop:
@@ -191,35 +178,17 @@ def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
 
 @dataclass(frozen=True)
 class Rule:
-    """One loop: when it fits, how it is made, what is said of it.
-
-    Attributes
-    ----------
-    name : str
-    loop : str
-        The word of the summary.
-    when : str
-        The condition, for the table.
-    said : str
-        Code of what is said of the choice; `q` is the number of the interface's unknowns.
-    fits, make : callables
-    renewable : bool
-        Whether loads may change from step to step (CHARMECA).
-    light : bool
-        Whether a run without its energies costs much less.
-    factorises : bool
-        Whether the step's matrix is factorised at each iteration.
-    """
+    """One loop: when it fits, how it is made, what is said of it."""
 
     name: str
-    loop: str
-    when: str
-    said: str
+    loop: str  # the word of the summary
+    when: str  # the condition, for the table
+    said: str  # code of what is said of the choice; `q` is the number of the interface's unknowns
     fits: Callable[[Case], bool]
     make: Callable[[Case], Loop]
-    renewable: bool = False
-    light: bool = False
-    factorises: bool = False
+    renewable: bool = False  # whether loads may change from step to step (CHARMECA)
+    light: bool = False  # whether a run without its energies costs much less
+    factorises: bool = False  # whether the step's matrix is factorised at each iteration
 
 
 RULES = (
@@ -236,7 +205,7 @@ RULES = (
         "the energy-conserving step",
         "kernel.stepping.loop-conserving",
         lambda c: c.problem.scheme.conserving,
-        _conserving, renewable=True,
+        lambda c: _dense(c) if c.dense else _condensed(c), renewable=True,
     ),
     Rule(
         "full Newton", "full Newton",
@@ -250,7 +219,7 @@ RULES = (
         "few unknowns, relations without friction, no joints, supports at rest, diagonal damping",
         "kernel.stepping.loop-relations-on-modes",
         lambda c: c.stops is not None,
-        _stops,
+        lambda c: cast("ContactLoop", c.stops),
     ),
     Rule(
         "relations", "condensed",
@@ -299,7 +268,7 @@ RULES = (
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
         lambda c: fits(c.problem, c.effective),
-        _interleaved,
+        lambda c: InterleavedLoop(c.problem, c.motion, c.effective),
     ),
     Rule(
         "condensed", "condensed",
@@ -364,14 +333,7 @@ def only(name: str) -> tuple[Rule, ...]:
 
 
 def refuse_combinations(problem: Problem, full: bool) -> None:
-    """Refuse schemes and methods that exclude each other.
-
-    Raises
-    ------
-    KernelError
-        For adapted steps with others, and for conserving steps with friction, dual relations
-        or bearings.
-    """
+    """Refuse schemes and methods that exclude each other."""
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full):
         raise KernelError("kernel.stepping.adapted-steps-condensed-interface")

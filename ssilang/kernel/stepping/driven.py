@@ -37,22 +37,12 @@ from ssilang.kernel.stepping.state import Motion
 
 @dataclass(frozen=True, eq=False)
 class Additions:
-    """What acts at one instant beside the problem itself.
+    """What acts at one instant beside the problem itself."""
 
-    Attributes
-    ----------
-    stiffness, damping : Matrix or None
-        Added to K and C.
-    operator : Matrix or None
-        Its stiffness is added to K, its relations to the conditions.
-    force, imposed : NodeField or None
-        Forces by dual names; imposed values FLX at multipliers.
-    """
-
-    stiffness: Matrix | None = None
-    damping: Matrix | None = None
-    operator: Matrix | None = None
-    force: NodeField | None = None
+    stiffness: Matrix | None = None  # added to K
+    damping: Matrix | None = None  # added to C
+    operator: Matrix | None = None  # its stiffness is added to K, its relations to the conditions
+    force: NodeField | None = None  # forces by dual names; imposed values FLX at multipliers
     imposed: NodeField | None = None
 
     @property

@@ -32,33 +32,16 @@ COLUMNS = 64  # right-hand sides solved together
 
 @dataclass(frozen=True, eq=False)
 class Effective:
-    """A step's linear system.
-
-    Attributes
-    ----------
-    dt : float
-    A : csr array (n, n)
-        With the closed joints' stiffness if R is not zero.
-    inverse : Inverse
-        Of `V^T A T` (V is T but for non-associated relations).
-    right : csc array (r, q)
-        `V^T J^T`, q interface unknowns.
-    S : array (q, q)
-        Compliance `J Y`, `Y = A^-1 J^T` on the admissible motions.
-    R : array (q, q)
-        Stiffness of the joints that A holds.
-    root : RootResponse or None
-        The interface as the root of a dissected factor, if it is that.
-    """
+    """A step's linear system."""
 
     dt: float
-    A: sp.csr_array
+    A: sp.csr_array  # (n, n) with the closed joints' stiffness if R is not zero
     constraints: Constraints
-    inverse: Inverse
-    right: sp.csc_array
-    S: FloatArray
-    R: FloatArray
-    root: RootResponse | None = None
+    inverse: Inverse  # of `V^T A T` (V is T but for non-associated relations)
+    right: sp.csc_array  # (r, q) `V^T J^T`, q interface unknowns
+    S: FloatArray  # (q, q) compliance `J Y`, `Y = A^-1 J^T` on the admissible motions
+    R: FloatArray  # (q, q) stiffness of the joints that A holds
+    root: RootResponse | None = None  # the interface as the root of a dissected factor, if so
 
     @cached_property
     def Y(self) -> FloatArray:  # noqa: N802
@@ -139,8 +122,7 @@ def _responses(constraints: Constraints, inverse: Inverse, right: sp.csc_array) 
 
 def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> FloatArray:
     assert problem.interface is not None
-    S: FloatArray = problem.interface.J @ _responses(problem.constraints, inverse, right)
-    return S
+    return problem.interface.J @ _responses(problem.constraints, inverse, right)
 
 
 def ordering_of(problem: Problem, right: sp.csc_array) -> Ordering | None:
@@ -168,18 +150,10 @@ def _heaviest_rows(T: sp.csr_array) -> IntArray:
 
 @dataclass(frozen=True, eq=False)
 class RootResponse:
-    """The interface seen from the root of the elimination tree, r unknowns.
+    """The interface seen from the root of the elimination tree, r unknowns."""
 
-    Attributes
-    ----------
-    J : csr array (q, r)
-        Jumps of the root's scaled unknowns.
-    Y : array (r, q)
-        Scaled motions under forces on the jumps.
-    """
-
-    J: sp.csr_array
-    Y: FloatArray
+    J: sp.csr_array  # (q, r) jumps of the root's scaled unknowns
+    Y: FloatArray  # (r, q) scaled motions under forces on the jumps
 
 
 def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:

@@ -29,21 +29,12 @@ from ssilang.kernel.stepping.track import Rows, Track, balance_of, rows_of_snaps
 
 @dataclass(frozen=True, eq=False)
 class Forces:
-    """Sums of what conditions push by: linear in the reactions of a few unknowns.
+    """Sums of what conditions push by: linear in the reactions of a few unknowns."""
 
-    Attributes
-    ----------
-    at : array (p,)
-        Unknowns that the equalities hold.
-    forces : csr array (p, m)
-        The sums from the forces of the equalities on these; zero for unilateral ones.
-    contact : csr array (m, size)
-        The sums from the reactions of the unilateral relations.
-    """
-
-    at: IntArray
+    at: IntArray  # (p,) unknowns that the equalities hold
+    # (p, m) the sums from the forces of the equalities on these; zero for unilateral ones
     forces: sp.csr_array
-    contact: sp.csr_array
+    contact: sp.csr_array  # (m, size) the sums from the reactions of the unilateral relations
 
     def values(self, rows: Rows) -> FloatArray:
         """The sums (k, m)."""
@@ -59,15 +50,9 @@ class Forces:
 
 @dataclass(frozen=True, eq=False)
 class Followed(Forces):
-    """Multipliers LX of some relations: what reactions of a few unknowns make of them.
+    """Multipliers LX of some relations: what reactions of a few unknowns make of them."""
 
-    Attributes
-    ----------
-    nodes : array (m,)
-        Their nodes, increasing.
-    """
-
-    nodes: IntArray
+    nodes: IntArray  # (m,) their nodes, increasing
 
 
 def followed_of(problem: Problem, nodes: IntArray) -> Followed:
@@ -252,20 +237,11 @@ MOST = 8
 
 @dataclass(eq=False)
 class FootingHistories(Track):
-    """Loads of footings at the times it wants; rows are let go at once.
-
-    Attributes
-    ----------
-    footings : sequence of Footing
-    kept : list of lists of Loads
-        Of each footing, in order of time.
-    left_out : int
-        Smaller footings, which nobody follows.
-    """
+    """Loads of footings at the times it wants; rows are let go at once."""
 
     footings: Sequence[Footing] = field(kw_only=True)
-    left_out: int = field(default=0, kw_only=True)
-    kept: list[list[Loads]] = field(init=False)
+    left_out: int = field(default=0, kw_only=True)  # smaller footings, which nobody follows
+    kept: list[list[Loads]] = field(init=False)  # of each footing, in order of time
     instants: list[FloatArray] = field(default_factory=list, init=False)
     keeps: ClassVar[bool] = False
 
@@ -331,17 +307,11 @@ class ForceHistories(Track):
     """Sums of the forces of named relations on the body.
 
     Only the sums are kept: rows of all that acts on what they hold would be many numbers.
-
-    Attributes
-    ----------
-    problem : Problem
-    named : dict
-        Multiplier nodes of the relations of each name.
     """
 
     unknowns: IntArray = field(init=False)
     problem: Problem = field(kw_only=True)
-    named: dict[str, IntArray] = field(kw_only=True)
+    named: dict[str, IntArray] = field(kw_only=True)  # multiplier nodes of each name
     keeps: ClassVar[bool] = False
     _steps: list[IntArray] = field(init=False, default_factory=list)
     _sums: list[FloatArray] = field(init=False, default_factory=list)

@@ -19,32 +19,19 @@ from ssilang.kernel.stepping.state import Motion, Recorder
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """State at one instant.
-
-    Attributes
-    ----------
-    step : int
-        0 for the initial state.
-    u, v, a, reaction : arrays (n,)
-        Displacement, velocity, acceleration; force that the conditions apply on the body.
-    w, t : arrays (n_points, d)
-        Jumps and tractions of the joints.
-    state : array (n_points, N_STATE)
-    contact : array (size,)
-        Reactions of the unilateral relations, and frictions.
-    """
+    """State at one instant."""
 
     problem: Problem
-    step: int
+    step: int  # 0 for the initial state
     time: float
-    u: FloatArray
-    v: FloatArray
-    a: FloatArray
-    reaction: FloatArray
-    w: FloatArray
-    t: FloatArray
-    state: FloatArray
-    contact: FloatArray
+    u: FloatArray  # (n,) displacement
+    v: FloatArray  # (n,) velocity
+    a: FloatArray  # (n,) acceleration
+    reaction: FloatArray  # (n,) force that the conditions apply on the body
+    w: FloatArray  # (n_points, d) jumps of the joints
+    t: FloatArray  # (n_points, d) tractions
+    state: FloatArray  # (n_points, N_STATE)
+    contact: FloatArray  # (size,) reactions of the unilateral relations, and frictions
 
     @property
     def _multipliers(self) -> FloatArray:

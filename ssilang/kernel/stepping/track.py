@@ -80,23 +80,12 @@ class JointRows(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """How some unknowns of a problem, and its joints, follow from what a loop keeps.
+    """How some unknowns of a problem, and its joints, follow from what a loop keeps."""
 
-    Attributes
-    ----------
-    at : array (c,)
-        Entries of the loop's fields that it keeps.
-    shapes : dict
-        Of the parts of the state that it keeps, by name.
-    map : Map or None
-        Unknowns from these entries; None: they are the unknowns.
-    joints : callable or None
-        Makes the joints' rows; None: they are kept as they are.
-    """
-
-    at: IntArray
-    shapes: dict[str, tuple[int, ...]]
-    map: Map | None = None
+    at: IntArray  # (c,) entries of the loop's fields that it keeps
+    shapes: dict[str, tuple[int, ...]]  # of the parts of the state that it keeps, by name
+    map: Map | None = None  # unknowns from these entries; None: they are the unknowns
+    # makes the joints' rows; None: they are kept as they are
     joints: Callable[[Tap], JointRows] | None = None
 
     @property
@@ -118,26 +107,14 @@ def whole_view(motion: Motion | Snapshot, unknowns: IntArray, *without: str) -> 
 
 @dataclass(eq=False)
 class Rows:
-    """Some instants of a motion, at some unknowns.
-
-    Attributes
-    ----------
-    steps : array (k,) or slice
-        Places of their times, 0 for the initial state.
-    unknowns : array (p,)
-        Increasing.
-    tap : Tap
-        What was kept of these instants, one a row.
-    factors : array (k, n_loads)
-        Of the problem's loads.
-    """
+    """Some instants of a motion, at some unknowns."""
 
     problem: Problem
-    steps: IntArray | slice
-    unknowns: IntArray
+    steps: IntArray | slice  # (k,) or slice: places of their times, 0 for the initial state
+    unknowns: IntArray  # (p,) increasing
     view: View
-    tap: Tap
-    factors: FloatArray
+    tap: Tap  # what was kept of these instants, one a row
+    factors: FloatArray  # (k, n_loads) of the problem's loads
 
     def __len__(self) -> int:
         return len(self.tap.u)
@@ -226,22 +203,13 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """What reactions of a few unknowns follow from: `M a + C v + K u + J^T f - F`.
+    """What reactions of a few unknowns follow from: `M a + C v + K u + J^T f - F`."""
 
-    Attributes
-    ----------
-    at : array (p,)
-        The unknowns.
-    near : array (c,)
-        All that act on them.
-    M, C, K : csr arrays (p, c)
-    """
-
-    at: IntArray
-    near: IntArray
-    M: sp.csr_array
-    C: sp.csr_array
-    K: sp.csr_array
+    at: IntArray  # (p,) the unknowns
+    near: IntArray  # (c,) all that act on them
+    M: sp.csr_array  # (p, c)
+    C: sp.csr_array  # (p, c)
+    K: sp.csr_array  # (p, c)
 
     def of(self, rows: Rows) -> FloatArray:
         """Reactions (k, p) of rows that hold what is near."""
@@ -305,23 +273,12 @@ def rows_of_tap(
 
 @dataclass(eq=False)
 class Track:
-    """An observer that takes rows: some unknowns, and the joints, at the times it wants.
+    """An observer that takes rows: some unknowns, and the joints, at the times it wants."""
 
-    Attributes
-    ----------
-    wanted : array (n_times,)
-    unknowns : array (p,)
-        Increasing.
-    pieces : list of Rows
-        What came, in order of time.
-    at_end : callable or None
-        Called when the run has ended.
-    """
-
-    wanted: BoolArray
-    unknowns: IntArray
-    pieces: list[Rows] = field(default_factory=list)
-    at_end: Callable[[], None] | None = None
+    wanted: BoolArray  # (n_times,)
+    unknowns: IntArray  # (p,) increasing
+    pieces: list[Rows] = field(default_factory=list)  # what came, in order of time
+    at_end: Callable[[], None] | None = None  # called when the run has ended
     keeps: ClassVar[bool] = True
 
     @cached_property

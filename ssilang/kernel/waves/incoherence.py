@@ -98,20 +98,11 @@ Pair = Callable[[RigidBase, float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class Factors:
-    """What a base makes of unit motion at each frequency.
+    """What a base makes of unit motion at each frequency."""
 
-    Attributes
-    ----------
-    translation : array (n,)
-    rotation : array (n,)
-        About the axis across the way, of vertical motion (1/m).
-    torsion : array (n,)
-        About the vertical, of motion across the way (1/m); zeros of a strip.
-    """
-
-    translation: FloatArray
-    rotation: FloatArray
-    torsion: FloatArray
+    translation: FloatArray  # (n,)
+    rotation: FloatArray  # (n,) about the axis across the way, of vertical motion (1/m)
+    torsion: FloatArray  # (n,) about the vertical, of motion across the way (1/m); zeros of a strip
 
 
 def factors(base: RigidBase, ground: Ground, frequencies: FloatArray) -> Factors:

@@ -321,7 +321,11 @@ def plane_motion(
     delay = wave.delay(ground)
     spectrum = np.fft.rfft(wave.acceleration, padded)[1:] * np.exp(-1j * omega * delay)
     if wave.given == "SURFACE":
-        spectrum = spectrum / _at_surface(ground, wave, omega)
+        surface, _ = transfers(ground, wave.kind, wave.angle, omega, np.zeros(1))
+        moved: ComplexArray = surface[0, 1 if wave.kind == "P" else 0]
+        if np.abs(moved).min() < 1e-6:
+            raise MaterialError("kernel.waves.surface-at-rest", angle=float(np.degrees(wave.angle)))
+        spectrum = spectrum / moved
     if finer > 1:
         spectrum[-1] *= 0.5
     count = (n - 1) * finer + 1
@@ -335,14 +339,6 @@ def plane_motion(
         early = max(early, _lead(v, wave.step / finer))
     u -= u[..., :1]
     return WaveMotion(wave.start + np.arange(count) * wave.step / finer, u, v, a, early)
-
-
-def _at_surface(ground: HalfSpace, wave: PlaneWave, omega: FloatArray) -> ComplexArray:
-    surface, _ = transfers(ground, wave.kind, wave.angle, omega, np.zeros(1))
-    moved: ComplexArray = surface[0, 1 if wave.kind == "P" else 0]
-    if np.abs(moved).min() < 1e-6:
-        raise MaterialError("kernel.waves.surface-at-rest", angle=float(np.degrees(wave.angle)))
-    return moved
 
 
 def _history(spectrum: ComplexArray, padded: int, finer: int) -> FloatArray:

@@ -54,13 +54,7 @@ def has_histories(matrix: Matrix | None) -> bool:
 def refuse_parts_of_layer(
     stiffness: Matrix | None, mass: Matrix | None, damping: Matrix | None
 ) -> None:
-    """Refuse a motion with some of a layer's matrices only.
-
-    Raises
-    ------
-    KernelError
-        Naming what is missing.
-    """
+    """Refuse a motion with some of a layer's matrices only."""
     given = {"RIGI": stiffness, "MASS": mass, "AMOR": damping}
     missing = [name for name, matrix in given.items() if not has_histories(matrix)]
     if 0 < len(missing) < len(given):
@@ -68,12 +62,7 @@ def refuse_parts_of_layer(
 
 
 def refuse_layer_at_rest(matrix: Matrix) -> None:
-    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's).
-
-    Raises
-    ------
-    KernelError
-    """
+    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's)."""
     kinds = {b.kind for b in matrix.blocks if HISTORIES[0] in b.unknowns}
     if kinds == {"RIGIDITE"}:
         raise KernelError("kernel.waves.matched-layer-at-rest")
@@ -88,26 +77,14 @@ SLACK = 1e-6
 
 @dataclass(frozen=True)
 class Stretching:
-    """How coordinates are stretched beyond a box.
+    """How coordinates are stretched beyond a box."""
 
-    Attributes
-    ----------
-    low, high : arrays (2,)
-        Corners of the box.
-    below, above : arrays (2,)
-        Thickness of the layer before `low` and beyond `high`, 0 without one.
-    speed : float
-        Of the fastest wave (m/s).
-    reflection : float
-        What comes back of a wave that meets the layer at a right angle, in theory.
-    """
-
-    low: FloatArray
-    high: FloatArray
-    below: FloatArray
-    above: FloatArray
-    speed: float
-    reflection: float
+    low: FloatArray  # (2,) lower corner of the box
+    high: FloatArray  # (2,) its upper corner
+    below: FloatArray  # (2,) thickness of the layer before `low`, 0 without one
+    above: FloatArray  # (2,) beyond `high`
+    speed: float  # of the fastest wave (m/s)
+    reflection: float  # what comes back of a wave that meets the layer at a right angle, in theory
 
     def rates(self, points: FloatArray) -> FloatArray:
         """Beta (..., 2) at points (..., 2), in 1/s.
@@ -173,7 +150,11 @@ def matched_layer(
     if apart > size:
         raise MeshError("kernel.waves.layer-apart", distance=apart)
     for zone in model.zones:
-        _refuse_inside(zone, low, high, size)
+        middles = zone.cells.coordinates[..., :2].mean(axis=1)
+        wrong = ((middles > low - size) & (middles < high + size)).all(axis=1)
+        if wrong.any():
+            place = zone.cells.shown_middle(int(np.argmax(wrong)))
+            raise MeshError("kernel.waves.layer-in-box", place=place, count=int(wrong.sum()))
     longest = max(float(longest_sides(z).max()) for z in model.zones)
     cells = float(thick[thick > 0].min() / longest)
     wanted = suited_reflection(cells) if reflection is None else reflection
@@ -211,14 +192,6 @@ def _refuse_others(zone: Zone) -> None:
         raise MaterialError(
             "kernel.waves.matched-layer-isotropic", behaviour=" ".join(zone.behaviour)
         )
-
-
-def _refuse_inside(zone: Zone, low: FloatArray, high: FloatArray, size: float) -> None:
-    middles = zone.cells.coordinates[..., :2].mean(axis=1)
-    wrong = ((middles > low - size) & (middles < high + size)).all(axis=1)
-    if wrong.any():
-        place = zone.cells.shown_middle(int(np.argmax(wrong)))
-        raise MeshError("kernel.waves.layer-in-box", place=place, count=int(wrong.sum()))
 
 
 def _blocks(
@@ -269,24 +242,13 @@ def _inertia(zone: Zone, parameters: ZoneField, stretching: Stretching) -> list[
 
 @dataclass(frozen=True, eq=False)
 class _Histories:
-    """Unknown stress histories of a zone, at nodes of their own: one at each integration point.
-
-    Attributes
-    ----------
-    nodes : array (n_cells, p)
-    compliances : array (n_cells, p, 3, 3)
-        Times volumes.
-    ties : arrays (n_cells, 3 p, 2 k)
-        `volume sym(grad u L)`, with L_p (stiffness) and L_e (damping).
-    factors : arrays (n_cells, p)
-        c, a, b.
-    """
+    """Unknown stress histories of a zone, at nodes of their own: one at each integration point."""
 
     zone: Zone
-    nodes: IntArray
-    compliances: FloatArray
-    ties: tuple[FloatArray, FloatArray]
-    factors: tuple[FloatArray, FloatArray, FloatArray]
+    nodes: IntArray  # (n_cells, p)
+    compliances: FloatArray  # (n_cells, p, 3, 3) times volumes
+    ties: tuple[FloatArray, FloatArray]  # (n_cells, 3 p, 2 k) `volume sym(grad u L)`, L_p then L_e
+    factors: tuple[FloatArray, FloatArray, FloatArray]  # (n_cells, p) c, a, b
 
     @classmethod
     def of(cls, zone: Zone, parameters: ZoneField, stretching: Stretching) -> _Histories:

@@ -100,13 +100,7 @@ def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
 
 
 def _radii(zone: Zone, cells: slice = slice(None)) -> FloatArray:
-    """Radii (n, 1) of the rings.
-
-    Raises
-    ------
-    MeshError
-        For a point on the axis.
-    """
+    """Radii (n, 1) of the rings."""
     nodes = zone.cells.connectivity[cells]
     radii: FloatArray = zone.cells.nodes.coordinates[nodes][..., 0]
     if (radii <= 0.0).any():

@@ -109,21 +109,11 @@ class SectionZone:
 
 @dataclass(frozen=True, eq=False)
 class FibreSection:
-    """A section.
+    """A section."""
 
-    Attributes
-    ----------
-    places : array (n_fibres, 2)
-        Local y and z.
-    areas : array (n_fibres,)
-    moduli : array (n_fibres, 3)
-        YOUN, ALPY G, ALPZ G.
-    zones : tuple of SectionZone
-    """
-
-    places: FloatArray
-    areas: FloatArray
-    moduli: FloatArray
+    places: FloatArray  # (n_fibres, 2) local y and z
+    areas: FloatArray  # (n_fibres,)
+    moduli: FloatArray  # (n_fibres, 3) YOUN, ALPY G, ALPZ G
     zones: tuple[SectionZone, ...]
 
     @property

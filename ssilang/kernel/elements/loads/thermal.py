@@ -47,13 +47,7 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
 
 
 def refuse_expanding(joints: list[Zone], material: CellField) -> None:
-    """Refuse joints that expand where temperatures load a model in time.
-
-    Raises
-    ------
-    MaterialError
-        If one has a coefficient of expansion: laws of joints take no free jumps.
-    """
+    """Refuse joints that expand where temperatures load a model in time."""
     for seen in (zone_field(z, material) for z in joints):
         for name in {n for rates in JOINT_RATES.values() for n in rates if n in seen}:
             if np.any(seen.at(name, "STRESSES")):
@@ -104,13 +98,7 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
 
 
 def _skins(zone: Zone, field: NodeField | CellField) -> tuple[FloatArray, FloatArray] | None:
-    """Temperatures (n_cells, n_points) of both skins; None where the middle's holds all across.
-
-    Raises
-    ------
-    FieldError
-        If one of the three temperatures is missing.
-    """
+    """Temperatures (n_cells, n_points) of both skins; None where the middle's holds all across."""
     known = zone_field(zone, field).names if isinstance(field, CellField) else field.components
     if not any(n in known for n in SKINS):
         return None

@@ -25,20 +25,11 @@ def chunks(n_cells: int) -> Iterator[slice]:
 
 @dataclass(frozen=True, eq=False)
 class CellGeometry:
-    """Cells at quadrature points.
+    """Cells at quadrature points."""
 
-    Attributes
-    ----------
-    shapes : array (n_points, n_nodes)
-    gradients : array (n_cells, n_points, dim, n_nodes)
-        Derivatives of the shape functions by x, y, z.
-    volumes : array (n_cells, n_points)
-        Quadrature weight times |Jacobian|.
-    """
-
-    shapes: FloatArray
-    gradients: FloatArray
-    volumes: FloatArray
+    shapes: FloatArray  # (n_points, n_nodes)
+    gradients: FloatArray  # (n_cells, n_points, dim, n_nodes) of the shape functions by x, y, z
+    volumes: FloatArray  # (n_cells, n_points) quadrature weight times |Jacobian|
 
 
 def _inverse(jacobians: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -100,14 +100,6 @@ def curvatures_of(rotations: FloatArray, local: FloatArray, points: FloatArray) 
     return np.stack([slopes[:, :, 0, 0], slopes[:, :, 1, 1], mixed], axis=1)
 
 
-def _discrete_kirchhoff(local: FloatArray, points: FloatArray) -> FloatArray:
-    """Curvatures (n, 3, p, 9) from w, RX, RY at the corners (own frame)."""
-    return curvatures_of(kirchhoff_rotations(local), local, points)
-
-
-_CURVATURES = {"DKT": _discrete_kirchhoff, "COQ3": cubic_curvatures}
-
-
 class Plate(FlatShell):
     """Thin shell made of flat triangles."""
 
@@ -122,4 +114,6 @@ class Plate(FlatShell):
         self, zone: Zone, parameters: ZoneField, cells: slice, local: FloatArray, points: FloatArray
     ) -> FloatArray:
         """Curvatures, linear in the cell."""
-        return _CURVATURES[zone.element](local, points)
+        if zone.element == "DKT":
+            return curvatures_of(kirchhoff_rotations(local), local, points)
+        return cubic_curvatures(local, points)

@@ -52,13 +52,7 @@ _LAWS = {"ISOTROPE": _isotropic, "ORTHOTROPE": _orthotropic}
 
 
 def _law_of(zone: Zone) -> Callable[[ZoneField, Support], FloatArray]:
-    """Moduli of plane stress of a zone's elasticity.
-
-    Raises
-    ------
-    MaterialError
-        If shells do not have it.
-    """
+    """Moduli of plane stress of a zone's elasticity."""
     kind = symmetry_of(zone)
     if kind not in _LAWS:
         raise MaterialError(

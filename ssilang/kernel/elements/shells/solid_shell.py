@@ -52,29 +52,14 @@ _PATTERNS = np.stack([_XI * _ETA, _XI * _ETA * _ZETA])
 
 @dataclass(frozen=True, eq=False)
 class _Brick:
-    """Some bricks seen from their centres.
+    """Some bricks seen from their centres."""
 
-    Attributes
-    ----------
-    axes : array (n, 3, 3)
-        Unit rows: along the first reference direction, in the surface, normal.
-    steps : array (n, 3, 3)
-        Rows: derivative of the place by each reference coordinate at the centre.
-    slopes : array (n, 3, 8)
-        Mean of the gradients of the shape functions over the line of points.
-    share : array (n, p)
-        Part of the volume that each point has.
-    line : CellGeometry
-        Gradients and volumes at the points.
-    nodes : array (n, 8, 3)
-    """
-
-    axes: FloatArray
-    steps: FloatArray
-    slopes: FloatArray
-    share: FloatArray
-    line: CellGeometry
-    nodes: FloatArray
+    axes: FloatArray  # (n, 3, 3) unit rows: along the first direction, in the surface, normal
+    steps: FloatArray  # (n, 3, 3) rows: derivative of the place by each coordinate, at the centre
+    slopes: FloatArray  # (n, 3, 8) mean gradients of the shape functions over the line of points
+    share: FloatArray  # (n, p) part of the volume that each point has
+    line: CellGeometry  # gradients and volumes at the points
+    nodes: FloatArray  # (n, 8, 3)
 
 
 def _bricks(zone: Zone, cells: slice = slice(None), support: Support = "STRESSES") -> _Brick:
@@ -109,7 +94,10 @@ def _held_rows(brick: _Brick, mean: FloatArray) -> FloatArray:
     inverse = np.linalg.inv(brick.steps)  # inverse[c, j, i] = d xi_i / d x_j
     rate = np.einsum("cai,cik->cak", brick.axes[:, :2], inverse)[..., :2]
     size = np.linalg.norm(rate, axis=2) / np.sqrt(3.0)  # root mean square of d (xi eta) / d x_a
-    bent = twisted - _bent_part(brick, flat, rate)
+    # less what a displacement zeta (k . x) of constant curvature k has of xi eta zeta
+    slopes = np.stack([_ZETA * _XI, _ZETA * _ETA]) / 8
+    place = np.einsum("k,ckj,caj->ca", flat, brick.nodes, brick.axes[:, :2])
+    bent = twisted - np.einsum("ca,cai,ik->ck", place, rate, slopes)
     for a in (0, 1):
         along = brick.axes[:, a][:, None]
         rows[:, a] = flat[None, :, None] * along * size[:, a, None, None]
@@ -120,16 +108,12 @@ def _held_rows(brick: _Brick, mean: FloatArray) -> FloatArray:
     metric = np.einsum("cji,cjk->cik", inverse, inverse)
     for a in (0, 1):
         scale = np.sqrt(metric[:, a, a] * metric[:, 2, 2] / 3.0)[:, None]
-        held[:, 5 + a] = _varying_shear(brick, a, mean) * scale
+        # half the change from side to side, less that of the mean strain
+        across, on_strain = _covariant_shear(brick, a, _ends(a))
+        own = (across[:, 1] - across[:, 0]).reshape(-1, 24)
+        usual = np.einsum("cs,csm->cm", on_strain[:, 1] - on_strain[:, 0], mean)
+        held[:, 5 + a] = (own - usual) / 2 * scale
     return held
-
-
-def _bent_part(brick: _Brick, flat: FloatArray, rate: FloatArray) -> FloatArray:
-    """Weights (n, 8) of xi eta zeta in a displacement zeta (k . x) of constant curvature k."""
-    slopes = np.stack([_ZETA * _XI, _ZETA * _ETA]) / 8
-    place = np.einsum("k,ckj,caj->ca", flat, brick.nodes, brick.axes[:, :2])
-    found: FloatArray = np.einsum("ca,cai,ik->ck", place, rate, slopes)
-    return found
 
 
 def _covariant_shear(brick: _Brick, axis: int, points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -156,15 +140,6 @@ def _ends(axis: int, across: float = 0.0) -> FloatArray:
     points = np.full((2, 3), across)
     points[:, axis], points[:, 1 - axis] = 0.0, (-1.0, 1.0)
     return points
-
-
-def _varying_shear(brick: _Brick, axis: int, mean: FloatArray) -> FloatArray:
-    """Half the change (n, 24) of the shear from side to side, less that of the mean strain."""
-    rows, on_strain = _covariant_shear(brick, axis, _ends(axis))
-    own = (rows[:, 1] - rows[:, 0]).reshape(-1, 24)
-    usual = np.einsum("cs,csm->cm", on_strain[:, 1] - on_strain[:, 0], mean)
-    change: FloatArray = (own - usual) / 2
-    return change
 
 
 def _sampled_shear(brick: _Brick, points: FloatArray) -> FloatArray:
@@ -254,16 +229,12 @@ class SolidShell(ElementFamily):
         values = np.zeros((n, 24, 24))
         for cells in chunks(n):
             brick = _bricks(zone, cells)
-            scalar = self._layered(zone, stress[cells], brick, cells)
+            square, line = quadrature("quadrangle", 4), quadrature("line", 5)
+            points = np.column_stack([np.tile(square.points, (5, 1)), np.repeat(line.points, 4)])
+            rule = Rule(points, np.repeat(line.weights, 4) * np.tile(square.weights, 5))
+            geometry = cell_geometry("CUB8", brick.nodes, rule)
+            spread = np.repeat(stress[cells][:, :6], 4, axis=2)
+            scalar = geometric_scalar(zone, geometry, spread, geometry.volumes, cells)[0]
             for i in range(3):
                 values[cells, i::3, i::3] = scalar
         return values
-
-    def _layered(self, zone: Zone, stress: FloatArray, brick: _Brick, cells: slice) -> FloatArray:
-        """Geometric stiffness (n, 8, 8) of one unknown, 2 x 2 points in each layer."""
-        square, line = quadrature("quadrangle", 4), quadrature("line", 5)
-        points = np.column_stack([np.tile(square.points, (5, 1)), np.repeat(line.points, 4)])
-        rule = Rule(points, np.repeat(line.weights, 4) * np.tile(square.weights, 5))
-        geometry = cell_geometry("CUB8", brick.nodes, rule)
-        spread = np.repeat(stress[:, :6], 4, axis=2)
-        return geometric_scalar(zone, geometry, spread, geometry.volumes, cells)[0]

@@ -107,7 +107,10 @@ class ThickShell(ShellFamily):
         for a in range(3):
             G[:, :, a, :, :, a] = flat
         G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
-        frames = _local_frames(J)
+        e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
+        normal = np.cross(J[:, :, 0], J[:, :, 1])
+        e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+        frames = np.stack([e1, np.cross(e3, e1), e3], axis=2)
         grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
         weights = np.abs(np.linalg.det(J)) * rule.weights * 2
         return grad, weights
@@ -172,11 +175,3 @@ class ThickShell(ShellFamily):
         values[:, :, 3:, :, 3:] = tangent * (h**2 / 12)[:, None, None, None, None]
         whole = inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
         return whole, self.layout(zone)
-
-
-def _local_frames(J: FloatArray) -> FloatArray:
-    """Frames (n, p, 3, 3): along the first reference axis, in the surface, normal."""
-    e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
-    normal = np.cross(J[:, :, 0], J[:, :, 1])
-    e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
-    return np.stack([e1, np.cross(e3, e1), e3], axis=2)

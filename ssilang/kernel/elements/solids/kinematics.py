@@ -21,22 +21,12 @@ Term = tuple[
 
 @dataclass(frozen=True, slots=True)
 class SolidKinematics:
-    """How displacements of a continuous element make strains under one hypothesis.
+    """How displacements of a continuous element make strains under one hypothesis."""
 
-    Attributes
-    ----------
-    unknowns : tuple of str
-        At each node.
-    strains, stresses : tuple of str
-    gradient : tuple of str
-        Names of the displacement gradient's components (GRAD), row by row.
-    terms : tuple of Term
-    """
-
-    unknowns: tuple[str, ...]
+    unknowns: tuple[str, ...]  # at each node
     strains: tuple[str, ...]
     stresses: tuple[str, ...]
-    gradient: tuple[str, ...]
+    gradient: tuple[str, ...]  # names of the displacement gradient's components (GRAD), row by row
     terms: tuple[Term, ...]
 
     @property

@@ -29,29 +29,14 @@ WORTH = 0.5  # numbers read, over q^3, for which a new Y costs as much
 
 
 class Changed(NamedTuple):
-    """Y and what is overwritten; the first three of one precision.
+    """Y and what is overwritten; the first three of one precision."""
 
-    Attributes
-    ----------
-    Y : array (q, q)
-    own : array (q q,)
-        Y of the changed jumps.
-    x : array (q,)
-        A vector on its way.
-    jumps : array (q,)
-        The changed jumps.
-    V : array (m + 1, q)
-        Directions of the iteration.
-    spent : array (1,)
-        Numbers of `own` read by long iterations since Y was made.
-    """
-
-    Y: FloatArray
-    own: FloatArray
-    x: FloatArray
-    jumps: IntArray
-    V: FloatArray
-    spent: FloatArray
+    Y: FloatArray  # (q, q)
+    own: FloatArray  # (q q,) Y of the changed jumps
+    x: FloatArray  # (q,) a vector on its way
+    jumps: IntArray  # (q,) the changed jumps
+    V: FloatArray  # (m + 1, q) directions of the iteration
+    spent: FloatArray  # (1,) numbers of `own` read by long iterations since Y was made
 
 
 def new_changed(q: int, precision: Any) -> Changed:

@@ -31,28 +31,15 @@ VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is
 
 
 class Inverse(NamedTuple):
-    """Y, and what is overwritten.
+    """Y, and what is overwritten."""
 
-    Attributes
-    ----------
-    Y : array (q, q)
-    room : array (q,)
-    updates : array (1,)
-        How many points were changed since Y was made.
-    matrix : array (q, q)
-        Newton's, of which Y is made by plain elimination; no rows where that is done by blocks.
-    rows : array (2, d, q)
-        `B Y` and `(Y B^T)^T` of one point.
-    changes : array (2, d, d)
-        Of one point's tangent, and the matrix of their solution.
-    """
-
-    Y: FloatArray
-    room: FloatArray
-    updates: IntArray
+    Y: FloatArray  # (q, q)
+    room: FloatArray  # (q,)
+    updates: IntArray  # (1,) how many points were changed since Y was made
+    # (q, q) Newton's, of which Y is made by plain elimination; no rows where that is done by blocks
     matrix: FloatArray
-    rows: FloatArray
-    changes: FloatArray
+    rows: FloatArray  # (2, d, q) `B Y` and `(Y B^T)^T` of one point
+    changes: FloatArray  # (2, d, d) of one point's tangent, and the matrix of their solution
 
 
 def inverse_of(Y: FloatArray, d: int) -> Inverse:

@@ -213,13 +213,7 @@ def pendulum_energy(
 
 
 def check_lead_parameters(parameters: FloatArray) -> None:
-    """Refuse a lead and rubber bearing without stiffness, strength or hysteresis.
-
-    Raises
-    ------
-    MaterialError
-        Naming the parameter.
-    """
+    """Refuse a lead and rubber bearing without stiffness, strength or hysteresis."""
     columns = _bearing_columns(parameters)
     refuse(columns["QD"] <= 0, columns["QD"], "QD", "> 0")
     refuse(columns["KPOS"] < 0, columns["KPOS"], "KPOS", ">= 0")
@@ -229,13 +223,7 @@ def check_lead_parameters(parameters: FloatArray) -> None:
 
 
 def check_pendulum_parameters(parameters: FloatArray) -> None:
-    """Refuse a friction pendulum without bowl or friction.
-
-    Raises
-    ------
-    MaterialError
-        Naming the parameter.
-    """
+    """Refuse a friction pendulum without bowl or friction."""
     columns = _bearing_columns(parameters)
     refuse(columns["RAYO"] <= 0, columns["RAYO"], "RAYO", "> 0")
     refuse(columns["FROT"] < 0, columns["FROT"], "FROT", ">= 0")

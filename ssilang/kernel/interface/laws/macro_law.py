@@ -288,23 +288,12 @@ FLAT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """Base of a macro-element.
-
-    Attributes
-    ----------
-    code : LawCode
-    halves : array (d - 1,)
-        Half of its widths, along t1 and t2; its radius, of a disc.
-    area : float
-        In the plane that of the footing's whole length (1 m without LONG); 1 of two springs.
-    stiffness : float
-        Per unit area (Pa/m); of each of two springs (N/m).
-    """
+    """Base of a macro-element."""
 
     code: LawCode
-    halves: FloatArray
-    area: float
-    stiffness: float
+    halves: FloatArray  # (d - 1,) half of its widths, along t1 and t2; its radius, of a disc
+    area: float  # of the whole length (1 m without LONG) in the plane; 1 of two springs
+    stiffness: float  # per unit area (Pa/m); of each of two springs (N/m)
 
     def levers(self) -> FloatArray:
         """Levers (d - 1, 2) of the edges about the axes, the lowest and the highest."""
@@ -356,8 +345,7 @@ def _of_rectangle(slopes: FloatArray, v: FloatArray) -> FloatArray:
     b = np.where(flat, a, small)
     ends = ((a + b - v, 1.0), (a - b - v, -1.0), (b - a - v, -1.0), (-a - b - v, 1.0))
     cut = sum(sign * np.maximum(x, 0.0) ** 2 for x, sign in ends) / (8.0 * a * b)
-    found: FloatArray = np.clip(np.where(flat, (a - v) / (2.0 * a), cut), 0.0, 1.0)
-    return found
+    return np.clip(np.where(flat, (a - v) / (2.0 * a), cut), 0.0, 1.0)
 
 
 def outline_of(code: LawCode, p: FloatArray, dimension: int) -> Outline:
@@ -375,13 +363,7 @@ def outline_of(code: LawCode, p: FloatArray, dimension: int) -> Outline:
 
 
 def _check(parameters: FloatArray) -> None:
-    """Refuse a macro-element without stiffness or size.
-
-    Raises
-    ------
-    MaterialError
-        Naming the parameter.
-    """
+    """Refuse a macro-element without stiffness or size."""
     columns = columns_of(parameters)
     refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")
     for name in ("LARG", "LONG", "RAYO"):

@@ -78,20 +78,16 @@ def cone_rows(law: PlasticLaw, parameters: PointParameters) -> ConeRows | None:
     for name in law.curves:
         curves, which = parameters.curves[name]
         table[:, ConeColumn.CURVE] = which
-    rows, of = _different(table)
+    # the rows that differ; most tables have few, in long runs
+    begins = np.flatnonzero(np.concatenate([[True], (table[1:] != table[:-1]).any(axis=1)]))
+    rows, of = np.unique(table[begins], axis=0, return_inverse=True)
+    lengths = np.diff(np.concatenate([begins, [len(table)]]))
+    rows, of = np.ascontiguousarray(rows), np.repeat(of.ravel().astype(np.int64), lengths)
     x = [np.asarray(c.parts[0].abscissas, float) for c in curves]
     y = [np.asarray(c.parts[0].ordinates, float) for c in curves]
     start = np.concatenate([[0], np.cumsum([len(v) for v in x])]).astype(np.int64)
     none = [np.zeros(0)]
     return ConeRows(rows, of, start, np.concatenate(x or none), np.concatenate(y or none))
-
-
-def _different(table: FloatArray) -> tuple[FloatArray, IntArray]:
-    """The rows that differ, and which of them each row is; most tables have few, in long runs."""
-    begins = np.flatnonzero(np.concatenate([[True], (table[1:] != table[:-1]).any(axis=1)]))
-    rows, of = np.unique(table[begins], axis=0, return_inverse=True)
-    lengths = np.diff(np.concatenate([begins, [len(table)]]))
-    return np.ascontiguousarray(rows), np.repeat(of.ravel().astype(np.int64), lengths)
 
 
 @compiled

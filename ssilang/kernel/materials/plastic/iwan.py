@@ -29,12 +29,7 @@ _COMPONENTS = ("XX", "YY", "XY", "XZ", "YZ")
 
 
 def check(parameters: PointParameters) -> None:
-    """Refuse curves that no soil has.
-
-    Raises
-    ------
-    MaterialError
-    """
+    """Refuse curves that no soil has."""
     for curve in parameters.curves[CURVE][0]:
         break_points(curve)
 

@@ -57,13 +57,7 @@ def _table(p: PointParameters) -> FloatArray:
 
 
 def check(p: PointParameters) -> None:
-    """Refuse steel whose curves do not exist.
-
-    Raises
-    ------
-    MaterialError
-        Naming what must hold.
-    """
+    """Refuse steel whose curves do not exist."""
     slender = p["FALD"] > 5
     rules = {
         "STSY <= STSU": p["STSY"] <= p["STSU"],

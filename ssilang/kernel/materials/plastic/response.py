@@ -104,23 +104,13 @@ class PointParameters:
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """A law's answer to a step of strain.
+    """A law's answer to a step of strain."""
 
-    Attributes
-    ----------
-    stress : array (m, 6)
-        At the end of the step.
-    variables : array (m, k)
-        Internal variables at the end.
-    tangent : array (m, 6, 6)
-        Derivative of the stress by the strain of the step (consistent with the integration).
-    elastic : array (m, 6) or None
-        Elastic strain of the step, where YOUN and NU do not give it.
-    """
-
-    stress: FloatArray
-    variables: FloatArray
+    stress: FloatArray  # (m, 6) at the end of the step
+    variables: FloatArray  # (m, k) internal variables at the end
+    # (m, 6, 6) derivative of the stress by the strain of the step (consistent with the integration)
     tangent: FloatArray
+    # (m, 6) elastic strain of the step, where YOUN and NU do not give it
     elastic: FloatArray | None = None
 
     def elastic_strain(self, parameters: PointParameters, before: FloatArray) -> FloatArray:

@@ -14,22 +14,12 @@ TURNS = 100
 
 @dataclass(frozen=True, eq=False)
 class SectionParameters(PointParameters):
-    """Parameters of sections at m points.
+    """Parameters of sections at m points."""
 
-    Attributes
-    ----------
-    rigidity, softness : array (m, 6, 6)
-        Forces of elastic strains and curvatures, and back.
-    form : array (m, 6, 6)
-        The equivalent stress q of forces F has q^2 = F form F.
-    size : array (m,)
-        Area of the section (thickness of shells): q size is work conjugate to the flow p.
-    """
-
-    rigidity: FloatArray
+    rigidity: FloatArray  # (m, 6, 6) forces of elastic strains and curvatures, and back
     softness: FloatArray
-    form: FloatArray
-    size: FloatArray
+    form: FloatArray  # (m, 6, 6) the equivalent stress q of forces F has q^2 = F form F
+    size: FloatArray  # (m,) area (thickness of shells): q size is conjugate to the flow p
 
     @property
     def moduli(self) -> FloatArray:

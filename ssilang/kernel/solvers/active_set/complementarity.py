@@ -205,8 +205,7 @@ def least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
             return x
     except np.linalg.LinAlgError:
         pass
-    least: FloatArray = la.lstsq(A, b, cond=1e-12)[0]
-    return least
+    return la.lstsq(A, b, cond=1e-12)[0]
 
 
 def _wrong_rows(

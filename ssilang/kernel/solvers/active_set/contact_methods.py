@@ -98,19 +98,17 @@ def uzawa(
         change = np.abs(new - p).max(initial=0.0)
         p = new
         if change <= TOLERANCE * p.max(initial=0.0):
-            return Reactions(_exact(W, q, p, p > 0.0), p > 0.0, sweep)
+            # freed of what the iteration left over, if the active rows are the right ones
+            active = p > 0.0
+            found = lagrange(W, q, None, active)
+            right = np.array_equal(found.active, active)
+            return Reactions(found.p if right else p, active, sweep)
     raise ConvergenceError(
         "kernel.solvers.uzawa-sweeps-did-not",
         most_sweeps=MOST_SWEEPS,
         change=change,
         largest=1.8 / largest,
     )
-
-
-def _exact(W: FloatArray, q: FloatArray, p: FloatArray, active: BoolArray) -> FloatArray:
-    """Reactions p freed of what the iteration left over, if the active rows are the right ones."""
-    found = lagrange(W, q, None, active)
-    return found.p if np.array_equal(found.active, active) else p
 
 
 Method = Callable[[FloatArray, FloatArray, "float | None", "BoolArray | None"], Reactions]

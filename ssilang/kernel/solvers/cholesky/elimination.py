@@ -44,27 +44,15 @@ class _Stage:
 
 @dataclass(eq=False)
 class Elimination:
-    """Outcome of `eliminate`.
+    """Outcome of `eliminate`."""
 
-    Attributes
-    ----------
-    C : csr array (n_rows, n)
-        The rows as given, scaled to a largest term of one.
-    scale : array (n_rows,)
-        `C = rows / scale`.
-    eliminated : array (n_rows,) of bool
-        Rows that are dealt with; the others (too full, or in too large a group) are left to the
-        caller.
-    masters : array (r,)
-        Unknowns that stay.
-    T : csr array (n, r)
-    """
-
-    C: sp.csr_array
-    scale: FloatArray
+    C: sp.csr_array  # (n_rows, n) the rows as given, scaled to a largest term of one
+    scale: FloatArray  # (n_rows,) `C = rows / scale`
+    # (n_rows,) rows that are dealt with; the others (too full, or in too large a group) are left to
+    # the caller
     eliminated: BoolArray
-    masters: IntArray
-    T: sp.csr_array
+    masters: IntArray  # (r,) unknowns that stay
+    T: sp.csr_array  # (n, r)
     stages: list[_Stage] = field(default_factory=list)
 
     def particular(self, d: FloatArray) -> FloatArray:

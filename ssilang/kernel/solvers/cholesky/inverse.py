@@ -30,26 +30,15 @@ ROWS = 100_000  # scaled together: a copy of a large matrix is gigabytes
 
 @dataclass(frozen=True, eq=False)
 class Inverse:
-    """Factorised matrix, with its free motions if it is singular.
-
-    Attributes
-    ----------
-    scale : array (n,)
-        The factor is that of `scale A scale`.
-    kernel : array (n, p)
-        Free motions (null vectors), p = 0 for a regular matrix; orthonormal in scaled unknowns
-        `u / scale`.
-    pinned : array (p,)
-        Unknowns held at zero so that the rest can be solved.
-    kept : array (n - p,)
-        The other unknowns.
-    """
+    """Factorised matrix, with its free motions if it is singular."""
 
     factor: Factor
-    scale: FloatArray
+    scale: FloatArray  # (n,) the factor is that of `scale A scale`
+    # (n, p) free motions (null vectors), p = 0 for a regular matrix; orthonormal in scaled unknowns
+    # `u / scale`
     kernel: FloatArray
-    pinned: IntArray
-    kept: IntArray
+    pinned: IntArray  # (p,) unknowns held at zero so that the rest can be solved
+    kept: IntArray  # (n - p,) the other unknowns
 
     @property
     def singular(self) -> bool:

@@ -39,42 +39,21 @@ class TooLargeError(Exception):
 
 
 class Panels(NamedTuple):
-    """A factor L of A[order][:, order] = L L^T.
+    """A factor L of A[order][:, order] = L L^T."""
 
-    Attributes
-    ----------
-    first : array (n_supernodes + 1,)
-        First column of each.
-    ptr, rows : arrays (n_supernodes + 1,), (ptr[-1],)
-        Rows below each supernode, increasing.
-    at : array (n_supernodes + 1,)
-        Where the values of each start.
-    values : array (at[-1],)
-    """
-
-    first: IntArray
-    ptr: IntArray
-    rows: NDArray[np.signedinteger[Any]]
-    at: IntArray
-    values: FloatArray
+    first: IntArray  # (n_supernodes + 1,) first column of each
+    ptr: IntArray  # (n_supernodes + 1,) where the rows of each begin
+    rows: NDArray[np.signedinteger[Any]]  # (ptr[-1],) rows below each supernode, increasing
+    at: IntArray  # (n_supernodes + 1,) where the values of each start
+    values: FloatArray  # (at[-1],)
 
 
 class Updates(NamedTuple):
-    """What supernodes leave to those of their first rows below, -1 for none.
+    """What supernodes leave to those of their first rows below, -1 for none."""
 
-    Attributes
-    ----------
-    child : array (n_supernodes,)
-        The last one whose update each takes.
-    sibling : array (n_supernodes,)
-        The one that is taken after each.
-    spot : array (n_supernodes,)
-        Where the update of each waits on the stack.
-    """
-
-    child: IntArray
-    sibling: IntArray
-    spot: IntArray
+    child: IntArray  # (n_supernodes,) the last one whose update each takes
+    sibling: IntArray  # (n_supernodes,) the one that is taken after each
+    spot: IntArray  # (n_supernodes,) where the update of each waits on the stack
 
 
 class Columns(NamedTuple):
@@ -133,7 +112,11 @@ def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
     ptr, rows, above = _rows_below(tree, indptr, indices)
-    rows, at = rows.astype(np.int32), _places(tree.first, ptr)
+    k, below = np.diff(tree.first), np.diff(ptr)
+    whole, rest = np.divmod(k, WIDTH)
+    sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
+    sizes += rest * (rest + below)
+    rows, at = rows.astype(np.int32), np.append(0, np.cumsum(sizes))
     updates, waiting, front = _updates(tree.first, ptr, above)
     return _Plan(Columns(indptr, indices, lower.data), updates, ptr, rows, at, waiting, front)
 
@@ -179,15 +162,6 @@ def _depths(parent: IntArray) -> IntArray:
         depth += at >= 0
         at = np.where(at >= 0, parent[at], -1)
     return depth
-
-
-def _places(first: IntArray, ptr: IntArray) -> IntArray:
-    """`at` of the panels."""
-    k, below = np.diff(first), np.diff(ptr)
-    whole, rest = np.divmod(k, WIDTH)
-    sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
-    sizes += rest * (rest + below)
-    return np.append(0, np.cumsum(sizes))
 
 
 def _updates(first: IntArray, ptr: IntArray, above: IntArray) -> tuple[Updates, int, int]:

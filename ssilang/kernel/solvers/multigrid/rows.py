@@ -23,29 +23,15 @@ Index = NDArray[np.int32]
 
 
 class Rows(NamedTuple):
-    """A matrix (n, m) by groups of rows.
+    """A matrix (n, m) by groups of rows."""
 
-    Attributes
-    ----------
-    first : array (n_groups + 1,)
-        First row of each group.
-    ptr : array (n_groups + 1,)
-        Where its columns start.
-    columns : array (ptr[-1],) of int32
-    at : array (n_groups + 1,)
-        Where its values start, row after row.
-    values : array (at[-1],)
-    width, height : int
-        Most columns and most rows of a group.
-    """
-
-    first: IntArray
-    ptr: IntArray
-    columns: Index
-    at: IntArray
-    values: Real
-    width: int
-    height: int
+    first: IntArray  # (n_groups + 1,) first row of each group
+    ptr: IntArray  # (n_groups + 1,) where its columns start
+    columns: Index  # (ptr[-1],) of int32
+    at: IntArray  # (n_groups + 1,) where its values start, row after row
+    values: Real  # (at[-1],)
+    width: int  # most columns of a group
+    height: int  # most rows of a group
 
 
 def empty_rows(first: IntArray, ptr: IntArray, kind: Any) -> Rows:

@@ -352,13 +352,7 @@ def _written(arrays: Arrays) -> tuple[int, list[Any]]:
 
 
 def _start(command: str, limit: float) -> tuple[_Line, dict[str, Any]]:
-    """Start the server; the line to it and its greeting.
-
-    Raises
-    ------
-    KernelError
-        If it cannot be started, ends, is late, or is no such server.
-    """
+    """Start the server; the line to it and its greeting."""
     listener = local_socket()
     if listener is None:
         raise KernelError("kernel.solvers.petsc-system")
@@ -398,13 +392,7 @@ def _start(command: str, limit: float) -> tuple[_Line, dict[str, Any]]:
 
 
 def _words(command: str) -> list[str]:
-    """The command's words, the first of which is a program.
-
-    Raises
-    ------
-    KernelError
-        If they end within quotes, or there is no such program.
-    """
+    """The command's words, the first of which is a program."""
     try:
         words = shlex.split(command)
     except ValueError:
@@ -457,12 +445,7 @@ def _not_met(
 
 
 def _check(command: str, greeting: Mapping[str, Any], word: str, output: IO[bytes]) -> None:
-    """Refuse what is no server of this run, or one that cannot do what is asked of it.
-
-    Raises
-    ------
-    KernelError
-    """
+    """Refuse what is no server of this run, or one that cannot do what is asked of it."""
     known = hmac.compare_digest(str(greeting.get("word")).encode(), word.encode())
     if not known or not isinstance(greeting.get("hosts"), dict):
         raise KernelError("kernel.solvers.petsc-strange", command=command, told=_told(output))

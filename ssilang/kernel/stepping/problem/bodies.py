@@ -23,22 +23,12 @@ _KNOWN: WeakKeyDictionary[Problem, IntArray] = WeakKeyDictionary()
 
 @dataclass(frozen=True)
 class LooseBody:
-    """A body that nothing but joints holds along their normal.
+    """A body that nothing but joints holds along their normal."""
 
-    Attributes
-    ----------
-    node : int
-        One of its nodes at a joint.
-    mass : float
-        That moves with it.
-    open_points, points : int
-        Of the joints at the body, those without compression, and all.
-    """
-
-    node: int
-    mass: float
-    open_points: int
-    points: int
+    node: int  # one of its nodes at a joint
+    mass: float  # that moves with it
+    open_points: int  # of the joints at the body, those without compression
+    points: int  # of the joints at the body, all
 
 
 def bodies_of(problem: Problem) -> IntArray:

@@ -68,7 +68,11 @@ class EliminatedConstraints:
 
     def pushers(self, rows: IntArray) -> FloatArray:
         """Columns (n, m): multipliers are the transpose of particular motions."""
-        return _particulars(self, rows)
+        n_rows, n = self.C.shape
+        found = np.zeros((n, len(rows)))
+        for j, row in enumerate(rows.tolist()):
+            found[:, j] = self.particular(np.eye(1, n_rows, row)[0])
+        return found
 
 
 class OrthogonalConstraints:
@@ -92,13 +96,11 @@ class OrthogonalConstraints:
 
     def particular(self, d: FloatArray) -> FloatArray:
         """A displacement (n,) with `C u = d`."""
-        found: FloatArray = self._inverse @ d
-        return found
+        return self._inverse @ d
 
     def multipliers(self, residual: FloatArray) -> FloatArray:
         """lambda (n_rows,) with `C^T lambda = residual`, of least norm."""
-        found: FloatArray = self._inverse.T @ residual
-        return found
+        return self._inverse.T @ residual
 
     def pushers(self, rows: IntArray) -> FloatArray:
         """Columns (n, m) of the inverse."""
@@ -138,15 +140,6 @@ class NonAssociatedConstraints:
         return self._pushing.pushers(rows)
 
 
-def _particulars(constraints: Constraints, rows: IntArray) -> FloatArray:
-    """Particular motions (n, m) of unit values of some rows."""
-    n_rows, n = constraints.C.shape
-    found = np.zeros((n, len(rows)))
-    for j, row in enumerate(rows.tolist()):
-        found[:, j] = constraints.particular(np.eye(1, n_rows, row)[0])
-    return found
-
-
 def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
     """Eliminated equality conditions."""
     if not rows.associated:
@@ -155,13 +148,7 @@ def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
 
 
 def check_values(constraints: Constraints, imposed: FloatArray, numbering: Numbering) -> None:
-    """Refuse imposed values (n_rows, k) that redundant conditions contradict.
-
-    Raises
-    ------
-    KernelError
-        Naming the unknowns of the worst such row.
-    """
+    """Refuse imposed values (n_rows, k) that redundant conditions contradict."""
     for d in imposed.T:
         gap = np.abs(constraints.C @ constraints.particular(d) - d)
         wrong = np.flatnonzero(gap > 1e-9 * np.abs(d).max(initial=0.0))

@@ -188,8 +188,7 @@ def accelerated(problem: Problem, force: FloatArray) -> FloatArray:
         q[heavy] = _solved(problem, sp.csc_array(mass[heavy][:, heavy]), (T.T @ force)[heavy])
     if not np.isfinite(q).all():
         raise KernelError("kernel.stepping.mass-matrix-singular-no")
-    a: FloatArray = T @ q
-    return a
+    return T @ q
 
 
 def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArray:
@@ -214,13 +213,7 @@ def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArr
 
 
 def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
-    """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor.
-
-    Raises
-    ------
-    KernelError
-        If the mass is not positive.
-    """
+    """Accelerations (n,) or (n, k) by conjugate gradients: memory would hold no factor."""
     diagonal, columns = mass.diagonal(), force.reshape(len(force), -1).T
     found = [
         conjugate_gradients(

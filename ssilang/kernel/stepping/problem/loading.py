@@ -22,19 +22,11 @@ MECHANICAL = ("", "MECA", "FORC", "DIMP")
 
 @dataclass(frozen=True, eq=False)
 class Loading:
-    """`F(t) = forces @ c(t)`, `d(t) = imposed @ c(t)`.
+    """`F(t) = forces @ c(t)`, `d(t) = imposed @ c(t)`."""
 
-    Attributes
-    ----------
-    forces : array (n_unknowns, k)
-    imposed : array (n_rows, k)
-        Imposed values of the conditions.
-    curves : tuple of (abscissas, ordinates)
-        Linear between points, constant outside.
-    """
-
-    forces: FloatArray
-    imposed: FloatArray
+    forces: FloatArray  # (n_unknowns, k)
+    imposed: FloatArray  # (n_rows, k) imposed values of the conditions
+    # (abscissas, ordinates) of each: linear between points, constant outside
     curves: tuple[tuple[FloatArray, FloatArray], ...]
 
     def at(self, times: FloatArray) -> FloatArray:

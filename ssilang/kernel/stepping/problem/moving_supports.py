@@ -28,23 +28,14 @@ ALLOWED = 1e-12  # rounding errors of a motion that the supports allow
 
 @dataclass(frozen=True, eq=False)
 class Columns:
-    """Motions X (n, m) of the supports with their products, on all unknowns and on q.
-
-    Attributes
-    ----------
-    MX, CX, KX : arrays (n, m)
-    forces : array (3 m, r)
-        `-T^T` times these.
-    lift : array (q, m)
-        Jumps.
-    """
+    """Motions X (n, m) of the supports with their products, on all unknowns and on q."""
 
     X: FloatArray
-    MX: FloatArray
-    CX: FloatArray
-    KX: FloatArray
-    forces: FloatArray
-    lift: FloatArray
+    MX: FloatArray  # (n, m)
+    CX: FloatArray  # (n, m)
+    KX: FloatArray  # (n, m)
+    forces: FloatArray  # (3 m, r) `-T^T` times these
+    lift: FloatArray  # (q, m) jumps
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,18 +60,10 @@ class Course:
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """The motion at the start of some steps as the columns see it.
+    """The motion at the start of some steps as the columns see it."""
 
-    Attributes
-    ----------
-    work : array (3, 3 m)
-        Of the columns' loads on q, q' and q''.
-    joints : array (q,)
-        Forces on the jumps.
-    """
-
-    work: FloatArray
-    joints: FloatArray
+    work: FloatArray  # (3, 3 m) of the columns' loads on q, q' and q''
+    joints: FloatArray  # (q,) forces on the jumps
 
 
 class MovingSupports:

@@ -39,20 +39,11 @@ SUDDEN = 0.1  # part of a load's largest value that comes or goes within a step
 
 @dataclass(frozen=True)
 class Loose:
-    """A body that a load moves off along an axis.
+    """A body that a load moves off along an axis."""
 
-    Attributes
-    ----------
-    node : int
-        One of its nodes.
-    axis : str
-    pressed : bool
-        Whether joints or stops would hold it if something pressed it on them.
-    """
-
-    node: int
+    node: int  # one of its nodes
     axis: str
-    pressed: bool
+    pressed: bool  # whether joints or stops would hold it if something pressed it on them
 
 
 @dataclass(frozen=True)
@@ -356,24 +347,16 @@ def _uniform_opening(pairs: IntArray, B: FloatArray, size: int) -> FloatArray:
     normals = B[:, -1].reshape(len(B), -1, d)
     np.add.at(total, pairs, normals)
     length = np.linalg.norm(total, axis=1, keepdims=True)
-    opening: FloatArray = (total / np.where(length > 0, length, 1.0)).ravel()
-    return opening
+    return (total / np.where(length > 0, length, 1.0)).ravel()
 
 
 @dataclass(frozen=True)
 class Overload:
-    """A footing whose loads press more than its ground bears.
-
-    Attributes
-    ----------
-    node : int
-    pressing, capacity : float
-        Forces (N).
-    """
+    """A footing whose loads press more than its ground bears."""
 
     node: int
-    pressing: float
-    capacity: float
+    pressing: float  # force (N)
+    capacity: float  # force (N)
 
 
 def overloads(problem: Problem, factors: FloatArray) -> list[Overload]:

@@ -56,47 +56,24 @@ MOST_SMALL = 1000
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """What a time integration needs, all on one numbering.
-
-    Attributes
-    ----------
-    numbering : Numbering
-    K, M, C : csr arrays (n, n)
-        Stiffness without the joints that a law replaces, mass, damping.
-    constraints : Constraints
-    multipliers : array (n_rows,)
-        Multiplier nodes of the conditions.
-    loading : Loading
-    interface : Interface or None
-    u, v : arrays (n,)
-        Initial displacement and velocity.
-    state : array (n_points, N_STATE)
-        Initial state of the joints.
-    times : array (n_steps + 1,)
-        Strictly increasing, the initial time first.
-    contact : ContactRows or None
-        Unilateral relations.
-    contact_options : ContactOptions
-    solver : Solver
-        Which solver takes the systems of its steps.
-    """
+    """What a time integration needs, all on one numbering."""
 
     numbering: Numbering
-    K: sp.csr_array
-    M: sp.csr_array
-    C: sp.csr_array
+    K: sp.csr_array  # (n, n) stiffness without the joints that a law replaces
+    M: sp.csr_array  # (n, n) mass
+    C: sp.csr_array  # (n, n) damping
     constraints: Constraints
-    multipliers: IntArray
+    multipliers: IntArray  # (n_rows,) multiplier nodes of the conditions
     loading: Loading
     interface: Interface | None
-    u: FloatArray
-    v: FloatArray
-    state: FloatArray
-    times: FloatArray
+    u: FloatArray  # (n,) initial displacement
+    v: FloatArray  # (n,) initial velocity
+    state: FloatArray  # (n_points, N_STATE) initial state of the joints
+    times: FloatArray  # (n_steps + 1,) strictly increasing, the initial time first
     scheme: Scheme = field(default_factory=Scheme)
-    contact: ContactRows | None = None
+    contact: ContactRows | None = None  # unilateral relations
     contact_options: ContactOptions = field(default_factory=ContactOptions)
-    solver: Solver = FIRST_FIT
+    solver: Solver = FIRST_FIT  # which solver takes the systems of its steps
 
     @property
     def small(self) -> bool:
@@ -148,7 +125,8 @@ def make_problem(inputs: Inputs) -> Problem:
     given = tuple(m for m in matrices.values() if m is not None)
     assert stiffness is not None
     numbering = numbering_of(*given)
-    rows = constraint_matrix(_with_relations_of(stiffness, given), numbering)
+    relations = tuple(r for m in given for r in m.relations)
+    rows = constraint_matrix(Matrix(stiffness.table, (), relations), numbering)
     loading = loading_of(inputs.load, numbering, rows.multipliers)
     rows, imposed, contact = split_rows(rows, loading.imposed)
     loading = replace(loading, imposed=imposed)
@@ -160,7 +138,12 @@ def make_problem(inputs: Inputs) -> Problem:
     check_values(constraints, loading.imposed, numbering)
     interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
-    _refuse_not_finite(assembled, loading)
+    for name, matrix in assembled.items():
+        if not np.isfinite(matrix.data).all():
+            raise KernelError("kernel.stepping.matrix-values-not-finite", name=name)
+    for _, ordinates in loading.curves:
+        if not np.isfinite(ordinates).all():
+            raise FieldError("kernel.stepping.load-curve-values-not")
     refuse_negative_mass(assembled["M"], numbering, HISTORIES)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
@@ -227,23 +210,9 @@ def _unknowns_of(zones: tuple[Zone, ...], like: Matrix) -> Matrix:
     return Matrix(like.table, tuple(blocks))
 
 
-def _with_relations_of(stiffness: Matrix, matrices: tuple[Matrix, ...]) -> Matrix:
-    relations = tuple(r for m in matrices for r in m.relations)
-    return Matrix(stiffness.table, (), relations)
-
-
 def _assembled(matrix: Matrix | None, numbering: Numbering) -> sp.csr_array:
     n = numbering.size
     return sp.csr_array((n, n)) if matrix is None else assemble(matrix, numbering)
-
-
-def _refuse_not_finite(matrices: dict[str, sp.csr_array], loading: Loading) -> None:
-    for name, matrix in matrices.items():
-        if not np.isfinite(matrix.data).all():
-            raise KernelError("kernel.stepping.matrix-values-not-finite", name=name)
-    for _, ordinates in loading.curves:
-        if not np.isfinite(ordinates).all():
-            raise FieldError("kernel.stepping.load-curve-values-not")
 
 
 def _start(given: NodeField | None, numbering: Numbering) -> FloatArray:

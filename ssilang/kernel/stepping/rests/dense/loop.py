@@ -79,11 +79,12 @@ def system_of(problem: Problem) -> System:
     rows = problem.constraints.C.toarray()
     n_rows, n = rows.shape
     multipliers = np.array([problem.constraints.multipliers(e) for e in np.eye(n)])
+    joints = problem.interface
     return System(
         problem.K.toarray(),
         problem.M.toarray(),
         problem.C.toarray(),
-        jumps_of(problem),
+        np.zeros((0, problem.numbering.size)) if joints is None else joints.J.toarray(),
         problem.C.nnz > 0,
         np.ascontiguousarray(problem.loading.forces),
         np.ascontiguousarray(problem.loading.imposed),
@@ -105,12 +106,6 @@ def operators_of(problem: Problem, effective: Effective) -> StepOperators:
         np.ascontiguousarray(effective.Y),
         Condensed(effective.S, R, 1 - problem.scheme.alpha_f),
     )
-
-
-def jumps_of(problem: Problem) -> FloatArray:
-    """Rows J (q, n) of the interface, none without joints."""
-    joints = problem.interface
-    return np.zeros((0, problem.numbering.size)) if joints is None else joints.J.toarray()
 
 
 def joints_of(problem: Problem) -> Joints:

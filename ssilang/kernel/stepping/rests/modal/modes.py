@@ -243,7 +243,10 @@ class SmallLoop:
 
     def _of_springs(self, kept: Kept) -> JointRows:
         """Joints of rows that `run_springs` kept: their states hold the largest opening alone."""
-        return spring_rows(self._joints, self.modes, kept)
+        state = np.zeros((*kept.f.shape, N_STATE))
+        state[..., Variable.XI] = kept.state[..., 0]
+        t = kept.f[..., None] / self._joints.weights[:, None]
+        return JointRows(*whole_joints(self._joints, self.modes, kept.u, kept.w, t), state)
 
     def _put_normal(self, w: FloatArray, t: FloatArray) -> None:
         """Jumps and tractions of the motion from normal parts (n_points, 1)."""
@@ -315,14 +318,6 @@ class SmallLoop:
         if p[Parameter.FU] > 0.0:
             lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * xi[:, 0, 0])
             state[:, 0, Variable.DAMAGE] = np.where(t[:, 0, 0] < 0.0, 0.0, lost)
-
-
-def spring_rows(joints: Joints, modes: Modes, kept: Kept) -> JointRows:
-    """Joints of rows on springs that only push: their states hold the largest opening alone."""
-    state = np.zeros((*kept.f.shape, N_STATE))
-    state[..., Variable.XI] = kept.state[..., 0]
-    t = kept.f[..., None] / joints.weights[:, None]
-    return JointRows(*whole_joints(joints, modes, kept.u, kept.w, t), state)
 
 
 def whole_joints(

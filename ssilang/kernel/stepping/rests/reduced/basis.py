@@ -39,19 +39,11 @@ from ssilang.messages.message import Refusal, Sentence
 
 @dataclass(frozen=True, eq=False)
 class ReducedSupports:
-    """Supports whose motions `X c(t)` come on top of what the vectors describe.
-
-    Attributes
-    ----------
-    columns : Columns
-        On the motions y that the supports leave.
-    start : array (3, m)
-        c, c', c'' at the start.
-    """
+    """Supports whose motions `X c(t)` come on top of what the vectors describe."""
 
     moving: MovingSupports
-    columns: Columns
-    start: FloatArray
+    columns: Columns  # on the motions y that the supports leave
+    start: FloatArray  # (3, m) c, c', c'' at the start
 
     @property
     def count(self) -> int:
@@ -90,44 +82,21 @@ HIGHEST_SHIFT = 0.25  # of 2/dt
 
 @dataclass(frozen=True, eq=False)
 class ReducedModel:
-    """A problem on r coordinates q, `u = V q` with `V = T basis^T X`.
+    """A problem on r coordinates q, `u = V q` with `V = T basis^T X`."""
 
-    Attributes
-    ----------
-    T : csr array (n, n_y)
-        Motions that the supports leave.
-    basis : array (r, n_y)
-        One vector a row.
-    X : array (r, r)
-        From diagonal coordinates to the basis.
-    m, c, k : arrays (r,)
-        Diagonals of mass, damping and stiffness.
-    J : array (n_interface, r)
-        Jumps of the interface.
-    forces : array (r, n_loads + 3 m)
-        Last, those of m moving supports.
-    start : array (r, 3)
-        Displacement, velocity and acceleration at the start.
-    B, sense : arrays (d, r), (d,)
-        Dashpots: what of the damping is not in c is `B^T sense B`.
-    supports : ReducedSupports
-    trained : bool
-        Whether whole runs gave the basis: the interface may have more unknowns than it has vectors.
-    """
-
-    T: sp.csr_array
-    basis: FloatArray
-    X: FloatArray
-    m: FloatArray
-    c: FloatArray
-    k: FloatArray
-    J: FloatArray
-    forces: FloatArray
-    start: FloatArray
-    B: FloatArray
-    sense: FloatArray
+    T: sp.csr_array  # (n, n_y) motions that the supports leave
+    basis: FloatArray  # (r, n_y) one vector a row
+    X: FloatArray  # (r, r) from diagonal coordinates to the basis
+    m: FloatArray  # (r,) diagonal of mass
+    c: FloatArray  # (r,) of damping
+    k: FloatArray  # (r,) of stiffness
+    J: FloatArray  # (n_interface, r) jumps of the interface
+    forces: FloatArray  # (r, n_loads + 3 m) last, those of m moving supports
+    start: FloatArray  # (r, 3) displacement, velocity and acceleration at the start
+    B: FloatArray  # (d, r) dashpots: what of the damping is not in c is `B^T sense B`
+    sense: FloatArray  # (d,)
     supports: ReducedSupports
-    trained: bool
+    trained: bool  # whether whole runs gave the basis: it may have fewer vectors than J has rows
 
     @property
     def size(self) -> int:
@@ -144,8 +113,7 @@ class ReducedModel:
 
     def whole(self, z: FloatArray) -> FloatArray:
         """Whole fields (n, k) of combinations (r, k) of the basis."""
-        found: FloatArray = self.T @ (self.basis.T @ z)
-        return found
+        return self.T @ (self.basis.T @ z)
 
 
 class NoReduction(Refusal):
@@ -184,13 +152,7 @@ class Reduction:
 
 
 def refuse_reduction(problem: Problem) -> None:
-    """Refuse what reduced models do not do.
-
-    Raises
-    ------
-    KernelError
-        For unilateral and non-associated relations, adaptive or conserving steps.
-    """
+    """Refuse what reduced models do not do."""
     if problem.contact is not None:
         raise KernelError("kernel.stepping.reduction-unilateral")
     if not problem.constraints.associated:
@@ -201,8 +163,7 @@ def refuse_reduction(problem: Problem) -> None:
 
 def on_motions(T: sp.csr_array, fields: FloatArray) -> FloatArray:
     """Fields (n, k) that the supports allow on the motions y that they leave, (n_y, k)."""
-    found: FloatArray = invert(sp.csr_array(T.T @ T), True).solve(T.T @ fields)
-    return found
+    return invert(sp.csr_array(T.T @ T), True).solve(T.T @ fields)
 
 
 class Basis:

@@ -31,23 +31,14 @@ ASYMMETRIC = 1e-10  # of the largest term
 
 @dataclass(frozen=True, eq=False)
 class SplitDamping:
-    """`C = alpha M + beta K + rest` on the motions y.
-
-    Attributes
-    ----------
-    C, rest : csr arrays (n_y, n_y)
-    touched : array of int
-        Unknowns that the rest acts on.
-    rows, sense : arrays (d, n_touched), (d,) or None
-        `rest = rows^T sense rows` on them, made where they are few.
-    """
+    """`C = alpha M + beta K + rest` on the motions y."""
 
     alpha: float
     beta: float
-    C: sp.csr_array
-    rest: sp.csr_array
-    touched: IntArray
-    few: tuple[FloatArray, FloatArray] | None
+    C: sp.csr_array  # (n_y, n_y)
+    rest: sp.csr_array  # (n_y, n_y)
+    touched: IntArray  # unknowns that the rest acts on
+    few: tuple[FloatArray, FloatArray] | None  # rows (d, t), sense (d,) of rest on t touched
 
     def on(self, V: FloatArray, rest: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
         """Rows B (d, r) and senses (d,) of the rest on the vectors V (r, n_y), one a row.
@@ -119,10 +110,6 @@ class States:
                 r = block.shape[1]
                 part = np.einsum("hrb,hrc->bc", block, x[:, :r])
                 x[:, :r] -= block @ part
-            x = _whitened(x)
+            found, lengths, _ = np.linalg.svd(np.concatenate(x), full_matrices=False)
+            x = np.stack(np.split(found[:, lengths > DEPENDENT], 2))
         self.blocks.append(x)
-
-
-def _whitened(x: FloatArray) -> FloatArray:
-    found, lengths, _ = np.linalg.svd(np.concatenate(x), full_matrices=False)
-    return np.stack(np.split(found[:, lengths > DEPENDENT], 2))

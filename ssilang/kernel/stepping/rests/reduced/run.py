@@ -210,13 +210,7 @@ class ReducedIntegration:
         )  # fmt: skip
 
     def _basis(self) -> TrainedBasis | None:
-        """That which stands on the shelf, if there is one.
-
-        Raises
-        ------
-        NoReduction
-            If it is not trained enough, or supports move.
-        """
+        """That which stands on the shelf, if there is one."""
         if self.shelf is None:
             return None
         if _imposed(self.problem):
@@ -228,11 +222,6 @@ class ReducedIntegration:
 
         The answers are to what is out of balance at some instants. Where they move the joints, the
         steps since the last of them are made again with their help.
-
-        Raises
-        ------
-        NoReduction
-            If there is no room for them, or steps on it do not converge.
         """
         p, trace, largest = self.problem, Trace(self.problem, basis.model(), self._sampled), 0.0
         done, few = list[tuple[Chunk, ReducedModel]](), list[FloatArray]()
@@ -308,7 +297,8 @@ class ReducedIntegration:
     ) -> None:  # fmt: skip
         """Saved instants, as whole fields or rows; steps run again if their states did not fit."""
         p, unknowns = self.problem, given.taps.unknowns
-        expansion = expansion_of(model, unknowns)
+        moved = sp.csr_array(model.supports.columns.X)
+        expansion = Expansion(model.T, model.basis, model.X, moved)[unknowns]
         source: Iterable[Chunk] = chunks if chunks is not None else self._again(model, wanted)
         for chunk in source:
             taken = np.flatnonzero(given.taps.wanted[chunk.steps])
@@ -329,22 +319,12 @@ class ReducedIntegration:
 
 @dataclass(frozen=True, eq=False)
 class Expansion:
-    """Unknowns from coordinates of a model, and the motions of its supports.
+    """Unknowns from coordinates of a model, and the motions of its supports."""
 
-    Attributes
-    ----------
-    T : csr array (p, c)
-        Of the motions y that these unknowns need.
-    basis : array (r, c)
-    X : array (r, r)
-    moved : csr array (p, m)
-        Motions of the supports.
-    """
-
-    T: sp.csr_array
-    basis: FloatArray
-    X: FloatArray
-    moved: sp.csr_array
+    T: sp.csr_array  # (p, c) of the motions y that these unknowns need
+    basis: FloatArray  # (r, c)
+    X: FloatArray  # (r, r)
+    moved: sp.csr_array  # (p, m) motions of the supports
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -363,12 +343,6 @@ class Expansion:
         if self.moved.shape[1]:
             found = found + (self.moved @ z[:, r:].T).T
         return found
-
-
-def expansion_of(model: ReducedModel, unknowns: IntArray) -> Expansion:
-    """That of some unknowns of a problem."""
-    moved = sp.csr_array(model.supports.columns.X)
-    return Expansion(model.T, model.basis, model.X, moved)[unknowns]
 
 
 def rows_of_chunk(

@@ -243,7 +243,13 @@ class Trace:
             self.motion, row, self.energies[run.first + 1 : run.last + 1], KEPT,
             jumps=np.zeros((len(row), *self.motion.w.shape)),
         )  # fmt: skip
-        done, turns, course = self._advance(self._step(run.dt), factors, to)
+        # steps as long as known ones but for rounding are these
+        dt = next((t for t in self._steps if abs(t - run.dt) <= SAME * t), run.dt)
+        if dt not in self._steps:
+            n, q = newmark_of(self.problem.scheme, dt), len(self.motion.delta)
+            many, m = self.model.trained and q > self.model.size, self._reduced
+            self._steps[dt] = Coordinates(m, n, self._joints) if many else reduced_step(m, n, q)
+        done, turns, course = self._advance(self._steps[dt], factors, to)
         if done < len(row):
             return None
         self.iterations = max(self.iterations, turns)
@@ -278,15 +284,6 @@ class Trace:
         self._rates = np.array([course.v[-1], course.a[-1]])
         return done, turns, course
 
-    def _step(self, dt: float) -> ReducedStep | Coordinates:
-        """What steps dt need, or known ones that are as long but for rounding."""
-        dt = next((known for known in self._steps if abs(known - dt) <= SAME * known), dt)
-        if dt not in self._steps:
-            n, q = newmark_of(self.problem.scheme, dt), len(self.motion.delta)
-            many, m = self.model.trained and q > self.model.size, self._reduced
-            self._steps[dt] = Coordinates(m, n, self._joints) if many else reduced_step(m, n, q)
-        return self._steps[dt]
-
 
 class Difference:
     """The largest difference of two traces so far, relative to the largest values."""
@@ -313,8 +310,7 @@ class Difference:
     @property
     def relative(self) -> FloatArray:
         """Relative differences of jumps, displacements, rotations, velocities, accelerations."""
-        found: FloatArray = self._gap / np.where(self._size > 0.0, self._size, 1.0)
-        return found
+        return self._gap / np.where(self._size > 0.0, self._size, 1.0)
 
     @property
     def estimate(self) -> float:

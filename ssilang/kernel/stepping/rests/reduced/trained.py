@@ -43,26 +43,14 @@ START = 3  # vectors of the start of a motion
 
 @dataclass(frozen=True, eq=False)
 class Training:
-    """What whole runs have taught.
+    """What whole runs have taught."""
 
-    Attributes
-    ----------
-    model : str
-        Digest of mesh, matrices and joints.
-    dt : float
-    taught : tuple of str
-        Digests of the records that trained it.
-    vectors : array (r, n_y)
-        On the motions y that the supports leave; the square of their length is their energy.
-    answers : array (s, n_y)
-        What reduced runs missed.
-    """
-
-    model: str
+    model: str  # digest of mesh, matrices and joints
     dt: float
-    taught: tuple[str, ...]
+    taught: tuple[str, ...]  # digests of the records that trained it
+    # (r, n_y) on the motions y that the supports leave; the square of their length is their energy
     vectors: FloatArray
-    answers: FloatArray
+    answers: FloatArray  # (s, n_y) what reduced runs missed
 
 
 class Shelf(Protocol):

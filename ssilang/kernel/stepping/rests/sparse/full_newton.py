@@ -70,8 +70,7 @@ class FullNewtonSolver:
         """Forces (n,) of relations and friction."""
         if self.contact is None:
             return 0.0
-        found: FloatArray = self.contact.pushing.T @ forces
-        return found
+        return self.contact.pushing.T @ forces
 
     def _turn(
         self,
@@ -82,13 +81,7 @@ class FullNewtonSolver:
         gap: FloatArray,
         pushed: FloatArray,
     ) -> tuple[FloatArray, FloatArray]:
-        """Increment of du for what is out of balance without contact, and the contact forces.
-
-        Raises
-        ------
-        SingularFactorError
-            If the matrix is singular and no relation holds what is free.
-        """
+        """Increment of du for what is out of balance without contact, and the contact forces."""
         T, V = self.constraints.T, self.constraints.V
         matrix = sp.csr_array(V.T @ A @ T)
         if self.contact is None or self.forces is None:

@@ -228,8 +228,7 @@ class InterleavedLoop:
 
         if not hasattr(self, "_gram_factor"):
             self._gram_factor = spla.splu(self._gram)
-        found: FloatArray = self._gram_factor.solve(b)
-        return found
+        return self._gram_factor.solve(b)
 
     def room(self, block: PreparedBlock, to: Recorder, part: slice, seen: Seen) -> Recorder:
         """Room for the kept steps of a block, that is a part of all steps."""

@@ -72,52 +72,27 @@ class Damping(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """What does not change during the steps of one dt.
-
-    Attributes
-    ----------
-    L : Panels
-    visits : array (m, 3)
-        First and last supernode of a part, and what is done with it (`BOTH`, `DOWN`, `UP`), the
-        interface's last.
-    root : int
-        The interface's supernode, or the number of supernodes without interface.
-    M : Sparse
-    C : Damping
-    damped : bool
-    forces : array (k, n)
-    first, acting : arrays (m + 1,), (first[-1],)
-        Loads that act on the unknowns of each part.
-    lift : array (q, k)
-        Jumps under unit loads while all unknowns rest (no columns: none).
-    Jr, JrT : Sparse (q, r), (r, q)
-        Jumps of the root's unknowns, and the transpose.
-    Yr : array (r, q)
-        Motions of the root's unknowns under forces on the jumps.
-    S, R : arrays (q, q)
-        Compliance of the interface, stiffness of it that A holds (no rows: none).
-    newmark : Newmark
-    room : int
-        Length of the longest supernode.
-    """
+    """What does not change during the steps of one dt."""
 
     L: Panels
+    # (m, 3) first and last supernode of a part, and what is done with it (`BOTH`, `DOWN`, `UP`),
+    # the interface's last
     visits: IntArray
-    root: int
+    root: int  # the interface's supernode, or the number of supernodes without interface
     M: Sparse
     C: Damping
     damped: bool
-    forces: FloatArray
-    first: IntArray
-    acting: IntArray
-    lift: FloatArray
-    Jr: Sparse
-    JrT: Sparse
-    Yr: FloatArray
-    S: FloatArray
-    R: FloatArray
+    forces: FloatArray  # (k, n)
+    first: IntArray  # (m + 1,)
+    acting: IntArray  # (first[-1],) loads that act on the unknowns of each part
+    lift: FloatArray  # (q, k) jumps under unit loads while all unknowns rest (no columns: none)
+    Jr: Sparse  # (q, r) jumps of the root's unknowns
+    JrT: Sparse  # its transpose
+    Yr: FloatArray  # (r, q) motions of the root's unknowns under forces on the jumps
+    S: FloatArray  # (q, q) compliance of the interface
+    R: FloatArray  # (q, q) stiffness of it that A holds (no rows: none)
     newmark: Newmark
-    room: int
+    room: int  # length of the longest supernode
 
 
 class Products(NamedTuple):
@@ -136,32 +111,17 @@ class Products(NamedTuple):
 
 
 class Sweep(NamedTuple):
-    """Vectors that each step overwrites.
+    """Vectors that each step overwrites."""
 
-    Attributes
-    ----------
-    b, du, above : arrays (n,)
-        Right-hand side, increment, what branches add to the rows above them.
-    change : array (n,)
-        `-J^T df` of the step's end.
-    room : array (n,)
-    load_change, next_load_change : arrays (k,)
-        Increments of the load factors in this step and in the next one.
-    sums : array (5,)
-        v.Mv, u.g, u.Cv, du.(Cv_0 + Cv_1), something finite if all is.
-    local : array (plan.room,)
-        Room of the solution.
-    """
-
-    b: FloatArray
-    du: FloatArray
-    above: FloatArray
-    change: FloatArray
-    room: FloatArray
-    load_change: FloatArray
-    next_load_change: FloatArray
-    sums: FloatArray
-    local: FloatArray
+    b: FloatArray  # (n,) right-hand side
+    du: FloatArray  # (n,) increment
+    above: FloatArray  # (n,) what branches add to the rows above them
+    change: FloatArray  # (n,) `-J^T df` of the step's end
+    room: FloatArray  # (n,)
+    load_change: FloatArray  # (k,) increments of the load factors in this step
+    next_load_change: FloatArray  # (k,) in the next one
+    sums: FloatArray  # (5,) v.Mv, u.g, u.Cv, du.(Cv_0 + Cv_1), something finite if all is
+    local: FloatArray  # (plan.room,) room of the solution
 
 
 def sweep_of(plan: Plan, n: int, loads: int) -> Sweep:

@@ -50,29 +50,14 @@ SYMMETRIC = 1e-12  # of the largest tangent
 
 @dataclass(frozen=True, eq=False)
 class IteratedSystem:
-    """The matrix of a step with all joints closed, and its levels.
+    """The matrix of a step with all joints closed, and its levels."""
 
-    Attributes
-    ----------
-    factor : MultigridFactor
-        Of `scale T^T (A + c J^T K_0 J) T scale`, K_0 the closed joints' stiffness.
-    scale : array (r,)
-    T : csr array (n, r)
-        Motions of the scaled unknowns.
-    J : csr array (q, r)
-        Their jumps.
-    A : csr array (n, n)
-        The matrix without joints.
-    closed : array (n_points, d, d)
-        Tangents of the closed joints.
-    """
-
-    factor: MultigridFactor
-    scale: FloatArray
-    T: sp.csr_array
-    J: sp.csr_array
-    A: sp.csr_array
-    closed: FloatArray
+    factor: MultigridFactor  # of `scale T^T (A + c J^T K_0 J) T scale`, K_0 of the closed joints
+    scale: FloatArray  # (r,)
+    T: sp.csr_array  # (n, r) motions of the scaled unknowns
+    J: sp.csr_array  # (q, r) their jumps
+    A: sp.csr_array  # (n, n) the matrix without joints
+    closed: FloatArray  # (n_points, d, d) tangents of the closed joints
 
 
 def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> IteratedSystem:
@@ -140,7 +125,12 @@ class IteratedSolver:
     def _newton(
         self, now: InterfaceState, trial: Trial, r: FloatArray, start: FloatArray
     ) -> tuple[FloatArray, StepOutcome]:
-        reference = self._reference(now, r, start)
+        s, forces = self.system, [r]  # the joints' among them: the body may be one at rest
+        if start.any():
+            forces.append(s.A @ start)
+        if self.interface is not None:
+            forces.append(self.interface.J.T @ now.f)
+        reference = sum(float(np.linalg.norm(s.T.T @ f)) for f in forces) or 1.0
         du, rest = self._begin(now, trial, r, start)
         size, enough = float(np.linalg.norm(rest)), self.tolerance * reference
         for turn in range(1, TURNS + 1):
@@ -177,15 +167,6 @@ class IteratedSolver:
             rest = self._rest(now, trial, r, start)
         return start.copy(), rest
 
-    def _reference(self, now: InterfaceState, r: FloatArray, start: FloatArray) -> float:
-        """Size of the forces of a step, the joints' among them: it may be one at rest."""
-        s, forces = self.system, [r]
-        if start.any():
-            forces.append(s.A @ start)
-        if self.interface is not None:
-            forces.append(self.interface.J.T @ now.f)
-        return sum(float(np.linalg.norm(s.T.T @ f)) for f in forces) or 1.0
-
     def _rest(self, now: InterfaceState, trial: Trial, r: FloatArray, du: FloatArray) -> FloatArray:
         """What is out of balance at du, on the scaled unknowns; the joints' answer into `trial`."""
         rest = r - self.system.A @ du if du.any() else r.copy()
@@ -194,8 +175,7 @@ class IteratedSolver:
             trial.delta[:] = now.delta + trial.y
             interface_response(self.interface.points, now.state, trial.delta, trial)
             rest -= self.interface.J.T @ (self.share * (trial.f - now.f))
-        found: FloatArray = self.system.T.T @ rest
-        return found
+        return self.system.T.T @ rest
 
     def _step(self, trial: Trial, rest: FloatArray, enough: float) -> tuple[FloatArray, bool]:
         """Newton's increment (n,), and whether the linear iteration led anywhere."""
