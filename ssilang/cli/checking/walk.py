@@ -218,7 +218,12 @@ class Checker:
         return values
 
     def _read(self, statement: tree.Statement, scope: Scope) -> Values:
-        self._targets(statement, scope)
+        several = unended(statement.targets) is not None
+        for item in statement.targets:
+            if isinstance(item, tree.Name) and not several:
+                self._shadow(item.text, item.span)
+            elif isinstance(item, tree.Path):
+                self.phrases._path(item, scope)
         one = len(statement.targets) <= 1
         try:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
@@ -263,14 +268,6 @@ class Checker:
             for item in statement.items[1:2]:
                 if isinstance(item, tree.Name) and len(statement.items) == 2:
                     scope.values.pop(item.text, None)
-
-    def _targets(self, statement: tree.Statement, scope: Scope) -> None:
-        several = unended(statement.targets) is not None
-        for item in statement.targets:
-            if isinstance(item, tree.Name) and not several:
-                self._shadow(item.text, item.span)
-            elif isinstance(item, tree.Path):
-                self.phrases._path(item, scope)
 
     def _shadow(self, name: str, span: Any) -> None:
         found = find_operator(name)

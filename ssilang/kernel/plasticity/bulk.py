@@ -288,8 +288,8 @@ class Bulk:
         return {law: share for law, share in shares.items() if share > 0.0}
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
-        """Stresses of the zones (forces in bars)."""
-        return stress_blocks(self, state)
+        """Stresses of the zones (forces in bars and beams)."""
+        return [z.stress_block(s) for z, s in zip(self.zones, state, strict=True)]
 
     def variables(self, state: State) -> list[CellFieldBlock]:
         """Internal variables of the zones."""
@@ -347,11 +347,6 @@ def without_stiffness(zone: Zone) -> ElementMatrices:
 
 
 # --- fields ----------------------------------------------------------------------------------
-
-
-def stress_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
-    """Stresses of the zones (forces in bars and beams)."""
-    return [z.stress_block(s) for z, s in zip(bulk.zones, state, strict=True)]
 
 
 def variable_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:

@@ -240,7 +240,11 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
     _restore_units(call, name, str(archive.settings.get("UNIT", "")))
     if not ws.dimension:
-        _restore_settings(ws, archive.settings)
+        saved = archive.settings
+        ws.dimension = int(saved.get("DIME", 0))
+        ws.element = str(saved.get("ELEM", ""))
+        if saved.get("MODE") in Mode.__members__:
+            ws.mode = Mode[saved["MODE"]]
 
 
 def _restore_units(call: Call, name: str, saved: str) -> None:
@@ -268,10 +272,3 @@ def check_settings(archive: Archive, name: str) -> None:
     for word, holds in _RULES.items():
         if word in archive.settings and not holds(archive.settings[word]):
             raise InputError("io.damaged-object", name=name, kind="OPTI", part=word)
-
-
-def _restore_settings(ws: Workspace, saved: dict[str, Any]) -> None:
-    ws.dimension = int(saved.get("DIME", 0))
-    ws.element = str(saved.get("ELEM", ""))
-    if saved.get("MODE") in Mode.__members__:
-        ws.mode = Mode[saved["MODE"]]

@@ -42,10 +42,6 @@ def taken(value: Any, places: list[int]) -> Any:
     return type(value)([value.values[i] for i in places])
 
 
-def _plain(item: Any) -> Any:
-    return item.item() if isinstance(item, np.generic) else item
-
-
 @EXTR.form()
 def _values_at(
     call: Call,
@@ -81,7 +77,8 @@ def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     chosen = _places(call, len(value), places)
     if isinstance(places, ListEnti):
         return taken(value, chosen)
-    return _plain(value.values[chosen[0]])
+    item = value.values[chosen[0]]
+    return item.item() if isinstance(item, np.generic) else item
 
 
 for _kind in LISTS[:-1]:

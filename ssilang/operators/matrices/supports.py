@@ -119,7 +119,12 @@ class _Held:
         """Pairs (unknowns, directions (n, dim)) for DIRECTION, RADIAL, ORTHO."""
         mode = self.ws.mode
         if self.polar:
-            return [(made.in_space(mode), self._polar_directions(nodes))]
+            axis = self.centre[1] - self.centre[0] if len(self.centre) == 2 else None
+            dim = self.ws.mode.dimension
+            away = made.radial_directions(self.ws.nodes, nodes, self.centre[0], axis)
+            if self.polar == "ORTHO":
+                away = made.orthoradial_directions(away, axis)
+            return [(made.in_space(mode), away[:, :dim])]
         pairs = []
         for group in sorted(self.groups) or ["DEPL"]:
             names = made.in_space(mode) if group == "DEPL" else made.rotations(mode)
@@ -135,14 +140,6 @@ class _Held:
         field = self.direction
         components = names if set(names) & set(field.components) else tuple(field.components)
         return np.stack([field.values_at(c, nodes) for c in components[: len(names)]], axis=1)
-
-    def _polar_directions(self, nodes: IntArray) -> FloatArray:
-        axis = self.centre[1] - self.centre[0] if len(self.centre) == 2 else None
-        dim = self.ws.mode.dimension
-        away = made.radial_directions(self.ws.nodes, nodes, self.centre[0], axis)
-        if self.polar == "ORTHO":
-            away = made.orthoradial_directions(away, axis)
-        return away[:, :dim]
 
 
 @operator("BLOQ", *_held(_CENTRE), _SUPPORT, when=IN_PLANE, family="relations", full_name="BLOQUE")

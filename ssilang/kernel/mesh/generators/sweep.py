@@ -148,7 +148,10 @@ def sweep_line(
     mesh = Mesh.of(line.nodes, "QUA8" if quadratic else "QUA4", cells, colours)
     if surface.startswith("TRI"):
         mesh = split_quadrangles(mesh)
-    return Mesh(mesh.nodes, mesh.blocks, _sides(layers, line, block, local))
+    end = Mesh.of(line.nodes, block.cell_type, layers.full[-1][local], block.colours)
+    right = _upright(layers, int(local[-1, -1]), block.cell_type)
+    left = _upright(layers, int(local[0, 0]), block.cell_type)
+    return Mesh(mesh.nodes, mesh.blocks, (line, right, reversed_line(end), reversed_line(left)))
 
 
 def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
@@ -296,15 +299,6 @@ def _quadrangle(
     return np.column_stack(
         [low[a], low[middle], low[b], half[b], high[b], high[middle], high[a], half[a]]
     )
-
-
-def _sides(
-    layers: _Layers, line: Mesh, block: CellBlock, local: IntArray
-) -> tuple[Mesh, Mesh, Mesh, Mesh]:
-    end = Mesh.of(line.nodes, block.cell_type, layers.full[-1][local], block.colours)
-    right = _upright(layers, int(local[-1, -1]), block.cell_type)
-    left = _upright(layers, int(local[0, 0]), block.cell_type)
-    return line, right, reversed_line(end), reversed_line(left)
 
 
 def _upright(layers: _Layers, column: int, cell_type: str) -> Mesh:

@@ -265,7 +265,14 @@ class AcceleratedSolver(BulkSolver):
                 return self._accepted(step, turn, residual)
             tolerance *= TIGHTER
             if self._widened(step) or late:
-                self._restarted(step, late)
+                # Go on from what has been reached with a wider part, or with another factor.
+                if late:
+                    assert step.answer is not None
+                    self.tangent = step.answer.tangent.data
+                    again = self._begun(step.motion, step.r, step.held)
+                    step.known, step.forwarded = again.known, again.forwarded
+                step.part = self._part_of(step.known)
+                step.p = self._load(step)
                 acceleration = Acceleration(len(step.p))
         return StepOutcome(step.du, -len(self.residuals), self.residuals[-1])
 
@@ -318,16 +325,6 @@ class AcceleratedSolver(BulkSolver):
             return False
         self.cells = np.union1d(self.cells, cells_nearer(self.bulk, step.answer.beyond, NEAR))
         return True
-
-    def _restarted(self, step: Step, renewed: bool) -> None:
-        """Go on from what has been reached with a wider part, or with another factor."""
-        if renewed:
-            assert step.answer is not None
-            self.tangent = step.answer.tangent.data
-            again = self._begun(step.motion, step.r, step.held)
-            step.known, step.forwarded = again.known, again.forwarded
-        step.part = self._part_of(step.known)
-        step.p = self._load(step)
 
     def _moved(self, step: Step, part: Part) -> bool:
         """Move a part's unknowns under its load; False without equilibrium of the joints."""
