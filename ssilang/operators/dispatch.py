@@ -5,11 +5,10 @@ A family adds its forms with the decorator `form`; help texts add up.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection
+from typing import TYPE_CHECKING
 
 from ssilang.language.filled import Filled
-from ssilang.messages.message import Teller
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.soundness import other_values
 

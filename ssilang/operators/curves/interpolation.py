@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (

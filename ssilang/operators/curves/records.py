@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray
 from ssilang.kernel.records.filters import butterworth

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 
-import numpy as np
-
 from ssilang.kernel.records.signals import (
     constant_step,
     energy_envelope,
     inverse_laplace,
     mean_shock,
 )
-from ssilang.language.vocabulary.terms import RISING, between
+from ssilang.language.vocabulary.terms import RISING
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 from ssilang.operators.prelude import *
 

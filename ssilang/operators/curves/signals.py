@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any
-
-import numpy as np
 
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
@@ -17,7 +14,6 @@ from ssilang.kernel.records.signals import (
     smoothed,
     time_above,
 )
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.curves.words import (
     COLOUR,
     CURVE,

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-import numpy as np
-
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.signals import rotated_spectra
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING
 from ssilang.operators.curves.words import (
     check_together,
     warn_of_damping,

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import Any
-
-import numpy as np
+from dataclasses import field
 
 from ssilang.io.errors import NoGraphicsError
 from ssilang.io.plots.animation import animation_frames, save_animation
@@ -19,7 +15,6 @@ from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.location import support_mesh
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.language.registry import words_in

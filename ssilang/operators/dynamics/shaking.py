@@ -6,11 +6,8 @@ their imposed values are those of a translation.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.io.ground_motions.record import G
 from ssilang.kernel.base.arrays import BoolArray

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
-
-import numpy as np
+from dataclasses import field
+from typing import TYPE_CHECKING, ClassVar
 
 from ssilang.kernel.interface.interface import is_macro
 from ssilang.kernel.stepping.extremes import Extremes

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
+from dataclasses import field
 
 # families of elements that restored models may have
 import ssilang.kernel.elements.springs
@@ -16,7 +12,6 @@ import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from ssilang.io.run_output import RunOutput
 from ssilang.io.vtk.labels import Labels, labels_of

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.language.run.procedures import call_procedure
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.prelude import *
 
 _ROUNDS = 200

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.solvers.asymptotes import least, least_linear, shares
 from ssilang.operators.prelude import *
 

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from itertools import accumulate
-from typing import Any, cast
-
-import numpy as np
 
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union

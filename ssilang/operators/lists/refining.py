@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.mesh.changes.cells import refined

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.matrices.build import (
     cable_stiffness,
     field_diagonal,

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.language.registry import Argument, When
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.prelude import *
 
 _SENSE = {"MINI": 1, "MAXI": -1}

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.modal.basis import (

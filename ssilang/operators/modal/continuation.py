@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.continuation.arc import Lengths, Tracer

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.modal.modes import ComplexMode, conjugate_modes
 from ssilang.operators.modal.basis import Shape, shapes_of

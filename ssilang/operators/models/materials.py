@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Collection
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.cloud import Cloud

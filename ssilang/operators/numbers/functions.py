@@ -3,12 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
-from functools import partial
 from importlib import import_module
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.prelude import *

@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.language.registry import each, either

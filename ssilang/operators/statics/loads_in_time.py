@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
-
-import numpy as np
-
 from ssilang.kernel.curves.algebra import check_increasing
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra

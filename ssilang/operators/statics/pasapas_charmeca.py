@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.deformed import displacements

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
 from ssilang.kernel.waves.resolution import highest_frequency
 from ssilang.operators.prelude import *

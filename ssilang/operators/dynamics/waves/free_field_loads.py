@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.waves.free_field_forces import (

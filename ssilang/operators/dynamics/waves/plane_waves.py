@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.waves.layered_half_space import HalfSpace, PlaneWave, plane_motion
 from ssilang.kernel.waves.matched_layer import matched_layer
@@ -13,7 +11,6 @@ from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.waves.layered_half_space import (
-        Given,
         HalfSpace,
         Kind,
         PlaneWave,

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-
-import numpy as np
-
 from ssilang.kernel.mesh.changes.transform import PointMap, turn
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.cells import CELL_TYPES

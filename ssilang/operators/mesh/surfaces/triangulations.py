@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.sweep import cone, stitch
 from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
