@@ -107,14 +107,6 @@ def extr_axis(
     )
 
 
-def _abscissas(call: Call, curve: Curve, place: int | None) -> Any:
-    return abscissa_list(numbered(call, curve, place))
-
-
-def _ordinates(call: Call, curve: Curve, place: int | None) -> Any:
-    return ordinate_list(numbered(call, curve, place))
-
-
 def _curves(call: Call, curve: Curve, which: int | ListEnti | str) -> Curve:
     if isinstance(which, str):
         wanted = which.rstrip()[:12]
@@ -151,37 +143,15 @@ def _every(call: Call, curve: Curve, step: int) -> Curve:
     return _picked(curve, lambda p: slice(None, None, step))
 
 
-def _between(by_place: bool, low: float, high: float) -> Any:
+def _between(
+    call: Call, curve: Curve, by_place: bool, low: float, high: float, zero: bool = False
+) -> Curve:
     def choose(part: CurvePart) -> Any:
         x = np.arange(1, len(part.abscissas) + 1) if by_place else part.abscissas
         slack = 0.0 if by_place else 1e-10 * max(float(np.ptp(part.abscissas)), 1e-300)
         return (x >= low - slack) & (x <= high + slack)
 
-    return choose
-
-
-def _before(call: Call, curve: Curve, by_place: bool, high: float) -> Curve:
-    return _picked(curve, _between(by_place, -np.inf, high))
-
-
-def _after(call: Call, curve: Curve, by_place: bool, low: float, zero: bool) -> Curve:
-    return _picked(curve, _between(by_place, low, np.inf), zero)
-
-
-def _window(call: Call, curve: Curve, by_place: bool, low: float, high: float, zero: bool) -> Curve:
-    return _picked(curve, _between(by_place, low, high), zero)
-
-
-def _x_name(call: Call, curve: Curve, place: int | None) -> Mot:
-    return Mot(numbered(call, curve, place).abscissa_name)
-
-
-def _y_name(call: Call, curve: Curve, place: int | None) -> Mot:
-    return Mot(numbered(call, curve, place).ordinate_name)
-
-
-def _legend(call: Call, curve: Curve, place: int | None) -> Mot:
-    return Mot(numbered(call, curve, place).legend)
+    return _picked(curve, choose, zero)
 
 
 def _colour(call: Call, curve: Curve, place: int | None) -> Mot | ListMots:
@@ -191,10 +161,18 @@ def _colour(call: Call, curve: Curve, place: int | None) -> Mot | ListMots:
 
 
 _PARTS: dict[str, Any] = {
-    "ABSC": _abscissas, "ORDO": _ordinates, "COUR": _curves, "PAS": _every, "AVAN": _before,
-    "APRE": _after, "COMP": _window, "LEGX": _x_name, "LEGY": _y_name, "LEGE": _legend,
+    "ABSC": lambda call, curve, place: abscissa_list(numbered(call, curve, place)),
+    "ORDO": lambda call, curve, place: ordinate_list(numbered(call, curve, place)),
+    "COUR": _curves,
+    "PAS": _every,
+    "AVAN": partial(_between, low=-np.inf),
+    "APRE": partial(_between, high=np.inf),
+    "COMP": _between,
+    "LEGX": lambda call, curve, place: Mot(numbered(call, curve, place).abscissa_name),
+    "LEGY": lambda call, curve, place: Mot(numbered(call, curve, place).ordinate_name),
+    "LEGE": lambda call, curve, place: Mot(numbered(call, curve, place).legend),
     "COUL": _colour,
-}  # fmt: skip
+}
 
 
 @DIME.form()

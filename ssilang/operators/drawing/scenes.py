@@ -80,14 +80,6 @@ _OPTIONS: tuple[Entry, ...] = (
 )
 
 
-def _mesh(said: _Said, value: Any) -> None:
-    said.subjects.meshes.append(value)
-
-
-def _matrix(said: _Said, value: Any) -> None:
-    said.subjects.meshes.append(support_mesh(value))
-
-
 def _deformed(said: _Said, value: Deformed) -> None:
     old = said.subjects.deformed
     said.subjects.deformed = value if old is None else Deformed(old.parts + value.parts)
@@ -110,8 +102,8 @@ def _annotation(said: _Said, value: Annotation) -> None:
 
 
 _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
-    "MAILLAGE": _mesh,
-    "RIGIDITE": _matrix,
+    "MAILLAGE": lambda said, value: said.subjects.meshes.append(value),
+    "RIGIDITE": lambda said, value: said.subjects.meshes.append(support_mesh(value)),
     "DEFORME": _deformed,
     "VECTEUR": _arrows,
     "CHPOINT": _values,

@@ -208,7 +208,16 @@ def _combined(
 ) -> NodeField | CellField:
     """What contributions at an instant combine to."""
     if quantity == "CONT":
-        return _stresses(call, weights, shapes, pseudo, time)
+        # Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them.
+        total: CellField | None = None
+        for factor, entry in _weighted(weights, shapes, pseudo, time):
+            stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
+            if not isinstance(stress, CellField):
+                raise call.error("operators.modal.shape-no-stresses", entry)
+            first = total is None
+            total = cell_algebra.added(stress if total is None else total, stress, factor - first)
+        assert total is not None
+        return total
     if quantity == "REAC":
         return _reactions(call, weights, shapes, pseudo, time)
     field = recombined(weights, shapes)
@@ -222,21 +231,6 @@ def _count(call: Call, number: float) -> int:
     if number != int(number) or number < 1:
         raise call.error("operators.modal.least-mode-recombined-not", number, number=number)
     return int(number)
-
-
-def _stresses(
-    call: Call, weights: Any, shapes: list[Shape], pseudo: list[PseudoShape], time: float | None
-) -> CellField:
-    """Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them."""
-    total: CellField | None = None
-    for factor, entry in _weighted(weights, shapes, pseudo, time):
-        stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
-        if not isinstance(stress, CellField):
-            raise call.error("operators.modal.shape-no-stresses", entry)
-        first = total is None
-        total = cell_algebra.added(stress if total is None else total, stress, factor - first)
-    assert total is not None
-    return total
 
 
 def _weighted(

@@ -167,7 +167,17 @@ def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
     border = contour(surface)
     around: tuple[Mesh, ...] = ()
     if border.n_cells:
-        around = (_lateral(layers, border, cuts),)
+        faces = []
+        for block in border.blocks:
+            local = layers.local(block.connectivity)
+            middle = local[:, 1] if block.cell_type == "SEG3" else None
+            cells = [
+                _quadrangle(layers, k, local[:, 0], local[:, -1], middle) for k in range(cuts.count)
+            ]
+            kind = "QUA8" if block.cell_type == "SEG3" else "QUA4"
+            colours = np.tile(block.colours, cuts.count)
+            faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
+        around = (union(*faces),)
     return Mesh(surface.nodes, blocks, (Mesh(surface.nodes, surface.blocks), end, *around))
 
 
@@ -333,20 +343,6 @@ def _moved_blocks(layers: _Layers, surface: Mesh, k: int) -> Mesh:
         for b in surface.blocks
     )
     return Mesh(surface.nodes, blocks)
-
-
-def _lateral(layers: _Layers, border: Mesh, cuts: Subdivision) -> Mesh:
-    faces = []
-    for block in border.blocks:
-        local = layers.local(block.connectivity)
-        middle = local[:, 1] if block.cell_type == "SEG3" else None
-        cells = [
-            _quadrangle(layers, k, local[:, 0], local[:, -1], middle) for k in range(cuts.count)
-        ]
-        kind = "QUA8" if block.cell_type == "SEG3" else "QUA4"
-        colours = np.tile(block.colours, cuts.count)
-        faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
-    return union(*faces)
 
 
 _CONES = {"POI1": "SEG2", "SEG2": "TRI3", "TRI3": "TET4", "QUA4": "PYR5"}
