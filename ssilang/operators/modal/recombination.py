@@ -267,20 +267,14 @@ reco = operator(
 )(_reco)
 
 
-@reco.form(
-    main("results", "TABLE", en="results of DYNE or PASAPAS"),
-    BASIS,
-    _QUANTITY,
-    _LOAD,
-    arg("time", "FLOTTANT", en="instant", unit="s", range=ANY_NUMBER),
-)
+@reco.form()
 def reco_of_results(
     call: Call,
-    results: Table,
-    basis: Chosen,
-    quantity: str,
-    load: Load | None,
-    time: float,
+    results: Table = Main("TABLE", en="results of DYNE or PASAPAS"),
+    basis: Chosen = BASIS,
+    quantity: str = _QUANTITY,
+    load: Load | None = _LOAD,
+    time: float = Arg("FLOTTANT", en="instant", unit="s", range=ANY_NUMBER),
 ) -> NodeField | CellField:
     """What results in time combine to at an instant."""
     shapes = basis_shapes(call, basis)
