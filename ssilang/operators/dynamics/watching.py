@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import field
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-from ssilang.kernel.interface.interface import is_macro
+from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.track import Rows, Track
 from ssilang.language.values import LazyTable, promises
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.snapshot import Snapshot
 
 SAMPLES = 24
 """Instants looked at to see whether all joints have opened for good."""
