@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex
@@ -127,14 +125,14 @@ def _pick(part: CurvePart, kept: Any, zero: bool = False) -> CurvePart:
         x = x - x[0]
     words = tuple(np.asarray(part.words)[kept]) if part.words else ()
     marks = tuple(np.asarray(part.abscissa_words)[kept]) if part.abscissa_words else ()
-    return dataclasses.replace(
+    return replace(
         part, abscissas=x, ordinates=part.ordinates[kept], words=words, abscissa_words=marks
     )
 
 
 def _picked(curve: Curve, choose: Any, zero: bool = False) -> Curve:
     parts = tuple(_pick(p, choose(p), zero) for p in curve.parts)
-    return dataclasses.replace(curve, parts=parts)
+    return replace(curve, parts=parts)
 
 
 def _every(call: Call, curve: Curve, step: int) -> Curve:
@@ -184,7 +182,7 @@ def count_curves(curve: Curve = _MAIN) -> int:
 @COPI.form()
 def copy_curves(curve: Curve = _MAIN) -> Curve:
     """A copy."""
-    return dataclasses.replace(curve)
+    return replace(curve)
 
 
 @ORDO.form()
@@ -216,15 +214,15 @@ def change_names(
     """Other titles, legends, names of axes."""
     name = name.rstrip()
     if word == "TITR":
-        return dataclasses.replace(curve, title=name)
+        return replace(curve, title=name)
     change: dict[str, Any] = {_FIELD_OF[word]: name}
     if place is not None:
         numbered(call, curve, place)
     parts = tuple(
-        dataclasses.replace(p, **change) if place in (None, i) else p
+        replace(p, **change) if place in (None, i) else p
         for i, p in enumerate(curve.parts, start=1)
     )
-    return dataclasses.replace(curve, parts=parts)
+    return replace(curve, parts=parts)
 
 
 _ABSOLUTE = flag("absolute", "ABS", en="of absolute values")
@@ -272,8 +270,8 @@ def _combine(call: Call, sign: str, a: Curve, b: Curve) -> Curve:
     colour = read_colour(call)
     if colour is None:
         return made
-    parts = tuple(dataclasses.replace(p, colour=colour) for p in made.parts)
-    return dataclasses.replace(made, parts=parts)
+    parts = tuple(replace(p, colour=colour) for p in made.parts)
+    return replace(made, parts=parts)
 
 
 def _scaled(sign: str, curve: Curve, number: Any, left: bool) -> Curve:
@@ -287,8 +285,8 @@ def _scaled(sign: str, curve: Curve, number: Any, left: bool) -> Curve:
         if sign == "/" and (np.any(part.ordinates == 0) if left else number == 0):
             raise NoResultError("division-by-zero")
         y = run(number, part.ordinates) if left else run(part.ordinates, number)
-        parts.append(dataclasses.replace(part, ordinates=np.asarray(y, dtype=float)))
-    return dataclasses.replace(curve, parts=tuple(parts))
+        parts.append(replace(part, ordinates=np.asarray(y, dtype=float)))
+    return replace(curve, parts=tuple(parts))
 
 
 for _kind in ("ENTIER", "FLOTTANT"):

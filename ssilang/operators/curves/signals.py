@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
 from ssilang.kernel.records.signals import (
@@ -196,7 +194,7 @@ def hann(
 ) -> Curve:
     """Smooth a spectrum."""
     part = one_part(call, curve)
-    made = dataclasses.replace(
+    made = replace(
         part, ordinates=smoothed(part.ordinates, passes), colour=shade(colour, part.colour)
     )
     return Curve((made,), f"HANNING({passes}) {curve.title}".rstrip(), curve.kind)
