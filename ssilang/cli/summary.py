@@ -41,6 +41,7 @@ def write_summary(
     path = output.directory / NAME
     units = workspace(session).units
     files = [_file(p, output.directory) for p in output.files if p.is_file()]
+    n_bytes = peak_memory()
     made = {
         "deck": str(source.path) if source.path is not None else source.name,
         "deck_digest": source.digest,
@@ -48,7 +49,7 @@ def write_summary(
         "exit_code": exit_code,
         "seconds": round(time.perf_counter() - session.started, 3),
         "statements": session.evaluator.statement_count,
-        "peak_memory_mb": _megabytes(peak_memory()),
+        "peak_memory_mb": None if n_bytes is None else round(n_bytes / 2**20, 1),
         "files": files,
         "warnings": [_message(w, session.language) for w in session.warnings],
         "errors": [_message(e, session.language) for e in errors],
@@ -68,10 +69,6 @@ def write_summary(
     }
     write_text(path, json.dumps(plain(made), indent=2, ensure_ascii=False) + "\n")
     return path
-
-
-def _megabytes(n_bytes: float | None) -> float | None:
-    return None if n_bytes is None else round(n_bytes / 2**20, 1)
 
 
 def _file(path: Path, base: Path) -> dict[str, Any]:

@@ -20,14 +20,6 @@ Index = Mapping[str, Mapping[Any, tuple[str, ...]]]
 """Modules by name of a table and key, in the order in which what they bring stands there."""
 
 
-def filling_module() -> str:
-    """The module that is being imported and asks for this, directly or through functions."""
-    frame = sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_name != "<module>":
-        frame = frame.f_back
-    return str(frame.f_globals.get("__name__", ""))
-
-
 class Filled(MutableMapping[K, V]):
     """A table that modules fill.
 
@@ -57,7 +49,11 @@ class Filled(MutableMapping[K, V]):
 
     def note(self, key: K) -> str:
         """Note that the module being imported fills a key; its name."""
-        module = filling_module()
+        # The module that is being imported and asks for this, directly or through functions.
+        frame = sys._getframe(1)
+        while frame.f_back is not None and frame.f_code.co_name != "<module>":
+            frame = frame.f_back
+        module = str(frame.f_globals.get("__name__", ""))
         known = self.fillers.setdefault(key, [])
         if module not in known:
             known.append(module)

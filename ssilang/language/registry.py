@@ -574,18 +574,15 @@ class Operator:
                 OPERATORS.note(self.name),
                 (self.family, self.name, _name_of(function)),
             )
-            self._add(made, ahead)
+            # Put a form in its place: where it stands when all operators are loaded at once.
+            self._choices = None
+            self._meant.clear()
+            ranks = [OPERATORS.rank(self.name, form.module) for form in self.forms]
+            place = OPERATORS.rank(self.name, made.module)
+            self.forms.insert((bisect_left if ahead else bisect_right)(ranks, place), made)
             return function
 
         return add
-
-    def _add(self, made: Form, ahead: bool) -> None:
-        """Put a form in its place: where it stands when all operators are loaded at once."""
-        self._choices = None
-        self._meant.clear()
-        ranks = [OPERATORS.rank(self.name, form.module) for form in self.forms]
-        place = OPERATORS.rank(self.name, made.module)
-        self.forms.insert((bisect_left if ahead else bisect_right)(ranks, place), made)
 
 
 def _as_words(given: str | Sequence[str]) -> tuple[str, ...]:

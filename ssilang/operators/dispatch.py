@@ -5,17 +5,12 @@ A family adds its forms with the decorator `form`; help texts add up.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection
 
 from ssilang.language.filled import Filled
-from ssilang.messages.message import Teller
+from ssilang.language.text.source import Span
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.soundness import other_values
-
-if TYPE_CHECKING:
-    from ssilang.language.text.source import Span
-
 
 EXTR = shared("EXTR", "objects", full_name="EXTRAIRE", terminal=True)
 DIME = shared("DIME", "objects", full_name="DIMENSION")

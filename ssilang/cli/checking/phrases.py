@@ -123,7 +123,10 @@ class PhraseReader:
             if word == "TEXT" and items[0].text.upper() not in scope.values:
                 return [Operand(UNKNOWN, span, result=True)]
         items = self.session.library.called(items)
-        call = AbstractCall(self.session, self._operands(items, scope), span)
+        found: list[Operand] = []
+        for item in items:
+            found += self._operand(item, scope)
+        call = AbstractCall(self.session, found, span)
         try:
             while self._step(call):
                 pass
@@ -366,12 +369,6 @@ class PhraseReader:
         return left
 
     # ---- operands ------------------------------------------------------------------------------
-
-    def _operands(self, items: Sequence[tree.Item], scope: Scope) -> list[Operand]:
-        found: list[Operand] = []
-        for item in items:
-            found += self._operand(item, scope)
-        return found
 
     def _operand(self, item: tree.Item, scope: Scope) -> list[Operand]:
         if isinstance(item, tree.Number):

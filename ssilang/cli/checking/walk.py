@@ -138,7 +138,12 @@ class Checker:
             kind = kind_word(left[0].value) if left and len(left) == 1 else ""
             if kind not in ("", "ENTIER", "FLOTTANT", "TEXTE"):
                 if isinstance(left[0].value, Mot) if left else False:
-                    self._word_for_a_count(left or [], scope)
+                    words = left or []
+                    error = name_as_word("loop-count", words, scope.values.get(str(words[0].value)))
+                    if error is not None:
+                        self._report(error)
+                    else:
+                        self._undefined(words[0], "REPE")
                 else:
                     self._report(SsiError("loop-count", node.count[0].span, found=kind))
         before = scope.copy()
@@ -153,13 +158,6 @@ class Checker:
         counter = scope.values[("&" + node.name)[:24]]
         scope.join(before)
         scope.values[("&" + node.name)[:24]] = counter
-
-    def _word_for_a_count(self, words: list[Any], scope: Scope) -> None:
-        error = name_as_word("loop-count", words, scope.values.get(str(words[0].value)))
-        if error is not None:
-            self._report(error)
-        else:
-            self._undefined(words[0], "REPE")
 
     def _undefined(self, operand: Any, operator: str) -> None:
         self._report(
@@ -199,7 +197,14 @@ class Checker:
             return
         if not statement.assigns:
             self._effects(statement, word, scope)
-        self._assign(statement, self._values(statement, scope), scope)
+        values = self._values(statement, scope)
+        for i, target in enumerate(statement.targets):
+            if isinstance(target, tree.Name):
+                known = values is not None and i < len(values)
+                scope.values[target.text] = values[i] if known and values else UNKNOWN
+                self.types[target.span.start] = kind_word(scope.values[target.text])
+            elif values is not None and i < len(values):
+                self.entries[target.span.start] = values[i]
 
     def _values(self, statement: tree.Statement, scope: Scope) -> Values:
         """Values that the names of a statement get, None when unknown; reports what is wrong."""
@@ -218,7 +223,12 @@ class Checker:
         return values
 
     def _read(self, statement: tree.Statement, scope: Scope) -> Values:
-        self._targets(statement, scope)
+        several = unended(statement.targets) is not None
+        for item in statement.targets:
+            if isinstance(item, tree.Name) and not several:
+                self._shadow(item.text, item.span)
+            elif isinstance(item, tree.Path):
+                self.phrases._path(item, scope)
         one = len(statement.targets) <= 1
         try:
             left = self.phrases.read(statement.items, scope, statement.span, one_name=one)
@@ -264,14 +274,6 @@ class Checker:
                 if isinstance(item, tree.Name) and len(statement.items) == 2:
                     scope.values.pop(item.text, None)
 
-    def _targets(self, statement: tree.Statement, scope: Scope) -> None:
-        several = unended(statement.targets) is not None
-        for item in statement.targets:
-            if isinstance(item, tree.Name) and not several:
-                self._shadow(item.text, item.span)
-            elif isinstance(item, tree.Path):
-                self.phrases._path(item, scope)
-
     def _shadow(self, name: str, span: Any) -> None:
         found = find_operator(name)
         if found is None or name in ("C", "D"):
@@ -299,15 +301,6 @@ class Checker:
             raise no_result(statement.targets, target, count)
         evaluator.refuse_leftovers(left[count:], left[:count])
         return [o.value for o in left]
-
-    def _assign(self, statement: tree.Statement, values: Values, scope: Scope) -> None:
-        for i, target in enumerate(statement.targets):
-            if isinstance(target, tree.Name):
-                known = values is not None and i < len(values)
-                scope.values[target.text] = values[i] if known and values else UNKNOWN
-                self.types[target.span.start] = kind_word(scope.values[target.text])
-            elif values is not None and i < len(values):
-                self.entries[target.span.start] = values[i]
 
 
 @cache

@@ -46,7 +46,10 @@ class Reader:
         token = place.token
         assert token is not None
         if place.path:
-            yield self._entry(place, token.name)
+            found = entries_at(place.path, self.document, self.library)
+            yield "\n\n---\n\n".join(
+                entry_markdown(d, e, self.language) for d, e in found if e.index == token.name
+            )
         name = self.document.names.at(offset) if token.kind == "WORD" else None
         if name is not None and not (place.operator and knows(place.operator, token.name)):
             yield self._name(name)
@@ -58,12 +61,6 @@ class Reader:
         yield self._words(vocabulary.KINDS, token.name)
 
     # ---- the parts -------------------------------------------------------------------------------
-
-    def _entry(self, place: Place, index: str) -> str:
-        found = entries_at(place.path, self.document, self.library)
-        return "\n\n---\n\n".join(
-            entry_markdown(d, e, self.language) for d, e in found if e.index == index
-        )
 
     def _name(self, name: Occurrence) -> str:
         """Type of a name's value, and the statement that gives it."""

@@ -144,7 +144,12 @@ def orient_towards(mesh: Mesh, target: FloatArray, is_point: bool) -> Mesh:
             continue
         aim = target - block.coordinates.mean(axis=1) if is_point else target
         if brick:
-            blocks.append(_bricks_across(block, aim))
+            # Bricks that go from their first four nodes to their last four along `aim`.
+            x = block.coordinates
+            through = x[:, 4:].mean(axis=1) - x[:, :4].mean(axis=1)
+            back = (through * aim).sum(axis=1) < 0
+            nodes = np.where(back[:, None], block.raw[:, _OTHER_FACE], block.raw)
+            blocks.append(CellBlock(block.nodes, block.cell_type, nodes, block.colours))
             continue
         sense = (surface_normals(block) * aim).sum(axis=1)
         blocks.append(flip(block, sense < 0))
@@ -154,15 +159,6 @@ def orient_towards(mesh: Mesh, target: FloatArray, is_point: bool) -> Mesh:
 
 _OTHER_FACE = [4, 7, 6, 5, 0, 3, 2, 1]
 """Nodes of a brick from its second face on, its Jacobian keeping its sign."""
-
-
-def _bricks_across(block: CellBlock, aim: FloatArray) -> CellBlock:
-    """Bricks that go from their first four nodes to their last four along `aim`."""
-    x = block.coordinates
-    through = x[:, 4:].mean(axis=1) - x[:, :4].mean(axis=1)
-    back = (through * aim).sum(axis=1) < 0
-    nodes = np.where(back[:, None], block.raw[:, _OTHER_FACE], block.raw)
-    return CellBlock(block.nodes, block.cell_type, nodes, block.colours)
 
 
 def _skins(blocks: list[CellBlock]) -> tuple[Mesh, Mesh]:

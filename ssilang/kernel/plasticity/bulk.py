@@ -288,16 +288,17 @@ class Bulk:
         return {law: share for law, share in shares.items() if share > 0.0}
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
-        """Stresses of the zones (forces in bars)."""
-        return stress_blocks(self, state)
+        """Stresses of the zones (forces in bars and beams)."""
+        return [z.stress_block(s) for z, s in zip(self.zones, state, strict=True)]
 
     def variables(self, state: State) -> list[CellFieldBlock]:
         """Internal variables of the zones."""
-        return variable_blocks(self, state) if self.zones else []
+        return [z.variable_block(s) for z, s in zip(self.zones, state, strict=True)]
 
     def plastic_strains(self, state: State) -> list[CellFieldBlock]:
-        """Plastic strains of the zones."""
-        return plastic_strain_blocks(self, state) if self.zones else []
+        """Plastic strains of the zones that have them."""
+        blocks = (z.plastic_block(s) for z, s in zip(self.zones, state, strict=True))
+        return [b for b in blocks if b is not None]
 
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""
@@ -347,22 +348,6 @@ def without_stiffness(zone: Zone) -> ElementMatrices:
 
 
 # --- fields ----------------------------------------------------------------------------------
-
-
-def stress_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
-    """Stresses of the zones (forces in bars and beams)."""
-    return [z.stress_block(s) for z, s in zip(bulk.zones, state, strict=True)]
-
-
-def variable_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
-    """Internal variables of the zones."""
-    return [z.variable_block(s) for z, s in zip(bulk.zones, state, strict=True)]
-
-
-def plastic_strain_blocks(bulk: Bulk, state: State) -> list[CellFieldBlock]:
-    """Plastic strains of the zones that have them."""
-    blocks = (z.plastic_block(s) for z, s in zip(bulk.zones, state, strict=True))
-    return [b for b in blocks if b is not None]
 
 
 def state_from_fields(

@@ -65,11 +65,6 @@ def _as_read(operand: Operand, types: Sequence[str]) -> Operand:
     return operand
 
 
-def _text_of(value: Mot | Procedure) -> str:
-    """What a word says, or the name of a procedure, in capitals."""
-    return (value.name if isinstance(value, Procedure) else str(value)).upper()
-
-
 @cache
 def shortened(words: tuple[str, ...], length: int) -> dict[str, str]:
     """Words by the characters that are compared; of two alike the first."""
@@ -251,7 +246,8 @@ class Call:
 
     def text_at(self, index: int) -> str:
         """What the word, or name of a procedure, at an index says, as keywords are compared."""
-        return _text_of(self.operands[index].value).rstrip()
+        value = self.operands[index].value
+        return (value.name if isinstance(value, Procedure) else str(value)).upper().rstrip()
 
     def words(self) -> list[str]:
         """All unread words, in capitals, left unread."""

@@ -355,19 +355,16 @@ class Evaluator(PhraseRunner):
                 value = float(said) if isinstance(value, float) and type(said) is int else said
             self.session.frame.variables[target.text] = value
         elif isinstance(target, tree.Path):
-            self._store_in_table(target, value)
+            holder = self.single(target.base)
+            for index in target.indices[:-1]:
+                holder = self.element(holder, index, target, "no-inner-table")
+            if not isinstance(holder, Table):
+                raise self.no_table(holder, target)
+            holder.set(self.single(target.indices[-1]), value)
         elif isinstance(target, tree.Attribute):
             self.object_of(target).attributes[target.name] = value
         else:
             raise SsiError("target", target.span)
-
-    def _store_in_table(self, target: tree.Path, value: Any) -> None:
-        holder = self.single(target.base)
-        for index in target.indices[:-1]:
-            holder = self.element(holder, index, target, "no-inner-table")
-        if not isinstance(holder, Table):
-            raise self.no_table(holder, target)
-        holder.set(self.single(target.indices[-1]), value)
 
     def refuse_leftovers(self, left: Sequence[Operand], taken: Sequence[Operand] = ()) -> None:
         """Raise the error for operands that nothing read, behind those taken, if there are any."""

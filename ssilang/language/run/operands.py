@@ -89,23 +89,19 @@ class OperandReader(ABC):
         if len(results) > 1:
             unread = [o for o in results[1:] if not o.result]
             if results[0].result and unread and all(map(is_named_object, results[1:])):
-                self._warn_of_unread(unread[0], item)
+                # Warn, once for a place, of an object that a parenthesis with a result leaves
+                # unread. Published decks have such parentheses, mostly unions with an ET too few,
+                # and Cast3M runs them.
+                operand = unread[0]
+                if item not in self._with_unread:
+                    self._with_unread.add(item)
+                    found = type_of(operand.value)
+                    self.session.warn("unread-object", operand.span, name=operand.name, found=found)
                 return [Operand(results[0].value, item.span, results[0].name)]
             word = results[:1] if unread and isinstance(results[0].value, Mot) else []
             self.refuse_leftovers(word + (unread or results[1:]), results[:1])
         value = results[0].value
         return [Operand(value, item.span, results[0].name)]
-
-    def _warn_of_unread(self, operand: Operand, item: tree.Paren) -> None:
-        """Warn, once for a place, of an object that a parenthesis with a result leaves unread.
-
-        Published decks have such parentheses, mostly unions with an ET too few, and Cast3M runs
-        them.
-        """
-        if item not in self._with_unread:
-            self._with_unread.add(item)
-            found = type_of(operand.value)
-            self.session.warn("unread-object", operand.span, name=operand.name, found=found)
 
     def single(self, item: tree.Item) -> Any:
         operands = self._operand[type(item)](item)

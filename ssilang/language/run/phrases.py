@@ -224,7 +224,14 @@ class PhraseRunner(OperandReader):
             tell_line_begun(error, operand)
             tell_unread_word(error, call.operands, found)
             if error.code == "internal":
-                self._blame(call.used, found.full_name, error)
+                # Refuse the operand that an operator failed over: NaN, or nothing in it.
+                wrong, code = self._not_finite(call.used), "operand-not-finite"
+                if wrong is None:
+                    wrong, code = next(_empty_ones(call.used), None), "operand-holds-nothing"
+                if wrong is not None:
+                    raise SsiError(
+                        code, wrong.span, operator=found.full_name, operand=wrong.span.text[:40]
+                    ) from error
             raise
         if not found.empties:
             self._tell_empty(call.used, found.full_name)
@@ -234,7 +241,11 @@ class PhraseRunner(OperandReader):
         span = operand.span
         if self._overflowed:
             self._overflowed = False
-            self._tell_overflow(call, results, found.full_name)
+            # Tell of results with infinite numbers made of finite ones.
+            made = results if isinstance(results, tuple) else (results,)
+            infinite = any(self.session.flaw_of(r) == "entry-not-finite" for r in made)
+            if infinite and self._not_finite(call.used) is None:
+                call.warn("operators.numbers.past-reals", sign=found.full_name)
         self._silent = operand if results is None else None
         if isinstance(results, tuple):
             self._push(call, list(results), span)
@@ -269,20 +280,6 @@ class PhraseRunner(OperandReader):
             raise KeyboardInterrupt
         return result
 
-    def _blame(self, operands: Sequence[Operand], name: str, error: SsiError) -> None:
-        """Refuse the operand that an operator failed over: NaN, or nothing in it.
-
-        Raises
-        ------
-        SsiError
-            'operand-not-finite' or 'operand-holds-nothing'.
-        """
-        wrong, code = self._not_finite(operands), "operand-not-finite"
-        if wrong is None:
-            wrong, code = next(_empty_ones(operands), None), "operand-holds-nothing"
-        if wrong is not None:
-            raise SsiError(code, wrong.span, operator=name, operand=wrong.span.text[:40]) from error
-
     def _tell_empty(self, operands: Sequence[Operand], name: str) -> None:
         """Tell of operands that hold nothing, where the script itself calls."""
         session = self.session
@@ -290,13 +287,6 @@ class PhraseRunner(OperandReader):
             if session.frame.procedure not in session.library.standard_names:
                 told = {"operator": name, "operand": operand.span.text[:40]}
                 session.warn("operand-empty", operand.span, found=type_of(operand.value), **told)
-
-    def _tell_overflow(self, call: Call, results: Any, name: str) -> None:
-        """Tell of results with infinite numbers made of finite ones."""
-        made = results if isinstance(results, tuple) else (results,)
-        infinite = any(self.session.flaw_of(r) == "entry-not-finite" for r in made)
-        if infinite and self._not_finite(call.used) is None:
-            call.warn("operators.numbers.past-reals", sign=name)
 
     def _not_finite(self, operands: Sequence[Operand]) -> Operand | None:
         """The first operand that holds NaN or an infinite number: what an operator failed over."""

@@ -46,7 +46,11 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
         Known variables and procedures, for the suggestion of a near name.
     """
     head, hint = sentence(error, language, names)
-    label = _label(error, language)
+    number = message.find(error.code).number
+    if error.code == "erre" or error.code.startswith("stdlib."):  # what ERRE gives
+        number = int(str(error.data.get("number", 0)))
+    kind = message.sentence(_KINDS[error.severity], {}, language)
+    label = f"{kind} {number}" if number else kind
     lines = [message.sentence("labelled", {"label": label, "head": head}, language)]
     place, calls = _seen(error)
     if place is not None:
@@ -109,14 +113,6 @@ def suggestion(error: SsiError, names: Iterable[str] = ()) -> str:
         if not near and isinstance(hint, Sentence):
             near = hint.data.get("near", "")
     return str(near).strip("'")
-
-
-def _label(error: SsiError, language: str) -> str:
-    number = message.find(error.code).number
-    if error.code == "erre" or error.code.startswith("stdlib."):  # what ERRE gives
-        number = int(str(error.data.get("number", 0)))
-    kind = message.sentence(_KINDS[error.severity], {}, language)
-    return f"{kind} {number}" if number else kind
 
 
 def _place(span: Span, arrow: str) -> list[str]:

@@ -44,7 +44,13 @@ def parse_statements(source: Source, end: int | None = None) -> list[tree.Statem
     reader = quick_reader()
     text = source.code[:end]
     if not text.rstrip().endswith(";") and text.strip():
-        text = _closed(text)
+        last = 0
+        for m in STATEMENT_END.finditer(text):
+            if m.group() == ";":
+                last = m.end()
+        # `FIN` without semicolon at the end of the file is common; anything else is an error
+        if re.fullmatch(r"\s*FIN\s*", text[last:], re.IGNORECASE):
+            text += ";"
     try:
         return reader.read(source, text)
     except (Unsound, SsiError):
@@ -103,14 +109,3 @@ def end_of_run(source: Source) -> int | None:
         word = found.group(1).upper()[:4] if found else ""
         depth += (word in _DEEPER) - (word in _HIGHER)
     return None
-
-
-def _closed(text: str) -> str:
-    """The text with the last statement ended, when all that misses is its semicolon."""
-    last = 0
-    for m in STATEMENT_END.finditer(text):
-        if m.group() == ";":
-            last = m.end()
-    tail = text[last:]
-    # `FIN` without semicolon at the end of the file is common; anything else is an error
-    return text + ";" if re.fullmatch(r"\s*FIN\s*", tail, re.IGNORECASE) else text

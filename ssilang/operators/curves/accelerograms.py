@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
-
-import numpy as np
-
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.records.filters import brought_to_rest, integrated, without_trend
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, between
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL
 from ssilang.operators.curves.words import (
     COLOUR,
     LIMITS,
@@ -48,8 +44,8 @@ def insi(call: Call, curve: Curve = RECORD, rule: str = _RULE) -> tuple[Curve, C
         # @SEISME tells it itself
         if shaken and not call.session.in_library and abs(v[-1]) > _DRIFT * np.abs(v).max():
             call.warn("operators.curves.drifts", curve, speed=float(v[-1]), way=float(d[-1]))
-        moved.append(dataclasses.replace(p, ordinates=d, ordinate_name="DEPL"))
-        fast.append(dataclasses.replace(p, ordinates=v, ordinate_name="VITE"))
+        moved.append(replace(p, ordinates=d, ordinate_name="DEPL"))
+        fast.append(replace(p, ordinates=v, ordinate_name="VITE"))
     return Curve(tuple(moved), curve.title), Curve(tuple(fast), curve.title)
 
 
@@ -74,7 +70,7 @@ def cosi(
         return without_trend(values, step, degree, linear)
 
     parts = [
-        dataclasses.replace(p, ordinates=corrected(p.ordinates, constant_step(p.abscissas)))
+        replace(p, ordinates=corrected(p.ordinates, constant_step(p.abscissas)))
         for p in curve.parts
     ]
     return Curve(tuple(parts), curve.title)
@@ -104,7 +100,7 @@ def chsp(
             raise call.error("operators.curves.frequency-not-positive", spectrum)
         y = p.ordinates * (2.0 * np.pi * p.abscissas) ** power
         shade = p.colour if colour is None else index_of(colour)
-        parts.append(dataclasses.replace(p, ordinates=y, ordinate_name=names[1], colour=shade))
+        parts.append(replace(p, ordinates=y, ordinate_name=names[1], colour=shade))
     return Curve(tuple(parts), spectrum.title)
 
 

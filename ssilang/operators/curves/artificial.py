@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.records.modulated import (
     Band,
     ModulatedSignal,
@@ -15,7 +11,7 @@ from ssilang.kernel.records.modulated import (
     perturbed,
     sines,
 )
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 from ssilang.operators.numbers.noise import session_generator

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from functools import partial
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.language.filled import Filled

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-from typing import Any
-
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex
@@ -110,14 +105,6 @@ def extr_axis(
     )
 
 
-def _abscissas(call: Call, curve: Curve, place: int | None) -> Any:
-    return abscissa_list(numbered(call, curve, place))
-
-
-def _ordinates(call: Call, curve: Curve, place: int | None) -> Any:
-    return ordinate_list(numbered(call, curve, place))
-
-
 def _curves(call: Call, curve: Curve, which: int | ListEnti | str) -> Curve:
     if isinstance(which, str):
         wanted = which.rstrip()[:12]
@@ -138,14 +125,14 @@ def _pick(part: CurvePart, kept: Any, zero: bool = False) -> CurvePart:
         x = x - x[0]
     words = tuple(np.asarray(part.words)[kept]) if part.words else ()
     marks = tuple(np.asarray(part.abscissa_words)[kept]) if part.abscissa_words else ()
-    return dataclasses.replace(
+    return replace(
         part, abscissas=x, ordinates=part.ordinates[kept], words=words, abscissa_words=marks
     )
 
 
 def _picked(curve: Curve, choose: Any, zero: bool = False) -> Curve:
     parts = tuple(_pick(p, choose(p), zero) for p in curve.parts)
-    return dataclasses.replace(curve, parts=parts)
+    return replace(curve, parts=parts)
 
 
 def _every(call: Call, curve: Curve, step: int) -> Curve:
@@ -154,37 +141,15 @@ def _every(call: Call, curve: Curve, step: int) -> Curve:
     return _picked(curve, lambda p: slice(None, None, step))
 
 
-def _between(by_place: bool, low: float, high: float) -> Any:
+def _between(
+    call: Call, curve: Curve, by_place: bool, low: float, high: float, zero: bool = False
+) -> Curve:
     def choose(part: CurvePart) -> Any:
         x = np.arange(1, len(part.abscissas) + 1) if by_place else part.abscissas
         slack = 0.0 if by_place else 1e-10 * max(float(np.ptp(part.abscissas)), 1e-300)
         return (x >= low - slack) & (x <= high + slack)
 
-    return choose
-
-
-def _before(call: Call, curve: Curve, by_place: bool, high: float) -> Curve:
-    return _picked(curve, _between(by_place, -np.inf, high))
-
-
-def _after(call: Call, curve: Curve, by_place: bool, low: float, zero: bool) -> Curve:
-    return _picked(curve, _between(by_place, low, np.inf), zero)
-
-
-def _window(call: Call, curve: Curve, by_place: bool, low: float, high: float, zero: bool) -> Curve:
-    return _picked(curve, _between(by_place, low, high), zero)
-
-
-def _x_name(call: Call, curve: Curve, place: int | None) -> Mot:
-    return Mot(numbered(call, curve, place).abscissa_name)
-
-
-def _y_name(call: Call, curve: Curve, place: int | None) -> Mot:
-    return Mot(numbered(call, curve, place).ordinate_name)
-
-
-def _legend(call: Call, curve: Curve, place: int | None) -> Mot:
-    return Mot(numbered(call, curve, place).legend)
+    return _picked(curve, choose, zero)
 
 
 def _colour(call: Call, curve: Curve, place: int | None) -> Mot | ListMots:
@@ -194,10 +159,18 @@ def _colour(call: Call, curve: Curve, place: int | None) -> Mot | ListMots:
 
 
 _PARTS: dict[str, Any] = {
-    "ABSC": _abscissas, "ORDO": _ordinates, "COUR": _curves, "PAS": _every, "AVAN": _before,
-    "APRE": _after, "COMP": _window, "LEGX": _x_name, "LEGY": _y_name, "LEGE": _legend,
+    "ABSC": lambda call, curve, place: abscissa_list(numbered(call, curve, place)),
+    "ORDO": lambda call, curve, place: ordinate_list(numbered(call, curve, place)),
+    "COUR": _curves,
+    "PAS": _every,
+    "AVAN": partial(_between, low=-np.inf),
+    "APRE": partial(_between, high=np.inf),
+    "COMP": _between,
+    "LEGX": lambda call, curve, place: Mot(numbered(call, curve, place).abscissa_name),
+    "LEGY": lambda call, curve, place: Mot(numbered(call, curve, place).ordinate_name),
+    "LEGE": lambda call, curve, place: Mot(numbered(call, curve, place).legend),
     "COUL": _colour,
-}  # fmt: skip
+}
 
 
 @DIME.form()
@@ -209,7 +182,7 @@ def count_curves(curve: Curve = _MAIN) -> int:
 @COPI.form()
 def copy_curves(curve: Curve = _MAIN) -> Curve:
     """A copy."""
-    return dataclasses.replace(curve)
+    return replace(curve)
 
 
 @ORDO.form()
@@ -241,15 +214,15 @@ def change_names(
     """Other titles, legends, names of axes."""
     name = name.rstrip()
     if word == "TITR":
-        return dataclasses.replace(curve, title=name)
+        return replace(curve, title=name)
     change: dict[str, Any] = {_FIELD_OF[word]: name}
     if place is not None:
         numbered(call, curve, place)
     parts = tuple(
-        dataclasses.replace(p, **change) if place in (None, i) else p
+        replace(p, **change) if place in (None, i) else p
         for i, p in enumerate(curve.parts, start=1)
     )
-    return dataclasses.replace(curve, parts=parts)
+    return replace(curve, parts=parts)
 
 
 _ABSOLUTE = flag("absolute", "ABS", en="of absolute values")
@@ -297,8 +270,8 @@ def _combine(call: Call, sign: str, a: Curve, b: Curve) -> Curve:
     colour = read_colour(call)
     if colour is None:
         return made
-    parts = tuple(dataclasses.replace(p, colour=colour) for p in made.parts)
-    return dataclasses.replace(made, parts=parts)
+    parts = tuple(replace(p, colour=colour) for p in made.parts)
+    return replace(made, parts=parts)
 
 
 def _scaled(sign: str, curve: Curve, number: Any, left: bool) -> Curve:
@@ -312,8 +285,8 @@ def _scaled(sign: str, curve: Curve, number: Any, left: bool) -> Curve:
         if sign == "/" and (np.any(part.ordinates == 0) if left else number == 0):
             raise NoResultError("division-by-zero")
         y = run(number, part.ordinates) if left else run(part.ordinates, number)
-        parts.append(dataclasses.replace(part, ordinates=np.asarray(y, dtype=float)))
-    return dataclasses.replace(curve, parts=tuple(parts))
+        parts.append(replace(part, ordinates=np.asarray(y, dtype=float)))
+    return replace(curve, parts=tuple(parts))
 
 
 for _kind in ("ENTIER", "FLOTTANT"):

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import astuple
 
-import numpy as np
-
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
 from ssilang.operators.prelude import *
 

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar, overload
-
-import numpy as np
 
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.language.search import nearest

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (
     crossings,
@@ -242,4 +237,4 @@ def _intervals(call: Call, part: CurvePart, word: str, bounds: Any) -> list[tupl
 @operator("PRIM", family="curves", full_name="PRIMITIVE")
 def prim(curve: Curve = CURVE) -> Curve:
     """Running integral."""
-    return dataclasses.replace(curve, parts=tuple(primitive(p) for p in curve.parts))
+    return replace(curve, parts=tuple(primitive(p) for p in curve.parts))

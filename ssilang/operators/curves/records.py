@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.base.arrays import ComplexArray
 from ssilang.kernel.records.filters import butterworth
 from ssilang.kernel.records.matching import matched
@@ -53,7 +48,7 @@ def filtered_records(
     if low is None and high is None:
         raise call.error("operators.curves.filter-without-corner")
     parts = [
-        dataclasses.replace(
+        replace(
             p,
             ordinates=butterworth(
                 p.ordinates, constant_step(p.abscissas), order, low, high, causal=causal
@@ -76,8 +71,8 @@ def turned_components(
     check_together(call, first, second)
     a, b = turned(x.ordinates, y.ordinates, angle)
     return (
-        Curve((dataclasses.replace(x, ordinates=a),), first.title),
-        Curve((dataclasses.replace(y, ordinates=b),), second.title),
+        Curve((replace(x, ordinates=a),), first.title),
+        Curve((replace(y, ordinates=b),), second.title),
     )
 
 
@@ -104,7 +99,7 @@ def zond(
     found = matched(
         part.abscissas, part.ordinates, wanted.abscissas, wanted.ordinates, damping, tolerance
     )
-    made = dataclasses.replace(part, ordinates=found.values)
+    made = replace(part, ordinates=found.values)
     return Curve((made,), record.title), found.misfit
 
 

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
-
-import numpy as np
-
 from ssilang.kernel.records.signals import (
     constant_step,
     energy_envelope,
     inverse_laplace,
     mean_shock,
 )
-from ssilang.language.vocabulary.terms import RISING, between
+from ssilang.language.vocabulary.terms import RISING
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 from ssilang.operators.prelude import *
 
@@ -31,7 +27,7 @@ def prol(
 ) -> Curve:
     """Continue curves."""
     wanted = [first] if second is None else [first, second]
-    return dataclasses.replace(
+    return replace(
         curve, parts=tuple(_continued(call, p, wanted, rule == "LINE") for p in curve.parts)
     )
 
@@ -57,7 +53,7 @@ def _continued(call: Call, part: CurvePart, wanted: list[float], line: bool) -> 
     before = [row for row in added if (row[0] < x.min()) == rising]
     rows = [*before, *zip(x, y, strict=True), *added[len(before) :]]
     made = np.array(rows)
-    return dataclasses.replace(part, abscissas=made[:, 0], ordinates=made[:, 1])
+    return replace(part, abscissas=made[:, 0], ordinates=made[:, 1])
 
 
 @operator("CONC", family="curves", full_name="CONCAT")
@@ -78,7 +74,7 @@ def conc(
         if _start(two) < one.abscissas.max(initial=-np.inf):
             call.warn("operators.curves.curves-overlap", last=one.abscissas[-1], first=_start(two))
         parts.append(
-            dataclasses.replace(
+            replace(
                 a,
                 abscissas=np.concatenate([one.abscissas, two.abscissas]),
                 ordinates=np.concatenate([one.ordinates, two.ordinates]),
@@ -86,7 +82,7 @@ def conc(
                 abscissa_words=one.abscissa_words + two.abscissa_words,
             )
         )
-    return dataclasses.replace(first, parts=tuple(parts))
+    return replace(first, parts=tuple(parts))
 
 
 def _start(part: CurvePart) -> float:
@@ -114,7 +110,7 @@ def lsqf(
         if wanted > len(p.abscissas) - 1:
             call.warn("operators.curves.few-samples", wanted=wanted, count=len(p.abscissas))
         x, y = energy_envelope(p.abscissas, p.ordinates, wanted)
-        parts.append(dataclasses.replace(p, abscissas=x, ordinates=y))
+        parts.append(replace(p, abscissas=x, ordinates=y))
     return Curve(tuple(parts), curve.title)
 
 
@@ -168,7 +164,7 @@ def cmoy(
     for p in records.parts:
         constant_step(p.abscissas)
         x, y = mean_shock(p.abscissas, p.ordinates, percent, duration, count)
-        parts.append(dataclasses.replace(p, abscissas=x, ordinates=y))
+        parts.append(replace(p, abscissas=x, ordinates=y))
     return Curve(tuple(parts), records.title)
 
 

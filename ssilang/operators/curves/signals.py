@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-from typing import Any
-
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
 from ssilang.kernel.records.signals import (
@@ -17,7 +12,6 @@ from ssilang.kernel.records.signals import (
     smoothed,
     time_above,
 )
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.curves.words import (
     COLOUR,
     CURVE,
@@ -200,7 +194,7 @@ def hann(
 ) -> Curve:
     """Smooth a spectrum."""
     part = one_part(call, curve)
-    made = dataclasses.replace(
+    made = replace(
         part, ordinates=smoothed(part.ordinates, passes), colour=shade(colour, part.colour)
     )
     return Curve((made,), f"HANNING({passes}) {curve.title}".rstrip(), curve.kind)

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-import numpy as np
-
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.signals import rotated_spectra
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING, between
+from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING
 from ssilang.operators.curves.words import (
     check_together,
     warn_of_damping,
@@ -136,8 +132,17 @@ def _all_directions(
     return Curve(tuple(made), first.title)
 
 
+@operator("VALP", family="modal", full_name="VALPROPRE")
 def _valp(
-    call: Call, diagonal: ListReel, below: ListReel, accuracy: list[tuple[str, float]]
+    call: Call,
+    diagonal: ListReel = Arg("LISTREEL", en="diagonal", range=ANY_NUMBER),
+    below: ListReel = Arg("LISTREEL", en="sub-diagonal", range=ANY_NUMBER),
+    accuracy: list[tuple[str, float]] = Key(
+        ("ITERATION", "ABSOLU", "RELATIF"),
+        arg("number", "FLOTTANT", range=ANY_NUMBER),
+        repeated=True,
+        en="accepted: exact to rounding",
+    ),
 ) -> ListReel:
     if len(below) != len(diagonal) - 1:
         told = {"n_diagonal": len(diagonal), "needed": len(diagonal) - 1, "n_below": len(below)}
@@ -147,22 +152,6 @@ def _valp(
     if np.abs(values.imag).max(initial=0.0) > 1e-9 * np.abs(values).max(initial=1.0):
         raise call.error("operators.curves.complex-eigenvalues")
     return ListReel(np.sort(values.real))
-
-
-operator(
-    "VALP",
-    arg("diagonal", "LISTREEL", en="diagonal", range=ANY_NUMBER),
-    arg("below", "LISTREEL", en="sub-diagonal", range=ANY_NUMBER),
-    key(
-        "accuracy",
-        ("ITERATION", "ABSOLU", "RELATIF"),
-        arg("number", "FLOTTANT", range=ANY_NUMBER),
-        repeated=True,
-        en="accepted: exact to rounding",
-    ),
-    family="modal",
-    full_name="VALPROPRE",
-)(_valp)
 
 
 @operator("ZSPP", family="signals")
@@ -191,16 +180,30 @@ _LAWS = ("CINE", "ISOT", "ELAS")
 _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
 
 
+@operator("SPON", family="modal")
 def _spon(
     call: Call,
-    demand: bool,
-    signal: Curve,
-    linear: Curve,
-    dampings: ListReel,
-    law: tuple[str, ListReel] | None,
-    takeda: bool,
-    kinds: list[str],
-    colour: str,
+    demand: bool = Flag("DEMA", en="limits at which the ductility is the given one"),
+    signal: Curve = Key("SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal"),
+    linear: Curve = Key(
+        "SPEL", arg("linear", "EVOLUTIO"), optional=False, en="linear spectra, one for each damping"
+    ),
+    dampings: ListReel = Key(
+        "AMOR",
+        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
+        optional=False,
+        en="dampings",
+    ),
+    law: tuple[str, ListReel] | None = Key(
+        _LAWS,
+        arg("numbers", "LISTREEL", en="ductility and ratio", range=NOT_NEGATIVE),
+        en="kinematic or isotropic hardening, or non-linear elastic",
+    ),
+    takeda: bool = Flag("TAKE", en="not available"),
+    kinds: list[str] = Key(
+        tuple(_POWER), repeated=True, en="what the linear spectrum is, then what is wanted"
+    ),
+    colour: str = Key("COUL", arg("colour", "MOT", kind="colour"), default="DEFA", en="colour"),
 ) -> Curve:
     from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
 
@@ -230,39 +233,6 @@ def _spon(
         y = x * w ** _POWER[wanted]
         made.append(CurvePart(f, y, "FREQ", wanted, f"{100.0 * xi:g} %", shade))
     return Curve(tuple(made), signal.title)
-
-
-operator(
-    "SPON",
-    flag("demand", "DEMA", en="limits at which the ductility is the given one"),
-    key("signal", "SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal"),
-    key(
-        "linear",
-        "SPEL",
-        arg("linear", "EVOLUTIO"),
-        optional=False,
-        en="linear spectra, one for each damping",
-    ),
-    key(
-        "dampings",
-        "AMOR",
-        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
-        optional=False,
-        en="dampings",
-    ),
-    key(
-        "law",
-        _LAWS,
-        arg("numbers", "LISTREEL", en="ductility and ratio", range=NOT_NEGATIVE),
-        en="kinematic or isotropic hardening, or non-linear elastic",
-    ),
-    flag("takeda", "TAKE", en="not available"),
-    key(
-        "kinds", tuple(_POWER), repeated=True, en="what the linear spectrum is, then what is wanted"
-    ),
-    key("colour", "COUL", arg("colour", "MOT", kind="colour"), default="DEFA", en="colour"),
-    family="modal",
-)(_spon)
 
 
 SAME = 1e-6  # relative: dampings this near are one

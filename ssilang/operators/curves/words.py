@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import re
 
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.kernel.waves.shaken import strong_frequency
 from ssilang.operators.prelude import *

@@ -8,14 +8,10 @@ and the instants that they were given. An observer that says what it holds (`con
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from ssilang.messages.message import Sentence
 from ssilang.operators.files.outputs import digests_of_read, run_output

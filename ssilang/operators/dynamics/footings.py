@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
-import numpy as np
-
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.family import ROTATIONS, displacement_names
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of

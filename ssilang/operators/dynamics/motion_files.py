@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ssilang.io.tables import is_there
 from ssilang.kernel.base.arrays import BoolArray

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import field
+from typing import TYPE_CHECKING
 
 from ssilang.io.vtk.labels import Labels
 from ssilang.operators.prelude import *

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-
-import numpy as np
 
 from ssilang.io.recording import Recording
 from ssilang.io.vtk.grid import ORDERS

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.language.values import LazyTable, promises

@@ -34,22 +34,18 @@ def _correction(entries: Entries, method: str) -> str:
     average = scheme.average_acceleration
     given = entries.get("VITEUNIL")
     if scheme.conserving:
-        return _no_correction(entries, given)
+        # The conserving step reflects velocities by itself.
+        if given is not None and given is not False:
+            entries.warn("operators.dynamics.correction-without-effect")
+        if entries.flag("CONTACT_PERSISTANT"):
+            raise entries.error("operators.dynamics.conserving-or-persistent")
+        return "FAUX"
     if given is None:
         return "MASSE" if average and method != "PENALITE" else "FAUX"
     word = NORMS[given]
     if word != "FAUX" and not average:
         raise entries.error("operators.dynamics.no-corrected-velocities")
     return word
-
-
-def _no_correction(entries: Entries, given: object) -> str:
-    """The conserving step reflects velocities by itself."""
-    if given is not None and given is not False:
-        entries.warn("operators.dynamics.correction-without-effect")
-    if entries.flag("CONTACT_PERSISTANT"):
-        raise entries.error("operators.dynamics.conserving-or-persistent")
-    return "FAUX"
 
 
 def scheme_of(entries: Entries) -> Scheme:

@@ -6,25 +6,23 @@ their imposed values are those of a translation.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import chain
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from ssilang.io.ground_motions.record import G
 from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
-from ssilang.kernel.interface.interface import is_macro, joint_zones, without_zones
+from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
@@ -39,11 +37,6 @@ from ssilang.kernel.waves.shaken import (
 )
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.matrices.matrix import ElementMatrices
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any, cast
-
-import numpy as np
-
 from ssilang.io.recording import thinned_drawing
 from ssilang.kernel.waves.shaken import is_shaken
 from ssilang.language.values import LazyRows
-from ssilang.messages.message import Teller, teller
+from ssilang.messages.message import teller
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
 

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from dataclasses import field
+from typing import ClassVar
 
-import numpy as np
-
-from ssilang.kernel.interface.interface import is_macro
+from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.track import Rows, Track
 from ssilang.language.values import LazyTable, promises
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.snapshot import Snapshot
 
 SAMPLES = 24
 """Instants looked at to see whether all joints have opened for good."""

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, cast
-
-import numpy as np
-
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
@@ -310,13 +305,12 @@ def _names(zone: Zone, what: str) -> tuple[str, ...]:
     return _NAMES[what](zone) if what in _NAMES else ("SCAL",)
 
 
-@operator(
-    "ZERO",
-    arg("model", "MMODEL", en="model"),
-    choice("word", tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
-    family="fields",
-)
-def zero(call: Call, model: Model, word: str | None) -> CellField:
+@operator("ZERO", family="fields")
+def zero(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    word: str | None = Choice(tuple(_TITLES), length=8, en="points of a scalar, or kind of field"),
+) -> CellField:
     """Zeros."""
     if word is None:
         raise call.error("operators.fields.which-zeros", titles=_TITLES)

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from typing import Any
-
-import numpy as np
+from collections.abc import Collection
 
 from ssilang.kernel.curves.cloud import Cloud
-from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing, union
 from ssilang.operators.prelude import *
 

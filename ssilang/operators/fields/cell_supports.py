@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import replace
-from functools import partial, reduce
-from typing import cast
+from functools import reduce
 
 from ssilang.kernel.elements.results.supports import (
     cells_of_mesh,

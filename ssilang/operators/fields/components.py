@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU
@@ -205,7 +203,16 @@ def support_nodes(support: Point | Mesh) -> IntArray:
 def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
     """A part of a field at nodes."""
     if what.word == "VALE":
-        return _values(call, field, what["names"], what["support"], what["lenient"])
+        wanted = what["names"]
+        support = what["support"]
+        names = list(field.components) if wanted is None else names_of(wanted)
+        if not what["lenient"]:
+            for name in names:
+                node_algebra.component(field, name)
+            if isinstance(support, Point) and names:
+                _tell_foreign(call, field, names[0], support)
+        nodes = None if support is None else support_nodes(support)
+        return ListReel(node_algebra.values_in_order(field, names, nodes))
     if what.word == "MAIL":
         return _points_of(field, what["without"])
     if what.word == "COMP":
@@ -240,23 +247,6 @@ def _points_of(field: NodeField, without_multipliers: bool) -> Mesh:
     ]
     nodes = np.unique(np.concatenate(parts)) if parts else np.empty(0, dtype=np.int64)
     return Mesh.of(field.table, "POI1", nodes[:, None])
-
-
-def _values(
-    call: Call,
-    field: NodeField,
-    wanted: ListMots | str | None,
-    support: Point | Mesh | None,
-    lenient: bool,
-) -> ListReel:
-    names = list(field.components) if wanted is None else names_of(wanted)
-    if not lenient:
-        for name in names:
-            node_algebra.component(field, name)
-        if isinstance(support, Point) and names:
-            _tell_foreign(call, field, names[0], support)
-    nodes = None if support is None else support_nodes(support)
-    return ListReel(node_algebra.values_in_order(field, names, nodes))
 
 
 # ---- REDU, ENLE, COPI ---------------------------------------------------------------------------

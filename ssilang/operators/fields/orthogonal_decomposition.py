@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.proper_orthogonal import as_fields, modes, stacked
 from ssilang.kernel.matrices.assembly import assemble, numbering_of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NoReturn, cast
+from typing import NoReturn
 
 from ssilang.kernel.elements.results.projection import Lost, by_least_squares, on_mesh, on_model
 from ssilang.kernel.fields.cell_field import Support

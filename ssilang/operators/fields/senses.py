@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.fields.cell_algebra import added, component_names
 from ssilang.kernel.mesh.queries.measure import signed_area
 from ssilang.operators.prelude import *

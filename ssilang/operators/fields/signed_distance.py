@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
 from ssilang.operators.prelude import *
 

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.fields.signs import paired_names
 from ssilang.operators.prelude import *

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.operators.prelude import *
 
 _VECTORS = (("UX", "UY", "UZ"), ("FX", "FY", "FZ"), ("RX", "RY", "RZ"), ("MX", "MY", "MZ"))

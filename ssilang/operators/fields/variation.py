@@ -2,13 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
-from typing import Any, cast
-
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.kernel.curves.algebra import beyond, interpolated
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import field
 
 from ssilang.io.errors import InputError
 from ssilang.language.run.call import name_of

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, NoReturn
-
-import numpy as np
+from typing import NoReturn
 
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part
 from ssilang.io.mesh_files.reading import ENDINGS, Asked, read_mesh_file
 from ssilang.io.mesh_files.writing import WRITTEN, write_mesh_file
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.changes.merge import regenerate, repeated_nodes
 from ssilang.kernel.mesh.combine import poi1

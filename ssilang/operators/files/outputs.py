@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from ssilang.io.atomic import fault_on_windows, portable
 from ssilang.io.run_output import RunOutput

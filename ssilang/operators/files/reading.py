@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
 from ssilang.io.tables import as_columns, read_csv

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-import numpy as np
-
 from ssilang.io.ground_motions.cosmos import read_cosmos
 from ssilang.io.ground_motions.databases import read_esm, read_peer
 from ssilang.io.ground_motions.record import G, GroundMotion

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
+from dataclasses import field
 
 # families of elements that restored models may have
 import ssilang.kernel.elements.springs
@@ -16,7 +12,6 @@ import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
 from ssilang.io.errors import InputError
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
@@ -240,7 +235,11 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
     _restore_units(call, name, str(archive.settings.get("UNIT", "")))
     if not ws.dimension:
-        _restore_settings(ws, archive.settings)
+        saved = archive.settings
+        ws.dimension = int(saved.get("DIME", 0))
+        ws.element = str(saved.get("ELEM", ""))
+        if saved.get("MODE") in Mode.__members__:
+            ws.mode = Mode[saved["MODE"]]
 
 
 def _restore_units(call: Call, name: str, saved: str) -> None:
@@ -268,10 +267,3 @@ def check_settings(archive: Archive, name: str) -> None:
     for word, holds in _RULES.items():
         if word in archive.settings and not holds(archive.settings[word]):
             raise InputError("io.damaged-object", name=name, kind="OPTI", part=word)
-
-
-def _restore_settings(ws: Workspace, saved: dict[str, Any]) -> None:
-    ws.dimension = int(saved.get("DIME", 0))
-    ws.element = str(saved.get("ELEM", ""))
-    if saved.get("MODE") in Mode.__members__:
-        ws.mode = Mode[saved["MODE"]]

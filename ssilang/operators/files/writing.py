@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 from ssilang.io.tables import Column, csv_lines
 from ssilang.language.run.session import Check

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from contextlib import closing
-from typing import Any
-
-import numpy as np
 
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.atomic import replacing, write_text

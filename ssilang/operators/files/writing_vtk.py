@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from ssilang.io.run_output import RunOutput
 from ssilang.io.vtk.labels import Labels, labels_of
@@ -83,7 +79,14 @@ def _vtk(call: Call, word: str) -> None:
     one_file = said.format == "VTKHDF" or (not said.format and begun is not None and begun.one_file)
     if one_file and said.of_files:
         raise call.error("operators.files.not-of-one-file", said.of_files, word=said.of_files)
-    parts = _parts(call.session, said, begun, one_file)
+    # The parts of a step; cells keep their names of the step before where the mesh is the same.
+    meshes = said.meshes
+    if one_file and len(meshes) == 1:
+        meshes = {"": next(iter(meshes.values()))}
+    before = {} if begun is None else begun.labels
+    known = {n: before[n][1] for n, m in meshes.items() if n in before and before[n][0] is m}
+    labels = known if len(known) == len(meshes) else cell_labels(call.session, meshes)
+    parts = {name: _part(mesh, said, labels[name]) for name, mesh in meshes.items()}
     if one_file:
         writer: Series = _one_file(output, path, said, tuple(parts))
     elif said.time is None and len(parts) == 1:
@@ -98,17 +101,6 @@ def _vtk(call: Call, word: str) -> None:
         writer = _files(output, path, said, tuple(parts))
     writer.write_parts(said.time or 0.0, parts)
     output.wrote(*writer.files)
-
-
-def _parts(session: Session, said: _Said, begun: Series | None, one_file: bool) -> dict[str, Part]:
-    """The parts of a step; cells keep their names of the step before where the mesh is the same."""
-    meshes = said.meshes
-    if one_file and len(meshes) == 1:
-        meshes = {"": next(iter(meshes.values()))}
-    before = {} if begun is None else begun.labels
-    known = {n: before[n][1] for n, m in meshes.items() if n in before and before[n][0] is m}
-    labels = known if len(known) == len(meshes) else cell_labels(session, meshes)
-    return {name: _part(mesh, said, labels[name]) for name, mesh in meshes.items()}
 
 
 def _one_file(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> Series:

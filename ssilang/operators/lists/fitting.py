@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.language.run.procedures import call_procedure
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.prelude import *
 
 _ROUNDS = 200
@@ -37,15 +32,12 @@ def moca(
     if len(derivatives) != len(start.values):
         told = {"n_parameters": len(start.values), "n_derivatives": len(derivatives)}
         raise call.error("operators.lists.parameters-and-derivatives", **told)
-    w = _weights(call, weights, len(measured.values))
+    count = len(measured.values)
+    w = np.ones(count) if weights is None else _of_length(call, weights, count)
     columns = [_of_length(call, d, len(w)) for d in derivatives]
     gap = measured.values - _of_length(call, values, len(w))
     step = np.linalg.lstsq(w[:, None] * np.column_stack(columns), w * gap, rcond=None)[0]
     return ListReel(start.values + step)
-
-
-def _weights(call: Call, weights: ListReel | None, count: int) -> FloatArray:
-    return np.ones(count) if weights is None else _of_length(call, weights, count)
 
 
 def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:

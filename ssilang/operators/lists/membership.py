@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.solvers.asymptotes import least, least_linear, shares
 from ssilang.operators.prelude import *
 
@@ -24,7 +22,14 @@ def exce(call: Call, table: Table = Arg("TABLE", en="values and slopes")) -> Tab
     if (x < bounds[0]).any() or (x > bounds[1]).any():
         raise call.error("operators.lists.point-out-of-bounds", table)
     values, slopes = _functions(call, table, len(x))
-    method, ceiling = _method(call, table), _ceiling(call, table, values, slopes, high - low)
+    # Largest multipliers (m,): infinite for the conditions that the present point meets. To give
+    # up what it misses of another one costs DELTA0 times what F may change over the range.
+    change = float(np.abs(slopes[0]) @ (high - low))
+    cost = _share(call, table, "DELTA0", _GIVEN_UP, 1.0, np.inf) * change
+    missed = values[1:] > 0.0
+    ceiling = np.full(len(missed), np.inf)
+    ceiling[missed] = max(cost, np.finfo(float).tiny) / values[1:][missed]
+    method = _method(call, table)
     if method == "LIN":
         table.set(Mot("VX0"), _table_of(least_linear(x, values, slopes, bounds, ceiling)))
         return table
@@ -44,20 +49,6 @@ def _functions(call: Call, table: Table, count: int) -> tuple[FloatArray, FloatA
     values = np.array([row[0] for row in rows])
     values[1:] -= _numbers(call, table.get("VCMAX"), "VCMAX", len(rows) - 1)
     return values, np.array([row[1:] for row in rows])
-
-
-def _ceiling(
-    call: Call, table: Table, values: FloatArray, slopes: FloatArray, extent: FloatArray
-) -> FloatArray:
-    """Largest multipliers (m,): infinite for the conditions that the present point meets.
-
-    To give up what it misses of another one costs DELTA0 times what F may change over the range.
-    """
-    cost = _share(call, table, "DELTA0", _GIVEN_UP, 1.0, np.inf) * float(np.abs(slopes[0]) @ extent)
-    missed = values[1:] > 0.0
-    limits = np.full(len(missed), np.inf)
-    limits[missed] = max(cost, np.finfo(float).tiny) / values[1:][missed]
-    return limits
 
 
 def _method(call: Call, table: Table) -> str:

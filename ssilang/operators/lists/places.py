@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from itertools import accumulate
-from typing import Any, cast
-
-import numpy as np
 
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
@@ -40,10 +37,6 @@ def taken(value: Any, places: list[int]) -> Any:
     if isinstance(value, ListReel | ListEnti):
         return type(value)(value.values[places])
     return type(value)([value.values[i] for i in places])
-
-
-def _plain(item: Any) -> Any:
-    return item.item() if isinstance(item, np.generic) else item
 
 
 @EXTR.form()
@@ -81,7 +74,8 @@ def _extract(call: Call, value: AnyList, places: int | ListEnti) -> Any:
     chosen = _places(call, len(value), places)
     if isinstance(places, ListEnti):
         return taken(value, chosen)
-    return _plain(value.values[chosen[0]])
+    item = value.values[chosen[0]]
+    return item.item() if isinstance(item, np.generic) else item
 
 
 for _kind in LISTS[:-1]:

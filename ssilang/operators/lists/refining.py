@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.operators.lists.progressions import check_length
 from ssilang.operators.mesh.changes.cells import refined
@@ -32,7 +30,19 @@ def _refined_by_number(
     check_length(abs(float(number)) * len(lengths))
     if number > 0:
         return ListReel(_joined(values, [_even(number)] * (len(values) - 1)))
-    return ListReel(_joined(values, _graded(lengths, -number)))
+    # Fractions of each interval; at a value the size is the geometric mean of both sides'.
+    count = -number
+    sizes = lengths / count
+    cuts = []
+    for k, length in enumerate(lengths):
+        if length == 0.0:
+            cuts.append(_even(count))
+            continue
+        beside = [sizes[j] if 0 <= j < len(sizes) and sizes[j] > 0.0 else sizes[k]
+                  for j in (k - 1, k + 1)]  # fmt: skip
+        first, last = (math.sqrt(sizes[k] * other) for other in beside)
+        cuts.append(subdivide(length, first, last).fractions)
+    return ListReel(_joined(values, cuts))
 
 
 @RAFF.form()
@@ -67,18 +77,3 @@ def _joined(values: FloatArray, cuts: list[FloatArray]) -> FloatArray:
 
 def _even(count: int) -> FloatArray:
     return np.linspace(0.0, 1.0, count + 1)
-
-
-def _graded(lengths: FloatArray, count: int) -> list[FloatArray]:
-    """Fractions of each interval; at a value the size is the geometric mean of both sides'."""
-    sizes = lengths / count
-    cuts = []
-    for k, length in enumerate(lengths):
-        if length == 0.0:
-            cuts.append(_even(count))
-            continue
-        beside = [sizes[j] if 0 <= j < len(sizes) and sizes[j] > 0.0 else sizes[k]
-                  for j in (k - 1, k + 1)]  # fmt: skip
-        first, last = (math.sqrt(sizes[k] * other) for other in beside)
-        cuts.append(subdivide(length, first, last).fractions)
-    return cuts

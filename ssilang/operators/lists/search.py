@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from itertools import takewhile
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.operators.dispatch import ORDO, UNIQ

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-
-import numpy as np
-
 from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.condensation import dependence
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
 from ssilang.kernel.statics.linear import linear_system, product
-from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, INTE, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule, rule_with_call
 from ssilang.operators.prelude import *

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.matrices.build import (
     cable_stiffness,
     field_diagonal,
@@ -31,35 +26,21 @@ def _sign(words: Sequence[str]) -> Any:
     return choice("sign", words, en="symmetric, antisymmetric or any")
 
 
-@MANU.form(
-    said("RIGIDITE"),
-    _KIND,
-    arg("support", "MAILLAGE", "POINT", en="cells"),
-    key("dual", "DUAL", many("names", "LISTMOTS", at_least=1), en="names of the equations"),
-    _sign(("ANTI", "QUEL")),
-    many(
-        "primal",
-        "LISTMOTS",
-        at_least=1,
-        kind="component",
-        en="unknowns of a node, or one list a node",
-    ),
-    many(
-        "rows",
-        "LISTREEL",
-        at_least=1,
-        en="terms row by row, all or the lower triangle",
-        range=ANY_NUMBER,
-    ),
-)
+@MANU.form(said("RIGIDITE"))
 def repeated(
     call: Call,
-    kind: str | None,
-    support: Mesh | Point,
-    dual: tuple[ListMots, ...] | None,
-    sign: str | None,
-    primal: tuple[ListMots, ...],
-    rows: tuple[ListReel, ...],
+    kind: str | None = _KIND,
+    support: Mesh | Point = Arg("MAILLAGE", "POINT", en="cells"),
+    dual: tuple[ListMots, ...] | None = Key(
+        "DUAL", many("names", "LISTMOTS", at_least=1), en="names of the equations"
+    ),
+    sign: str | None = _sign(("ANTI", "QUEL")),
+    primal: tuple[ListMots, ...] = Many(
+        "LISTMOTS", at_least=1, kind="component", en="unknowns of a node, or one list a node"
+    ),
+    rows: tuple[ListReel, ...] = Many(
+        "LISTREEL", at_least=1, en="terms row by row, all or the lower triangle", range=ANY_NUMBER
+    ),
 ) -> Matrix:
     """The same matrix on all cells of a mesh."""
     mesh = support
@@ -76,32 +57,18 @@ def repeated(
     return repeated_matrix(mesh, unknowns, equations, terms, _kind(kind), factor == 1.0)
 
 
-@MANU.form(
-    said("RIGIDITE"),
-    choice("shape", ("COLO", "LIGN"), optional=False, en="column or row"),
-    _KIND,
-    _sign(tuple(_SIGN)),
-    key(
-        "partner",
-        ("DUAL", "PRIM"),
-        arg("name", "MOT", kind="component"),
-        en="its equation, or its unknown",
-    ),
-    arg("field", "CHPOINT", en="terms"),
-    arg("point", "POINT", en="node of the unknown"),
-    arg("name", "MOT", kind="component", en="unknown or equation"),
-    many("lists", "LISTMOTS", en="other names of the field"),
-    of=("CHPOINT",),
-)
+@MANU.form(said("RIGIDITE"), of=("CHPOINT",))
 def one_column(
-    shape: str,
-    kind: str | None,
-    sign: str | None,
-    partner: tuple[str, str] | None,
-    field: NodeField,
-    point: Point,
-    name: str,
-    lists: tuple[ListMots, ...],
+    shape: str = Choice(("COLO", "LIGN"), optional=False, en="column or row"),
+    kind: str | None = _KIND,
+    sign: str | None = _sign(tuple(_SIGN)),
+    partner: tuple[str, str] | None = Key(
+        ("DUAL", "PRIM"), arg("name", "MOT", kind="component"), en="its equation, or its unknown"
+    ),
+    field: NodeField = Arg("CHPOINT", en="terms"),
+    point: Point = Arg("POINT", en="node of the unknown"),
+    name: str = Arg("MOT", kind="component", en="unknown or equation"),
+    lists: tuple[ListMots, ...] = Many("LISTMOTS", en="other names of the field"),
 ) -> Matrix:
     """The column, or the row, of one unknown."""
     told = name.upper().rstrip()

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.cells_amiss import (

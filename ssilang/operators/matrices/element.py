@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
 from functools import wraps
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.absorbing import absorbing_boundary
@@ -16,7 +11,6 @@ from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.mesh.boundary import faces_inside

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.contact import touching
 from ssilang.kernel.matrices.relations import in_space
 from ssilang.language.values import ANNULE, Annule
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.matrices.relations import length_of
 from ssilang.operators.matrices.supports import as_matrix
 from ssilang.operators.prelude import *

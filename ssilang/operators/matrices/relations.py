@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
-from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.relations import Term

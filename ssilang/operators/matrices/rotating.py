@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.elements.beams.rotating import cross_matrix, gyroscopic, inertia_coupling
-from ssilang.kernel.materials.model import Mode
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 from ssilang.operators.prelude import *
 

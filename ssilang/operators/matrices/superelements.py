@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
-
 from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.matrices.superelement import (
@@ -16,7 +12,6 @@ from ssilang.kernel.matrices.superelement import (
     inner_displacement,
     shape_fields,
 )
-from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import EXTR, listing
 from ssilang.operators.prelude import *
 

@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.language.registry import Argument, When
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.prelude import *
 
 _SENSE = {"MINI": 1, "MAXI": -1}
@@ -119,7 +112,12 @@ class _Held:
         """Pairs (unknowns, directions (n, dim)) for DIRECTION, RADIAL, ORTHO."""
         mode = self.ws.mode
         if self.polar:
-            return [(made.in_space(mode), self._polar_directions(nodes))]
+            axis = self.centre[1] - self.centre[0] if len(self.centre) == 2 else None
+            dim = self.ws.mode.dimension
+            away = made.radial_directions(self.ws.nodes, nodes, self.centre[0], axis)
+            if self.polar == "ORTHO":
+                away = made.orthoradial_directions(away, axis)
+            return [(made.in_space(mode), away[:, :dim])]
         pairs = []
         for group in sorted(self.groups) or ["DEPL"]:
             names = made.in_space(mode) if group == "DEPL" else made.rotations(mode)
@@ -135,14 +133,6 @@ class _Held:
         field = self.direction
         components = names if set(names) & set(field.components) else tuple(field.components)
         return np.stack([field.values_at(c, nodes) for c in components[: len(names)]], axis=1)
-
-    def _polar_directions(self, nodes: IntArray) -> FloatArray:
-        axis = self.centre[1] - self.centre[0] if len(self.centre) == 2 else None
-        dim = self.ws.mode.dimension
-        away = made.radial_directions(self.ws.nodes, nodes, self.centre[0], axis)
-        if self.polar == "ORTHO":
-            away = made.orthoradial_directions(away, axis)
-        return away[:, :dim]
 
 
 @operator("BLOQ", *_held(_CENTRE), _SUPPORT, when=IN_PLANE, family="relations", full_name="BLOQUE")

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.modal.basis import work

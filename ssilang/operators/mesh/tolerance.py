@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.language.registry import When
 from ssilang.operators.prelude import *
 

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.modal.basis import (
@@ -149,14 +144,13 @@ pjba = operator(
 )(_pjba)
 
 
-@pjba.form(
-    main("fields", "LISTCHPO", en="fields"),
-    BASIS,
-    opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),
-    opt("metric", "RIGIDITE", en="matrix of the product"),
-)
+@pjba.form()
 def project_list(
-    call: Call, fields: ListChpo, basis: Chosen, count: int | None, metric: Matrix | None
+    call: Call,
+    fields: ListChpo = Main("LISTCHPO", en="fields"),
+    basis: Chosen = BASIS,
+    count: int | None = Opt("ENTIER", range=POSITIVE, en="number of shapes, all without it"),
+    metric: Matrix | None = Opt("RIGIDITE", en="matrix of the product"),
 ) -> ListChpo:
     """Products of fields with shapes."""
     shapes = basis_shapes(call, basis)[:count]
@@ -171,33 +165,6 @@ def project_list(
 
 
 # --- pseudo-modes ----------------------------------------------------------------------------
-
-
-def _psmo(
-    call: Call,
-    frequency: float,
-    seismic: bool,
-    directions: list[str],
-    matrices: tuple[Matrix, ...],
-    basis: Table,
-    shocks: Table | None,
-    field: NodeField | ListChpo | None,
-) -> Table:
-    modes = shapes_of(call, basis)
-    masses = [m for m in matrices if m.kind.startswith("MASS")]
-    others = [m for m in matrices if not m.kind.startswith("MASS")]
-    if len(others) != 1 or len(masses) > 1:
-        raise call.error("operators.modal.psmo-wants-stiffness-mass")
-    system = _Shifted(call, others[0], masses[0] if masses else None, modes, frequency)
-    entries = system.seismic(directions) if directions else []
-    if field is not None:
-        fields: list[Any] = field.values if isinstance(field, ListChpo) else [field]
-        entries += [system.driven(f, seismic) for f in fields]
-    if shocks is not None:
-        entries += [system.struck(p, n) for p, n in _shock_points(call, shocks)]
-    if not entries:
-        raise call.error("operators.modal.nothing-drives-structure-chpoint")
-    return Table.numbered((Table.of(entry) for entry in entries), "PSEUDO_MODE")
 
 
 def _shock_points(call: Call, table: Table) -> list[tuple[Point, Point]]:
@@ -288,26 +255,45 @@ class _Shifted:
         return entries
 
 
-operator(
-    "PSMO",
-    key(
-        "frequency",
+@operator("PSMO", family="modal")
+def _psmo(
+    call: Call,
+    frequency: float = Key(
         "FREQ",
         arg("frequency", "FLOTTANT", range=POSITIVE, unit="Hz"),
         default=0.0,
         en="frequency of the response",
     ),
-    flag("seismic", "SEISME", en="displacements of supports, or accelerations of the base"),
-    key("directions", ("UX", "UY", "UZ"), repeated=True, en="of the base"),
-    many("matrices", "RIGIDITE", at_least=1, en="stiffness, and mass"),
-    arg("basis", "TABLE", en="modes"),
-    opt("shocks", "TABLE", en="points of shocks: . i . 'POINT' and . 'NORMALE'"),
-    opt("field", "CHPOINT", "LISTCHPO", en="forces, or field of DEPI"),
-    family="modal",
-)(_psmo)
+    seismic: bool = Flag("SEISME", en="displacements of supports, or accelerations of the base"),
+    directions: list[str] = Key(("UX", "UY", "UZ"), repeated=True, en="of the base"),
+    matrices: tuple[Matrix, ...] = Many("RIGIDITE", at_least=1, en="stiffness, and mass"),
+    basis: Table = Arg("TABLE", en="modes"),
+    shocks: Table | None = Opt("TABLE", en="points of shocks: . i . 'POINT' and . 'NORMALE'"),
+    field: NodeField | ListChpo | None = Opt("CHPOINT", "LISTCHPO", en="forces, or field of DEPI"),
+) -> Table:
+    modes = shapes_of(call, basis)
+    masses = [m for m in matrices if m.kind.startswith("MASS")]
+    others = [m for m in matrices if not m.kind.startswith("MASS")]
+    if len(others) != 1 or len(masses) > 1:
+        raise call.error("operators.modal.psmo-wants-stiffness-mass")
+    system = _Shifted(call, others[0], masses[0] if masses else None, modes, frequency)
+    entries = system.seismic(directions) if directions else []
+    if field is not None:
+        fields: list[Any] = field.values if isinstance(field, ListChpo) else [field]
+        entries += [system.driven(f, seismic) for f in fields]
+    if shocks is not None:
+        entries += [system.struck(p, n) for p, n in _shock_points(call, shocks)]
+    if not entries:
+        raise call.error("operators.modal.nothing-drives-structure-chpoint")
+    return Table.numbered((Table.of(entry) for entry in entries), "PSEUDO_MODE")
 
 
-def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
+@operator("IDLI", family="modal")
+def _idli(
+    call: Call,
+    matrix: Matrix = Arg("RIGIDITE", en="conditions"),
+    place: Mesh = Arg("MAILLAGE", en="points"),
+) -> Table:
     inside = place.sorted_node_ids
     ws = workspace(call.session)
     pairs = sorted(
@@ -325,14 +311,6 @@ def _idli(call: Call, matrix: Matrix, place: Mesh) -> Table:
         entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}
         table.set(number, Table.of(entry))
     return table
-
-
-operator(
-    "IDLI",
-    arg("matrix", "RIGIDITE", en="conditions"),
-    arg("place", "MAILLAGE", en="points"),
-    family="modal",
-)(_idli)
 
 
 # --- union -----------------------------------------------------------------------------------

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-import numpy as np
-
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.continuation.arc import Lengths, Tracer
-from ssilang.kernel.continuation.expansion import FrequencyProblem
+from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
+from ssilang.kernel.continuation.arc import Point as Solution
+from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 from ssilang.kernel.continuation.floquet import exponents, unstable
 from ssilang.kernel.continuation.harmonics import basis_of
 from ssilang.kernel.matrices.assembly import (
@@ -21,19 +16,13 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
+from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names
 from ssilang.operators.prelude import *
-from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
-    from ssilang.kernel.continuation.arc import Point as Solution
-    from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
-
-from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.operators.session.user_procedures import call_user
+from ssilang.operators.tables.entries import Entries
 
 
 def nonlinear_unknowns(entries: Entries) -> tuple[Point, list[str]] | None:

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
 from ssilang.operators.curves.evol import (

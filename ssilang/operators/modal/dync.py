@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.matrices.assembly import field_to_vector
@@ -34,7 +31,12 @@ _ROLES = {
 def _dync(call: Call, given: tuple[Table, ...], harmonics: int, samples: int) -> Table:
     from ssilang.kernel.continuation.response import forced_response, normal_mode
 
-    tables = _tables(call, given)
+    tables = tables_by_role(call, given, _ROLES)
+    for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
+        if role not in tables:
+            raise call.error("operators.modal.table-wanted", name=name)
+    if "start" not in tables:
+        raise call.error("operators.modal.start-wanted")
     if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
         told = {"harmonics": harmonics, "least": 2 * (2 * harmonics + 1), "samples": samples}
         raise call.error("operators.modal.instants-for-harmonics", **told)
@@ -82,16 +84,6 @@ class Numbers:
                 "operators.modal.number-not-positive", self.table, name=name, value=value
             )
         return value
-
-
-def _tables(call: Call, given: tuple[Table, ...]) -> dict[str, Table]:
-    found = tables_by_role(call, given, _ROLES)
-    for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
-        if role not in found:
-            raise call.error("operators.modal.table-wanted", name=name)
-    if "start" not in found:
-        raise call.error("operators.modal.start-wanted")
-    return found
 
 
 def _oscillators(

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
-
-import numpy as np
-
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.modal.explicit import (
     SCHEMES,
@@ -80,9 +75,15 @@ def _integrated(
     """The table of results of a run."""
     links, arrays = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(arrays.kinds))
-    spaces, amplitudes = _forces(
-        call, tables.get("loads"), system, start.time, steps.h, steps.count
-    )
+    # Forces on the modes (p, n) and their values at each half step (p, 2 steps + 1).
+    table = tables.get("loads")
+    load = None if table is None else table.get("BASE_A")
+    if table is not None and not isinstance(load, Load):
+        raise call.error("operators.modal.table-chargement-no-load", table)
+    given = load if isinstance(load, Load) else None
+    loading = loading_of(given, system.numbering, np.zeros(0, dtype=np.int64))
+    times = start.time + 0.5 * steps.h * np.arange(2 * max(steps.count, 0) + 1, dtype=np.float64)
+    spaces, amplitudes = loading.forces.T.copy(), loading.at(times).T.copy()
     problem = ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
     run = integrate_modes(problem, start, steps)
     return _results(call, run, system, links, tables.get("output"))
@@ -212,19 +213,6 @@ def damping_of(call: Call, table: Table | None, system: System) -> FloatArray:
         return np.zeros_like(system.M)
     matrix = _matrix(call, table, "AMORTISSEMENT")
     return _kept(assemble(matrix, system.numbering).toarray(), _full(table, "NATURE"))
-
-
-def _forces(
-    call: Call, table: Table | None, system: System, t0: float, h: float, steps: int
-) -> tuple[FloatArray, FloatArray]:
-    """Forces on the modes (p, n) and their values at each half step (p, 2 steps + 1)."""
-    load = None if table is None else table.get("BASE_A")
-    if table is not None and not isinstance(load, Load):
-        raise call.error("operators.modal.table-chargement-no-load", table)
-    given = load if isinstance(load, Load) else None
-    loading = loading_of(given, system.numbering, np.zeros(0, dtype=np.int64))
-    times = t0 + 0.5 * h * np.arange(2 * max(steps, 0) + 1, dtype=np.float64)
-    return loading.forces.T.copy(), loading.at(times).T.copy()
 
 
 def _start(call: Call, table: Table | None, system: System, links: int) -> ModalState:

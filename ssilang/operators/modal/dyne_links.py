@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-
-import numpy as np
+from dataclasses import field
 
 from ssilang.kernel.modal import links as law
 from ssilang.kernel.modal.links import Link, LinkArrays, Points, link_arrays, segments_of

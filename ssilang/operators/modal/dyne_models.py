@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.modal.shape_models import is_shape, shape_points
 from ssilang.operators.prelude import *

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.modal.modes import ComplexMode, conjugate_modes
 from ssilang.operators.modal.basis import Shape, shapes_of
@@ -14,14 +12,25 @@ from ssilang.operators.prelude import *
 _KINDS = {"RIGI": "RAIDEUR", "MASS": "MASSE", "AMOR": "AMORTISSEMENT"}
 
 
+@operator("IMPE", family="modal", full_name="IMPEDANCE")
 def _impe(
     call: Call,
-    kind_of: str | None,
-    chosen: ListReel | None,
-    matrix: Matrix,
-    other: Matrix | None,
-    pulsation: float,
-    buckling: bool,
+    kind_of: str | None = Choice(
+        ("MASSE", "RAIDEUR", "AMORTISSEMENT"), en="what the matrix is, by its type without it"
+    ),
+    chosen: ListReel | None = Key(
+        "QUELCONQUE", arg("factors", "LISTREEL", range=ANY_NUMBER), en="factors of the four blocks"
+    ),
+    matrix: Matrix = Arg("RIGIDITE", en="matrix"),
+    other: Matrix | None = Opt("RIGIDITE", en="of the imaginary rows"),
+    pulsation: float = Opt(
+        "FLOTTANT",
+        default=1.0,
+        en="circular frequency, 1 without it",
+        unit="rad/s",
+        usual=NOT_NEGATIVE,
+    ),
+    buckling: bool = Opt("LOGIQUE", default=False, en="of type MASSE"),
 ) -> Matrix:
     kind = "MASSE" if buckling else matrix.kind
     if chosen is not None:
@@ -32,48 +41,6 @@ def _impe(
     said = kind_of or _KINDS.get(matrix.kind[:4], "RAIDEUR")
     turned = other is not None and said == "AMORTISSEMENT"
     return impedance(matrix, factors(said, pulsation), kind, other, turned)
-
-
-operator(
-    "IMPE",
-    choice(
-        "kind_of",
-        ("MASSE", "RAIDEUR", "AMORTISSEMENT"),
-        en="what the matrix is, by its type without it",
-    ),
-    key(
-        "chosen",
-        "QUELCONQUE",
-        arg("factors", "LISTREEL", range=ANY_NUMBER),
-        en="factors of the four blocks",
-    ),
-    arg("matrix", "RIGIDITE", en="matrix"),
-    opt("other", "RIGIDITE", en="of the imaginary rows"),
-    opt(
-        "pulsation",
-        "FLOTTANT",
-        default=1.0,
-        en="circular frequency, 1 without it",
-        unit="rad/s",
-        usual=NOT_NEGATIVE,
-    ),
-    opt("buckling", "LOGIQUE", default=False, en="of type MASSE"),
-    family="modal",
-    full_name="IMPEDANCE",
-)(_impe)
-
-
-def _vibc(
-    call: Call, matrices: tuple[Matrix, ...], basis: Table | None, pairs: int | None
-) -> Table:
-    if len(matrices) not in (2, 3):
-        raise call.error("operators.modal.matrices-of-vibc", n_matrices=len(matrices))
-    stiffness, mass, damping = matrices_by_kind(matrices, mass_first=True)
-    modes = conjugate_modes(stiffness, mass, damping, pairs)
-    shapes = None if basis is None else shapes_of(call, basis)
-    table = modal_table(call, mass, [_entry(m, shapes) for m in modes], "MODE_COMPLEXE")
-    table.set("CONVERGENCE", True)
-    return table
 
 
 def _entry(mode: ComplexMode, shapes: list[Shape] | None) -> dict[str, Any]:
@@ -88,11 +55,18 @@ def _entry(mode: ComplexMode, shapes: list[Shape] | None) -> dict[str, Any]:
     }
 
 
-operator(
-    "VIBC",
-    many("matrices", "RIGIDITE", en="mass, stiffness, and damping"),
-    opt("basis", "TABLE", en="basis of the projection"),
-    opt("pairs", "ENTIER", range=POSITIVE, en="number of couples, all without it"),
-    family="modal",
-    full_name="VIBC",
-)(_vibc)
+@operator("VIBC", family="modal", full_name="VIBC")
+def _vibc(
+    call: Call,
+    matrices: tuple[Matrix, ...] = Many("RIGIDITE", en="mass, stiffness, and damping"),
+    basis: Table | None = Opt("TABLE", en="basis of the projection"),
+    pairs: int | None = Opt("ENTIER", range=POSITIVE, en="number of couples, all without it"),
+) -> Table:
+    if len(matrices) not in (2, 3):
+        raise call.error("operators.modal.matrices-of-vibc", n_matrices=len(matrices))
+    stiffness, mass, damping = matrices_by_kind(matrices, mass_first=True)
+    modes = conjugate_modes(stiffness, mass, damping, pairs)
+    shapes = None if basis is None else shapes_of(call, basis)
+    table = modal_table(call, mass, [_entry(m, shapes) for m in modes], "MODE_COMPLEXE")
+    table.set("CONVERGENCE", True)
+    return table

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from ssilang.kernel.matrices.build import nodal_diagonal
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.matrices.element import amor, mass, rigi
 from ssilang.operators.modal.basis import Shape, shapes_of
 from ssilang.operators.prelude import *
@@ -60,7 +58,10 @@ def modal_stiffness(call: Call, basis: Table = _BASIS, other: Table | None = _OT
     modes = [s for s in shapes if s.unknown == "ALFA"]
     if len(modes) == len(shapes):
         return _diagonal(modes, _stiffnesses(call, modes), "RIGIDITE")
-    return _on_shapes(shapes, _static_stiffness(call, shapes), "RIGIDITE")
+    marks, unknowns, duals = _places(shapes)
+    return on_marks(
+        shapes[0].field.table, _static_stiffness(call, shapes), marks, unknowns, duals, "RIGIDITE"
+    )
 
 
 def _tables(call: Call, basis: Table, other: Table | None) -> tuple[Table, ...]:
@@ -96,11 +97,6 @@ def _held_by(call: Call, shape: Shape) -> list[NodeField]:
     if not real:
         raise call.error("operators.modal.static-shape-neither-force")
     return real
-
-
-def _on_shapes(shapes: list[Shape], values: FloatArray, kind: str) -> Matrix:
-    marks, unknowns, duals = _places(shapes)
-    return on_marks(shapes[0].field.table, values, marks, unknowns, duals, kind)
 
 
 def _places(shapes: list[Shape]) -> tuple[IntArray, list[str], list[str]]:

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.matrices.assembly import (
     assemble,
     field_to_vector,

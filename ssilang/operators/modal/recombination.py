@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.modal.basis import combined
@@ -214,7 +208,16 @@ def _combined(
 ) -> NodeField | CellField:
     """What contributions at an instant combine to."""
     if quantity == "CONT":
-        return _stresses(call, weights, shapes, pseudo, time)
+        # Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them.
+        total: CellField | None = None
+        for factor, entry in _weighted(weights, shapes, pseudo, time):
+            stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
+            if not isinstance(stress, CellField):
+                raise call.error("operators.modal.shape-no-stresses", entry)
+            first = total is None
+            total = cell_algebra.added(stress if total is None else total, stress, factor - first)
+        assert total is not None
+        return total
     if quantity == "REAC":
         return _reactions(call, weights, shapes, pseudo, time)
     field = recombined(weights, shapes)
@@ -228,21 +231,6 @@ def _count(call: Call, number: float) -> int:
     if number != int(number) or number < 1:
         raise call.error("operators.modal.least-mode-recombined-not", number, number=number)
     return int(number)
-
-
-def _stresses(
-    call: Call, weights: Any, shapes: list[Shape], pseudo: list[PseudoShape], time: float | None
-) -> CellField:
-    """Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them."""
-    total: CellField | None = None
-    for factor, entry in _weighted(weights, shapes, pseudo, time):
-        stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
-        if not isinstance(stress, CellField):
-            raise call.error("operators.modal.shape-no-stresses", entry)
-        first = total is None
-        total = cell_algebra.added(stress if total is None else total, stress, factor - first)
-    assert total is not None
-    return total
 
 
 def _weighted(
@@ -279,20 +267,14 @@ reco = operator(
 )(_reco)
 
 
-@reco.form(
-    main("results", "TABLE", en="results of DYNE or PASAPAS"),
-    BASIS,
-    _QUANTITY,
-    _LOAD,
-    arg("time", "FLOTTANT", en="instant", unit="s", range=ANY_NUMBER),
-)
+@reco.form()
 def reco_of_results(
     call: Call,
-    results: Table,
-    basis: Chosen,
-    quantity: str,
-    load: Load | None,
-    time: float,
+    results: Table = Main("TABLE", en="results of DYNE or PASAPAS"),
+    basis: Chosen = BASIS,
+    quantity: str = _QUANTITY,
+    load: Load | None = _LOAD,
+    time: float = Arg("FLOTTANT", en="instant", unit="s", range=ANY_NUMBER),
 ) -> NodeField | CellField:
     """What results in time combine to at an instant."""
     shapes = basis_shapes(call, basis)

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements import families
 from ssilang.kernel.waves.shaken import AXES

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.kernel.modal.explicit import ModalSteps
 from ssilang.kernel.modal.shape_models import is_shape
 from ssilang.operators.modal.dyne import results_of_models

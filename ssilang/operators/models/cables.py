@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import n_points, zone_field
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 

@@ -8,7 +8,6 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
-from ssilang.kernel.materials.model import Mode
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:

@@ -5,17 +5,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.behaviours import UNIAXIAL_LAWS, normalised
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.operators.models.materials import (

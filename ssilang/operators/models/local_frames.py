@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
-
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block
@@ -29,7 +25,6 @@ from ssilang.kernel.elements.results.tensors import tensor
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.lines.lines import frenet_frames
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present

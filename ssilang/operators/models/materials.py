@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Collection
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.cloud import Cloud
@@ -241,7 +237,11 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if isinstance(value, Mesh | Table | str):
         raise call.error("operators.models.parameter-is-a-number", value, name=name)
     if name in ("MODS", "MATS"):
-        _check_section(call, name, value)
+        # Refuse what does not describe a section.
+        if name == "MODS" and not isinstance(value, Model):
+            raise call.error("operators.models.section-model-wrong", value)
+        if name == "MATS" and not isinstance(value, CellField):
+            raise call.error("operators.models.section-material-wrong", value)
         return _one_object(value, n)
     if isinstance(value, Model):
         raise call.error("operators.models.parameter-is-no-model", value, name=name)
@@ -263,14 +263,6 @@ def _one_object(value: Any, n: int) -> Value:
     one = np.empty((1, 1), dtype=object)
     one[0, 0] = value
     return np.broadcast_to(one, (n, 1)), "GRAVITE"
-
-
-def _check_section(call: Call, name: str, value: Any) -> None:
-    """Refuse what does not describe a section."""
-    if name == "MODS" and not isinstance(value, Model):
-        raise call.error("operators.models.section-model-wrong", value)
-    if name == "MATS" and not isinstance(value, CellField):
-        raise call.error("operators.models.section-material-wrong", value)
 
 
 def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value | None:

@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import Any
-
-import numpy as np
+from dataclasses import field
 
 import ssilang.kernel.interface.family  # noqa: F401  joints as a family of elements
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
@@ -27,7 +23,6 @@ from ssilang.kernel.materials.behaviours import (
     full_word,
     normalised,
 )
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.modal import shape_models

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
 from ssilang.language.registry import When
 from ssilang.operators.prelude import *

@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.kernel.elements.catalog import LOCKING
-from ssilang.kernel.materials.model import Mode
 from ssilang.language.vocabulary import Quantity
-from ssilang.language.vocabulary.terms import Range
 from ssilang.language.vocabulary.unit_systems import MATTER, SYSTEMS, UnitSystem, likely_units
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
@@ -19,7 +13,6 @@ from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.combine import cell_keys
 from ssilang.kernel.mesh.queries.quality import smallest_lengths
 from ssilang.kernel.plasticity.points import variable_names
-from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import CHAN, DIFF, ENLE, EXTR, INTE, listing
 from ssilang.operators.prelude import *
 

@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import operator as python
-from collections.abc import Callable
-from functools import partial
-from typing import Any, TypeVar
-
-import numpy as np
+from typing import TypeVar
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power

@@ -4,11 +4,6 @@ from __future__ import annotations
 
 import math
 import operator as python
-from collections.abc import Callable
-from functools import partial
-from typing import Any
-
-import numpy as np
 
 from ssilang.language.registry import SCALAR_RULES
 from ssilang.operators.dispatch import union

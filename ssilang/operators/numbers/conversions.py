@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.operators.prelude import *
 

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable
-from functools import partial
 from importlib import import_module
-from typing import Any
-
-import numpy as np
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.prelude import *
@@ -29,10 +23,10 @@ def mapped(function: Function, value: Any) -> Any:
         return ListEnti(result) if result.dtype == np.int64 else ListReel(result)
     if isinstance(value, Curve):
         parts = (
-            dataclasses.replace(p, ordinates=np.asarray(function(p.ordinates), dtype=float))
+            replace(p, ordinates=np.asarray(function(p.ordinates), dtype=float))
             for p in value.parts
         )
-        return dataclasses.replace(value, parts=tuple(parts))
+        return replace(value, parts=tuple(parts))
     if isinstance(value, NodeField):
         return node_algebra.applied(value, function)
     assert isinstance(value, CellField)
@@ -165,7 +159,7 @@ def atg(
         made = {}
         for name, part in second.components.items():
             top = first.values_at(name, part.nodes)
-            made[name] = dataclasses.replace(part, values=np.degrees(np.arctan2(top, part.values)))
+            made[name] = replace(part, values=np.degrees(np.arctan2(top, part.values)))
         return node_algebra.rebuilt(second, made)
     if isinstance(first, CellField) and isinstance(second, CellField):
         return _angle_of_cells(call, first, second)

@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.language.registry import each, either
 from ssilang.operators.numbers.functions import mapped
@@ -182,7 +176,7 @@ def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, floa
                 "operators.numbers.no-such-curve", n_parts=len(value.parts), place=place
             )
         part = value.parts[place - 1]
-        parts.append(dataclasses.replace(part, ordinates=np.clip(part.ordinates, low, high)))
+        parts.append(replace(part, ordinates=np.clip(part.ordinates, low, high)))
     return Curve(tuple(parts), value.title, value.kind)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from ssilang.kernel.elements.results.frames import following_axes
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.operators.prelude import *

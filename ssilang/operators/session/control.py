@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from ssilang.io.plots.labels import Annotation
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.values import is_empty
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.prelude import *
 
 _MAKERS: dict[str, Callable[[Workspace, str], Any]] = {

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
-import numpy as np
-
 from ssilang.language.registry import find_operator
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.values import ANNULE, Objet

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
-from typing import Any
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
 from ssilang.language.registry import each
 from ssilang.language.search import nearest, nearest_names
-from ssilang.language.vocabulary.terms import between
 from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.prelude import *
 from ssilang.operators.session.option_files import UNIT, include, read_file_option

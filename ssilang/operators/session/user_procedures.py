@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ssilang.language.run.procedures import call_procedure
 from ssilang.operators.prelude import *
 

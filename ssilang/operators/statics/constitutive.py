@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
 from ssilang.kernel.elements.shapes.geometry import chunks

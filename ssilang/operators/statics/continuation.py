@@ -5,8 +5,6 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of

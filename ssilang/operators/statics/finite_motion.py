@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import total

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NoReturn
-
-import numpy as np
+from typing import NoReturn
 
 from ssilang.kernel.elements.loads.loads import (
     body_force,
@@ -20,7 +17,6 @@ from ssilang.kernel.elements.loads.loads import (
 from ssilang.kernel.elements.results.supports import model_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.queries.quality import repeated_cells
 from ssilang.language.registry import either

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any, cast
-
-import numpy as np
-
 from ssilang.kernel.curves.algebra import check_increasing
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -25,25 +21,15 @@ _PATH = group(  # behind the name, which may be this word
 )
 
 
-@operator(
-    "CHAR",
-    _NAME,
-    arg("held", *_HELD, en="field, or what is loaded", range=ANY_NUMBER),
-    opt("curve", "EVOLUTIO", en="factor in time, 1 without it"),
-    _LINK,
-    _MOVES,
-    _PATH,
-    family="loads",
-    full_name="CHARGEMENT",
-)
+@operator("CHAR", family="loads", full_name="CHARGEMENT")
 def char(
     call: Call,
-    name: str | None,
-    held: Any,
-    curve: Curve | None,
-    link: str | None,
-    moves: str | None,
-    path: str | None,
+    name: str | None = _NAME,
+    held: Any = Arg(*_HELD, en="field, or what is loaded", range=ANY_NUMBER),
+    curve: Curve | None = Opt("EVOLUTIO", en="factor in time, 1 without it"),
+    link: str | None = _LINK,
+    moves: str | None = _MOVES,
+    path: str | None = _PATH,
 ) -> Load:
     """A field times a curve."""
     _refuse_moving(call, moves or path)
@@ -75,22 +61,15 @@ def _check_numbers(call: Call, curve: Curve) -> None:
         raise call.error("operators.statics.curve-holds-no-number", curve, more=more, **told)
 
 
-@char.form(
-    _NAME,
-    arg("times", "TABLE", en="times, from 0 on"),
-    arg("fields", "TABLE", en="a field for each"),
-    _LINK,
-    _MOVES,
-    _PATH,
-)
+@char.form()
 def char_in_steps(
     call: Call,
-    name: str | None,
-    times: Table,
-    fields: Table,
-    link: str | None,
-    moves: str | None,
-    path: str | None,
+    name: str | None = _NAME,
+    times: Table = Arg("TABLE", en="times, from 0 on"),
+    fields: Table = Arg("TABLE", en="a field for each"),
+    link: str | None = _LINK,
+    moves: str | None = _MOVES,
+    path: str | None = _PATH,
 ) -> Load:
     """A field at each of listed times."""
     _refuse_moving(call, moves or path)
@@ -111,22 +90,15 @@ def char_in_steps(
     return Load((LoadPart(_short(name), None, None, tuple(steps)),))
 
 
-@char.form(
-    _NAME,
-    arg("times", "LISTREEL", en="times", unit="s", range=IN_ORDER),
-    arg("objects", "LISTOBJE", "LISTCHPO", en="an object for each"),
-    _LINK,
-    _MOVES,
-    _PATH,
-)
+@char.form()
 def char_in_lists(
     call: Call,
-    name: str | None,
-    times: ListReel,
-    objects: ListObje | ListChpo,
-    link: str | None,
-    moves: str | None,
-    path: str | None,
+    name: str | None = _NAME,
+    times: ListReel = Arg("LISTREEL", en="times", unit="s", range=IN_ORDER),
+    objects: ListObje | ListChpo = Arg("LISTOBJE", "LISTCHPO", en="an object for each"),
+    link: str | None = _LINK,
+    moves: str | None = _MOVES,
+    path: str | None = _PATH,
 ) -> Load:
     """A field at each of listed times."""
     _refuse_moving(call, moves or path)

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.deformed import displacements
@@ -123,23 +120,19 @@ def loaded_bodies(law_of: Callable[[Problem], LoadLaw], said: str, bodies: Bodie
         bulk, state = start if bodies is None else bodies(problem, inputs)
         first = float(problem.times[0])
         still = bulk.respond(state, np.zeros(bulk.size), first).tangent
-        pattern = _by_nodes(problem, abs(problem.K) + abs(still))
+        # Where unknowns meet: all those of two nodes that the matrix ties, or of one.
+        numbering = problem.numbering
+        _, places = np.unique(numbering.nodes, return_inverse=True)
+        n = numbering.size
+        ones = np.ones(n)
+        standing = sp.csr_array((ones, (places, np.arange(n))), shape=(int(places.max()) + 1, n))
+        tied = standing @ (abs(problem.K) + abs(still) + sp.eye_array(n)) @ standing.T
+        pattern = sp.csr_array((standing.T @ tied @ standing) > 0)
         instant = SHIFT * float(np.ptp(problem.times))
         loaded = loaded_bulk(bulk, law_of(problem), _shifts(problem), instant, pattern, said)
         return loaded, loaded.begin(state, problem.u, first)
 
     return make
-
-
-def _by_nodes(problem: Problem, matrix: sp.csr_array) -> sp.csr_array:
-    """Where unknowns meet: all those of two nodes that the matrix ties, or of one."""
-    numbering = problem.numbering
-    _, places = np.unique(numbering.nodes, return_inverse=True)
-    n = numbering.size
-    ones = np.ones(n)
-    standing = sp.csr_array((ones, (places, np.arange(n))), shape=(int(places.max()) + 1, n))
-    tied = standing @ (matrix + sp.eye_array(n)) @ standing.T
-    return sp.csr_array((standing.T @ tied @ standing) > 0)
 
 
 def _shifts(problem: Problem) -> FloatArray:

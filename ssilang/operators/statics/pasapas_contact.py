@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-
-import numpy as np
-
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
 from ssilang.kernel.contact.rows import Friction

@@ -6,11 +6,6 @@ stresses are D(T) (strain - thermal strain - plastic strain) at all times.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.families import family_of, moduli_of

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import field
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.interface.elements import is_joint

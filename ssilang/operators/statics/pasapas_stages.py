@@ -6,12 +6,8 @@ come, cells that go take their forces away.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import partial
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
+from dataclasses import field
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import family_of

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.stepping.times import nearest

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-import numpy as np
-
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.mesh.combine import gathered
 from ssilang.operators.dispatch import COPI, DIME, ENLE, unite_all

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import Any
-
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language.text.tree import print_items
 from ssilang.language.values import ANNULE, Objet, Texte
-from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
 from ssilang.operators.prelude import *

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
-from ssilang.language.vocabulary.terms import between
 from ssilang.messages.message import Sentence, find
 from ssilang.operators.prelude import *
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written

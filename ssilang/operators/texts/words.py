@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from ssilang.language.values import known_types
 from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union

@@ -7,11 +7,8 @@ MODE, MATE, OPTI and the checker ask here.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
-from dataclasses import dataclass
+from collections.abc import Collection
 from functools import cache
-
-import numpy as np
 
 from ssilang.kernel.elements import springs
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
@@ -30,7 +27,6 @@ from ssilang.kernel.materials.behaviours import (
     UNIAXIAL_FAMILIES,
     UNIAXIAL_LAWS,
 )
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.kernel.mesh.cells import CELL_TYPES

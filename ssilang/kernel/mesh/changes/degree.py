@@ -66,7 +66,11 @@ def quadratic(mesh: Mesh, lines: Mesh | None = None) -> Mesh:
         count = CELL_TYPES[name].n_nodes - block.kind.n_nodes
         part = middles[start : start + count * len(block)].reshape(len(block), count)
         start += count * len(block)
-        blocks.append(_with_middles(block, name, part))
+        kind = CELL_TYPES[name]
+        table = np.empty((len(block), kind.n_nodes), dtype=np.int64)
+        table[:, list(kind.corners)] = block.connectivity
+        table[:, [m for m, _, _ in middle_places(name)]] = part
+        blocks.append(CellBlock.make(block.nodes, name, table, block.colours))
     return union(*(Mesh(mesh.nodes, (b,)) for b in blocks), as_given=True)
 
 
@@ -129,14 +133,6 @@ def _edge_pairs(block: CellBlock) -> IntArray:
     corner = {local: k for k, local in enumerate(CELL_TYPES[name].corners)}
     places = [(corner[a], corner[b]) for _, a, b in middle_places(name)]
     return block.connectivity[:, places]
-
-
-def _with_middles(block: CellBlock, name: str, middles: IntArray) -> CellBlock:
-    kind = CELL_TYPES[name]
-    table = np.empty((len(block), kind.n_nodes), dtype=np.int64)
-    table[:, list(kind.corners)] = block.connectivity
-    table[:, [m for m, _, _ in middle_places(name)]] = middles
-    return CellBlock.make(block.nodes, name, table, block.colours)
 
 
 COMPLETE = {

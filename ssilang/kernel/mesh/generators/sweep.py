@@ -148,7 +148,10 @@ def sweep_line(
     mesh = Mesh.of(line.nodes, "QUA8" if quadratic else "QUA4", cells, colours)
     if surface.startswith("TRI"):
         mesh = split_quadrangles(mesh)
-    return Mesh(mesh.nodes, mesh.blocks, _sides(layers, line, block, local))
+    end = Mesh.of(line.nodes, block.cell_type, layers.full[-1][local], block.colours)
+    right = _upright(layers, int(local[-1, -1]), block.cell_type)
+    left = _upright(layers, int(local[0, 0]), block.cell_type)
+    return Mesh(mesh.nodes, mesh.blocks, (line, right, reversed_line(end), reversed_line(left)))
 
 
 def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
@@ -164,7 +167,17 @@ def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
     border = contour(surface)
     around: tuple[Mesh, ...] = ()
     if border.n_cells:
-        around = (_lateral(layers, border, cuts),)
+        faces = []
+        for block in border.blocks:
+            local = layers.local(block.connectivity)
+            middle = local[:, 1] if block.cell_type == "SEG3" else None
+            cells = [
+                _quadrangle(layers, k, local[:, 0], local[:, -1], middle) for k in range(cuts.count)
+            ]
+            kind = "QUA8" if block.cell_type == "SEG3" else "QUA4"
+            colours = np.tile(block.colours, cuts.count)
+            faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
+        around = (union(*faces),)
     return Mesh(surface.nodes, blocks, (Mesh(surface.nodes, surface.blocks), end, *around))
 
 
@@ -298,15 +311,6 @@ def _quadrangle(
     )
 
 
-def _sides(
-    layers: _Layers, line: Mesh, block: CellBlock, local: IntArray
-) -> tuple[Mesh, Mesh, Mesh, Mesh]:
-    end = Mesh.of(line.nodes, block.cell_type, layers.full[-1][local], block.colours)
-    right = _upright(layers, int(local[-1, -1]), block.cell_type)
-    left = _upright(layers, int(local[0, 0]), block.cell_type)
-    return line, right, reversed_line(end), reversed_line(left)
-
-
 def _upright(layers: _Layers, column: int, cell_type: str) -> Mesh:
     full, half = layers.full[:, column], layers.half[:, column]
     columns = [full[:-1], half, full[1:]] if cell_type == "SEG3" else [full[:-1], full[1:]]
@@ -339,20 +343,6 @@ def _moved_blocks(layers: _Layers, surface: Mesh, k: int) -> Mesh:
         for b in surface.blocks
     )
     return Mesh(surface.nodes, blocks)
-
-
-def _lateral(layers: _Layers, border: Mesh, cuts: Subdivision) -> Mesh:
-    faces = []
-    for block in border.blocks:
-        local = layers.local(block.connectivity)
-        middle = local[:, 1] if block.cell_type == "SEG3" else None
-        cells = [
-            _quadrangle(layers, k, local[:, 0], local[:, -1], middle) for k in range(cuts.count)
-        ]
-        kind = "QUA8" if block.cell_type == "SEG3" else "QUA4"
-        colours = np.tile(block.colours, cuts.count)
-        faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
-    return union(*faces)
 
 
 _CONES = {"POI1": "SEG2", "SEG2": "TRI3", "TRI3": "TET4", "QUA4": "PYR5"}

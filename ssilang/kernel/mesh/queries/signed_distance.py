@@ -81,10 +81,7 @@ def signed_distance(points: FloatArray, mesh: Mesh, dimension: int) -> FloatArra
     d = corners[:, 1] - corners[:, 0]
     normals = np.column_stack([-d[:, 1], d[:, 0]])
     normals = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    return _signed(p[:, None] - nearest_on_segments(p, corners[:, 0], corners[:, 1]), normals)
-
-
-def _signed(way: FloatArray, normals: FloatArray) -> FloatArray:
+    way = p[:, None] - nearest_on_segments(p, corners[:, 0], corners[:, 1])
     gap = np.linalg.norm(way, axis=2)
     least = gap.min(axis=1)
     side = np.einsum("nmd,md->nm", way, normals)

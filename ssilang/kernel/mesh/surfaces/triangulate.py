@@ -74,7 +74,13 @@ def recover_segments(points: FloatArray, triangles: IntArray, segments: IntArray
     for a, b in _missing(triangles, segments):
         crossed = _crossed(points, triangles, a, b)
         hole = triangles[crossed]
-        left, right = _cavity(hole, a, b)
+        # Polygons on the two sides of a-b, each from one end to the other along the hole's edge.
+        sides = np.vstack([hole[:, [0, 1]], hole[:, [1, 2]], hole[:, [2, 0]]]).tolist()
+        inner = {(q, p) for p, q in sides}
+        following = {p: q for p, q in sides if (p, q) not in inner}
+        right, left = _along(following, a, b), _along(following, b, a)
+        if len(left) + len(right) != len(following) + 2:
+            raise MeshError("kernel.mesh.contour-crosses-itself")
         fresh = [*_fill_polygon(points, left), *_fill_polygon(points, right)]
         triangles = np.vstack([triangles[~crossed], np.array(fresh, dtype=np.int64)])
     if _missing(triangles, segments):
@@ -111,17 +117,6 @@ def _crossed(points: FloatArray, triangles: IntArray, a: int, b: int) -> np.ndar
     return hit
 
 
-def _cavity(hole: IntArray, a: int, b: int) -> tuple[list[int], list[int]]:
-    """Polygons on the two sides of a-b, each from one end to the other along the hole's edge."""
-    sides = np.vstack([hole[:, [0, 1]], hole[:, [1, 2]], hole[:, [2, 0]]]).tolist()
-    inner = {(q, p) for p, q in sides}
-    following = {p: q for p, q in sides if (p, q) not in inner}
-    right, left = _along(following, a, b), _along(following, b, a)
-    if len(left) + len(right) != len(following) + 2:
-        raise MeshError("kernel.mesh.contour-crosses-itself")
-    return left, right
-
-
 def _along(following: dict[int, int], start: int, end: int) -> list[int]:
     """The chain from one point to another."""
     chain = [start]
@@ -139,17 +134,13 @@ def _fill_polygon(points: FloatArray, chain: list[int]) -> list[tuple[int, int, 
     first, last = chain[0], chain[-1]
     best = 1
     for k in range(2, len(chain) - 1):
-        if _in_circle(points, first, chain[best], last, chain[k]):
+        # Whether the node lies inside the circle through the best triangle, anticlockwise.
+        rows = points[[first, chain[best], last]] - points[chain[k]]
+        table = np.column_stack([rows, (rows * rows).sum(axis=1)])
+        if np.linalg.det(table) > 0.0:
             best = k
     return [
         *_fill_polygon(points, chain[: best + 1]),
         (first, chain[best], last),
         *_fill_polygon(points, chain[best:]),
     ]
-
-
-def _in_circle(points: FloatArray, a: int, b: int, c: int, d: int) -> bool:
-    """Whether d lies inside the circle through the anticlockwise triangle a, b, c."""
-    rows = points[[a, b, c]] - points[d]
-    table = np.column_stack([rows, (rows * rows).sum(axis=1)])
-    return bool(np.linalg.det(table) > 0.0)

@@ -74,7 +74,14 @@ def lift_faces(points: FloatArray, triangles: IntArray, reach: FloatArray) -> Li
     clearance, weights, slopes = _programme(points, triangles, frame, face, other)
     if clearance < _LEAST:
         raise MeshError("kernel.mesh.no-weights-keep-triangles")
-    centres, radii = _orthospheres(points, triangles, frame, weights, slopes)
+    # Spheres inside which points of weight zero would lie below a triangle's function.
+    corners = ((points[triangles] - frame.origin[:, None]) ** 2).sum(axis=2) - weights[triangles]
+    gram = np.einsum("nik,njk->nij", frame.edges, frame.edges)
+    rise = corners[:, 1:] - corners[:, :1]
+    part = np.linalg.solve(gram, rise[..., None])[..., 0]
+    gradient = np.einsum("ni,nik->nk", part, frame.edges) + slopes[:, None] * frame.normal
+    square = (gradient**2).sum(axis=1) / 4.0 + corners[:, 0]
+    centres, radii = frame.origin + gradient / 2.0, np.sqrt(np.maximum(square, 0.0))
     return LiftedFaces(weights, centres, radii)
 
 
@@ -157,23 +164,6 @@ def _programme(
         return 0.0, np.zeros(m), np.zeros(t)
     x = np.asarray(found.x[: m + t] - found.x[m + t : -1])
     return float(found.x[-1]), x[:m], x[m:]
-
-
-def _orthospheres(
-    points: FloatArray,
-    triangles: IntArray,
-    frame: _Frame,
-    weights: FloatArray,
-    slopes: FloatArray,
-) -> tuple[FloatArray, FloatArray]:
-    """Spheres inside which points of weight zero would lie below a triangle's function."""
-    corners = ((points[triangles] - frame.origin[:, None]) ** 2).sum(axis=2) - weights[triangles]
-    gram = np.einsum("nik,njk->nij", frame.edges, frame.edges)
-    rise = corners[:, 1:] - corners[:, :1]
-    part = np.linalg.solve(gram, rise[..., None])[..., 0]
-    gradient = np.einsum("ni,nik->nk", part, frame.edges) + slopes[:, None] * frame.normal
-    square = (gradient**2).sum(axis=1) / 4.0 + corners[:, 0]
-    return frame.origin + gradient / 2.0, np.sqrt(np.maximum(square, 0.0))
 
 
 _ROUNDS = 10

@@ -63,7 +63,9 @@ def _filled(
         faces = np.vstack([faces, *around])
         points = np.vstack([points, apexes])
     every, cells = tetrahedralize(points, faces)
-    made = nodes.add(every[len(ids) :], _density(skin, every[len(ids) :]))
+    inner = every[len(ids) :]
+    density = float(skin.nodes.density[skin.node_ids].mean())
+    made = nodes.add(inner, np.full(len(inner), density))
     table = np.concatenate([ids, made])
     volume = Mesh.of(nodes, "TET4", table[cells], colour)
     if pyramids is not None:
@@ -73,12 +75,6 @@ def _filled(
     if any(b.kind.degree == 2 for b in skin.blocks):
         return quadratic(volume, skin)
     return volume
-
-
-def _density(skin: Mesh, positions: FloatArray) -> FloatArray:
-    """Mean density of the skin, for all positions."""
-    mean = float(skin.nodes.density[skin.node_ids].mean())
-    return np.full(len(positions), mean)
 
 
 def _apexes(

@@ -207,18 +207,6 @@ class AcceleratedSolver(BulkSolver):
 
     # ---- the factorised step
 
-    def _referred(self) -> Reference:
-        """The factor of the tangent that is remembered."""
-        if self._reference is None or self._reference[0] is not self.tangent:
-            tangent = self.tangent
-            if tangent is None:
-                start = self.bulk.unloaded() if self._passed else self.state
-                nothing = np.zeros(len(self.force))
-                tangent = self.bulk.respond(start, nothing, self.time).tangent.data
-                self.tangent = None if self._passed else tangent
-            self._reference = (self.tangent, self._factorised(tangent))
-        return self._reference[1]
-
     def _factorised(self, tangent: FloatArray) -> Reference:
         K = self.bulk.terms.matrix(self.share * tangent)
         e = effective_of(self.problem, sp.csr_array(self.A + K), self.dt, self.share)
@@ -265,13 +253,29 @@ class AcceleratedSolver(BulkSolver):
                 return self._accepted(step, turn, residual)
             tolerance *= TIGHTER
             if self._widened(step) or late:
-                self._restarted(step, late)
+                # Go on from what has been reached with a wider part, or with another factor.
+                if late:
+                    assert step.answer is not None
+                    self.tangent = step.answer.tangent.data
+                    again = self._begun(step.motion, step.r, step.held)
+                    step.known, step.forwarded = again.known, again.forwarded
+                step.part = self._part_of(step.known)
+                step.p = self._load(step)
                 acceleration = Acceleration(len(step.p))
         return StepOutcome(step.du, -len(self.residuals), self.residuals[-1])
 
     def _begun(self, motion: Motion, r: FloatArray, held: FloatArray | None) -> Step:
         """A step with the load of the last one."""
-        known = self._referred()
+        # The factor of the tangent that is remembered.
+        if self._reference is None or self._reference[0] is not self.tangent:
+            tangent = self.tangent
+            if tangent is None:
+                start = self.bulk.unloaded() if self._passed else self.state
+                nothing = np.zeros(len(self.force))
+                tangent = self.bulk.respond(start, nothing, self.time).tangent.data
+                self.tangent = None if self._passed else tangent
+            self._reference = (self.tangent, self._factorised(tangent))
+        known = self._reference[1]
         part, e, factor = self._part_of(known), known.effective, known.dissected
         b = known.T.T @ (r if held is None else r - e.A @ held)
         if factor is not None:
@@ -307,7 +311,20 @@ class AcceleratedSolver(BulkSolver):
         if not self._moved(step, whole_part(known.T, panels)):
             return np.inf
         step.answer = self.bulk.respond(self.state, step.du, self.time)
-        return self._residual(step)
+        # What is out of balance at du, of the forces at play as Newton's method reckons them.
+        answer, du = step.answer, step.du
+        assert answer is not None
+        linear = self.A @ du
+        rest, parts = step.r - linear, [step.r, linear, answer.force, self.force]
+        rest -= self.share * (answer.force - self.force)
+        if self.interface is not None and self._jumps is not None:
+            pushed = self.interface.J.T @ (self.share * (self._jumps.trial.f - step.motion.f))
+            rest -= pushed
+            parts.append(pushed)
+        size = sum(float(np.abs(x).max(initial=0.0)) for x in parts)
+        moved = min(float(np.abs(du).max(initial=0.0)), self.extent)
+        size = max(size, RIGID * max(self._stiff, step.known.stiff) * moved, 1e-300)
+        return float(np.abs(self.constraints.V.T @ rest).max(initial=0.0)) / size
 
     def _widened(self, step: Step) -> bool:
         """Whether cells beyond the part yield: it has them, too, then."""
@@ -318,16 +335,6 @@ class AcceleratedSolver(BulkSolver):
             return False
         self.cells = np.union1d(self.cells, cells_nearer(self.bulk, step.answer.beyond, NEAR))
         return True
-
-    def _restarted(self, step: Step, renewed: bool) -> None:
-        """Go on from what has been reached with a wider part, or with another factor."""
-        if renewed:
-            assert step.answer is not None
-            self.tangent = step.answer.tangent.data
-            again = self._begun(step.motion, step.r, step.held)
-            step.known, step.forwarded = again.known, again.forwarded
-        step.part = self._part_of(step.known)
-        step.p = self._load(step)
 
     def _moved(self, step: Step, part: Part) -> bool:
         """Move a part's unknowns under its load; False without equilibrium of the joints."""
@@ -383,22 +390,6 @@ class AcceleratedSolver(BulkSolver):
         return work.trial.h if turns > 0 else None
 
     # ---- what is out of balance
-
-    def _residual(self, step: Step) -> float:
-        """What is out of balance at du, of the forces at play as Newton's method reckons them."""
-        answer, du = step.answer, step.du
-        assert answer is not None
-        linear = self.A @ du
-        rest, parts = step.r - linear, [step.r, linear, answer.force, self.force]
-        rest -= self.share * (answer.force - self.force)
-        if self.interface is not None and self._jumps is not None:
-            pushed = self.interface.J.T @ (self.share * (self._jumps.trial.f - step.motion.f))
-            rest -= pushed
-            parts.append(pushed)
-        size = sum(float(np.abs(x).max(initial=0.0)) for x in parts)
-        moved = min(float(np.abs(du).max(initial=0.0)), self.extent)
-        size = max(size, RIGID * max(self._stiff, step.known.stiff) * moved, 1e-300)
-        return float(np.abs(self.constraints.V.T @ rest).max(initial=0.0)) / size
 
     def _accepted(self, step: Step, turn: int, residual: float) -> StepOutcome:
         known, answer = step.known, step.answer

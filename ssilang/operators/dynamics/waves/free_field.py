@@ -2,17 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-import numpy as np
-
-from ssilang.kernel.records.soil_column import SoilColumn, free_field
+from ssilang.kernel.records.soil_column import FreeField, SoilColumn, free_field
 from ssilang.kernel.waves.resolution import highest_frequency
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.records.soil_column import FreeField, SoilColumn
 
 _CODE = "operators.dynamics.waves-before-the-record"
 _BEGUN = 0.05

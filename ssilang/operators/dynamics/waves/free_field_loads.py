@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.waves.free_field_forces import (
     Ground,
     Motion,
+    Share,
     along_columns,
     edge_forces,
     elements_at,
@@ -28,9 +25,6 @@ from ssilang.kernel.waves.resolution import (
 from ssilang.kernel.waves.shaken import longest_cell
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.waves.free_field_forces import Ground, Motion, Share
 
 _LOWEST = 3  # heights that the elements of the base may have
 _UNBALANCED = 0.3  # of the forces of inertia: what damping leaves is less

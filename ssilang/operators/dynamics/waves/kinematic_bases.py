@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
-
-import numpy as np
-
 from ssilang.kernel.waves.incoherence import (
     Ground,
     RigidBase,
+    Shape,
     averaged,
     factors,
     frequencies_of,
@@ -17,9 +14,6 @@ from ssilang.kernel.waves.incoherence import (
 )
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.waves.incoherence import Ground, RigidBase, Shape
 
 _SHAPES: dict[str, Shape] = {"DISQUE": "disc", "RECTANGLE": "rectangle", "BANDE": "strip"}
 _SIZES = {

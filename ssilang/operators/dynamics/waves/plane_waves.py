@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, cast
-
-import numpy as np
-
-from ssilang.kernel.waves.layered_half_space import HalfSpace, PlaneWave, plane_motion
+from ssilang.kernel.waves.layered_half_space import (
+    HalfSpace,
+    Kind,
+    PlaneWave,
+    WaveMotion,
+    plane_motion,
+)
 from ssilang.kernel.waves.matched_layer import matched_layer
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.waves.layered_half_space import (
-        Given,
-        HalfSpace,
-        Kind,
-        PlaneWave,
-        WaveMotion,
-    )
-
 
 #: share of the largest velocity that a record may keep at its end
 DRIFT = 0.02

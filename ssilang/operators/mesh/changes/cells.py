@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.elements.families import family_of
@@ -25,7 +20,6 @@ from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parte
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union
 from ssilang.language.registry import either
-from ssilang.language.vocabulary.terms import Range
 from ssilang.operators.dispatch import CHAN, COUL, MANU
 from ssilang.operators.matrices.supports import as_matrix
 from ssilang.operators.prelude import *

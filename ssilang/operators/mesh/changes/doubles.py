@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.mesh.changes.merge import (
     cut_open,
     merge_between,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NoReturn
-
-import numpy as np
+from typing import NoReturn
 
 from ssilang.kernel.fields.deformed import displacements, moving_components
 from ssilang.kernel.mesh.changes.transform import NodeCopier, followed, mapping_between

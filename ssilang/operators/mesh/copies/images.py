@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.fields.deformed import displacements
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.mesh.changes.transform import (
     NodeCopier,
@@ -226,31 +219,24 @@ def motion(
     )
 
 
-@operator(
-    "TOUR",
-    _objects(1, "POINT"),
-    ANGLE,
-    arg("centre", "POINT", en="centre"),
-    gives=Like("objects"),
-    when=IN_PLANE,
-    family="mesh",
-    full_name="TOURNER",
-)
-def tour(call: Call, objects: Sequence[Any], angle: float, centre: Point) -> tuple[Any, ...]:
+@operator("TOUR", gives=Like("objects"), when=IN_PLANE, family="mesh", full_name="TOURNER")
+def tour(
+    call: Call,
+    objects: Sequence[Any] = _objects(1, "POINT"),
+    angle: float = ANGLE,
+    centre: Point = Arg("POINT", en="centre"),
+) -> tuple[Any, ...]:
     """Copy and turn about a point."""
     return _turned(call, objects, angle, centre.coordinates.copy(), np.array([0.0, 0.0, 1.0]))
 
 
-@tour.form(
-    _objects(2, "POINT"),
-    ANGLE,
-    arg("first", "POINT", en="point of the axis"),
-    arg("second", "POINT", en="other point of the axis"),
-    gives=Like("objects"),
-    when=IN_SPACE,
-)
+@tour.form(gives=Like("objects"), when=IN_SPACE)
 def turned_about_axis(
-    call: Call, objects: Sequence[Any], angle: float, first: Point, second: Point
+    call: Call,
+    objects: Sequence[Any] = _objects(2, "POINT"),
+    angle: float = ANGLE,
+    first: Point = Arg("POINT", en="point of the axis"),
+    second: Point = Arg("POINT", en="other point of the axis"),
 ) -> tuple[Any, ...]:
     """Copy and turn about an axis."""
     origin = first.coordinates.copy()
@@ -293,32 +279,24 @@ def mirrored_about_plane(
     return copies(call, objects, mirror_plane(*positions((point, second, third))))
 
 
-@operator(
-    "HOMO",
-    _objects(1, "POINT"),
-    RATIO,
-    FIXED,
-    gives=Like("objects"),
-    family="mesh",
-    full_name="HOMOTHETIE",
-)
-def homo(call: Call, objects: Sequence[Any], ratio: float, fixed: Point) -> tuple[Any, ...]:
+@operator("HOMO", gives=Like("objects"), family="mesh", full_name="HOMOTHETIE")
+def homo(
+    call: Call,
+    objects: Sequence[Any] = _objects(1, "POINT"),
+    ratio: float = RATIO,
+    fixed: Point = FIXED,
+) -> tuple[Any, ...]:
     """Copy and scale."""
     return copies(call, objects, scaling(ratio, fixed.coordinates.copy()))
 
 
-@operator(
-    "AFFI",
-    _objects(2, "POINT"),
-    RATIO,
-    FIXED,
-    DIRECTION,
-    gives=Like("objects"),
-    family="mesh",
-    full_name="AFFINITE",
-)
+@operator("AFFI", gives=Like("objects"), family="mesh", full_name="AFFINITE")
 def affi(
-    call: Call, objects: Sequence[Any], ratio: float, fixed: Point, towards: Point
+    call: Call,
+    objects: Sequence[Any] = _objects(2, "POINT"),
+    ratio: float = RATIO,
+    fixed: Point = FIXED,
+    towards: Point = DIRECTION,
 ) -> tuple[Any, ...]:
     """Copy and stretch."""
     return copies(call, objects, affinity(ratio, *positions((fixed, towards))))
@@ -340,14 +318,12 @@ def projected_along(
     return copies(call, objects, projection_of("CYLI", vector, surface))
 
 
-@proj.form(
-    RAYS[0],
-    _objects(1, "MAILLAGE"),
-    arg("goal", "MAILLAGE", en="mesh on which they go"),
-    gives=Like("objects"),
-)
+@proj.form(gives=Like("objects"))
 def projected_on_mesh(
-    call: Call, rays: tuple[str, Point], objects: Sequence[Any], goal: Mesh
+    call: Call,
+    rays: tuple[str, Point] = RAYS[0],
+    objects: Sequence[Any] = _objects(1, "MAILLAGE"),
+    goal: Mesh = Arg("MAILLAGE", en="mesh on which they go"),
 ) -> tuple[Any, ...]:
     """Copy and project on a mesh."""
     return copies(call, objects, projection_on(*rays, facet_shape(goal)))

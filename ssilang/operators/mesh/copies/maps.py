@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-
-import numpy as np
-
 from ssilang.kernel.mesh.changes.transform import PointMap, turn
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,
@@ -34,30 +30,19 @@ _OTHER = arg("other", "POINT", en="other point of the axis")
 _APEX = arg("apex", "POINT", en="apex")
 _SMALL = arg("small", "POINT", en="centre of a small circle")
 
-SHAPES: Mapping[str, tuple[Argument, ...]] = {
-    "DROIT": (_POINT, _SECOND),
-    "PLAN": (_POINT, _SECOND, _THIRD),
-    "SPHERE": (_CENTRE, _POINT),
-    "CYLINDRE": (_AXIS, _OTHER, _POINT),
-    "CONE": (_APEX, _AXIS, _POINT),
-    "CONI": (_APEX, _AXIS, _POINT),
-    "TORE": (_CENTRE, _AXIS, _SMALL, _POINT),
-    "TORI": (_CENTRE, _AXIS, _SMALL, _POINT),
-    "CERC": (_CENTRE, _POINT),
+_SHAPES: Mapping[str, tuple[Callable[..., Shape], tuple[Argument, ...]]] = {
+    "DROIT": (line_shape, (_POINT, _SECOND)),
+    "PLAN": (plane_shape, (_POINT, _SECOND, _THIRD)),
+    "SPHERE": (sphere_shape, (_CENTRE, _POINT)),
+    "CYLINDRE": (cylinder_shape, (_AXIS, _OTHER, _POINT)),
+    "CONE": (cone_shape, (_APEX, _AXIS, _POINT)),
+    "CONI": (cone_shape, (_APEX, _AXIS, _POINT)),
+    "TORE": (torus_shape, (_CENTRE, _AXIS, _SMALL, _POINT)),
+    "TORI": (torus_shape, (_CENTRE, _AXIS, _SMALL, _POINT)),
+    "CERC": (sphere_shape, (_CENTRE, _POINT)),
 }
+SHAPES = {word: points for word, (_, points) in _SHAPES.items()}
 """Lines and surfaces by word, with the points behind it."""
-
-_SHAPES: Mapping[str, Callable[..., Shape]] = {
-    "DROIT": line_shape,
-    "PLAN": plane_shape,
-    "SPHERE": sphere_shape,
-    "CYLINDRE": cylinder_shape,
-    "CONE": cone_shape,
-    "CONI": cone_shape,
-    "TORE": torus_shape,
-    "TORI": torus_shape,
-    "CERC": sphere_shape,
-}
 
 MIRRORS: Mapping[str, tuple[Argument, ...]] = {
     "POINT": (_CENTRE,),
@@ -96,7 +81,7 @@ def positions(points: Sequence[Point]) -> list[FloatArray]:
 
 def shape_of(chosen: Chosen) -> Shape:
     """The line or the surface of `SHAPES` that was read."""
-    return _SHAPES[chosen.word](*positions(list(chosen.values.values())))
+    return _SHAPES[chosen.word][0](*positions(list(chosen.values.values())))
 
 
 def projection_of(way: str, point: Point, surface: Chosen) -> PointMap:

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-
-import numpy as np
-
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.mesh.changes.transform import (
     PointMap,

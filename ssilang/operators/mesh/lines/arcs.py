@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-
-import numpy as np
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.lines.curves import (
@@ -18,7 +15,6 @@ from ssilang.kernel.mesh.lines.curves import (
 )
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.mesh.lines.ends import (
     ANGLE,
     AXIS,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-
 from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,

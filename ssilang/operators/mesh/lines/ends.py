@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.families import Family, family_of
 from ssilang.kernel.mesh.lines.curves import Arc, Polynomial
@@ -20,7 +14,7 @@ from ssilang.kernel.mesh.lines.lines import (
 )
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.queries.measure import cell_measures
-from ssilang.language.vocabulary.terms import CELLS_ALONG, between
+from ssilang.language.vocabulary.terms import CELLS_ALONG
 from ssilang.operators.prelude import *
 
 COUNT = opt(

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
-
 from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through, parabola
 from ssilang.kernel.mesh.lines.lines import line_ends
 from ssilang.operators.mesh.lines.ends import (

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-
-import numpy as np
 
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
 from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines.lines import line_ends
@@ -159,14 +154,13 @@ def of_field(
     return _doubted_if_empty(session, poi1(field.table, _once(found)))
 
 
-@poin.form(
-    main("field", "MCHAML", en="field in cells"),
-    EXTREMES,
-    ABSOLUTE,
-    NAMED,
-)
+@poin.form()
 def of_cell_field(
-    session: Session, field: CellField, what: Chosen, absolute: bool, named: Named
+    session: Session,
+    field: CellField = Main("MCHAML", en="field in cells"),
+    what: Chosen = EXTREMES,
+    absolute: bool = ABSOLUTE,
+    named: Named = NAMED,
 ) -> Mesh:
     """Nodes, or new points at integration points, where values are extreme or compare."""
     names = dict.fromkeys(n for b in field.blocks for n in b.components)

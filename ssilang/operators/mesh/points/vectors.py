@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.operators.dispatch import PSCA, PVEC
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.mesh.queries.measure import (
     enclosed_area,
@@ -11,7 +9,6 @@ from ssilang.kernel.mesh.queries.measure import (
     node_sizes,
     total_measure,
 )
-from ssilang.messages.message import Teller
 from ssilang.operators.dispatch import listing
 from ssilang.operators.prelude import *
 

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-import numpy as np
-
 from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.queries.quality import (
     aspect_ratio,

@@ -15,7 +15,6 @@ from ssilang.kernel.mesh.orientation import (
     flip,
     orient,
 )
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.prelude import *
 
 

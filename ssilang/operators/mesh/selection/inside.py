@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume

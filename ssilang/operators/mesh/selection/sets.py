@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-import numpy as np
-
 from ssilang.kernel.mesh.combine import (
     intersection,
     poi1,

@@ -2,12 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
-from typing import Any
-
 from ssilang.kernel.mesh.queries.partition import balanced, connected, scattered, separated
-from ssilang.language.vocabulary.terms import between
 from ssilang.operators.prelude import *
 
 _FREE = flag("free", "NESC", en="the table has no sub-type")

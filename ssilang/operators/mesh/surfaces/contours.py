@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-
-import numpy as np
-
 from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.changes.degree import linear
 from ssilang.kernel.mesh.changes.split import split_quadrangles

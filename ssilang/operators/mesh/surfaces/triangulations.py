@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.sweep import cone, stitch
 from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
@@ -178,7 +174,17 @@ class _Told:
         for number, edge in enumerate(self.edges, 1):
             arcs.set(number, self._lines(edge[None]))
         for germ, place in enumerate(self.places):
-            cells.set(Point(self.nodes, int(place)), self._cell(germ))
+            # Edges with the germ's cell on their left, their numbers, and the cells beside it.
+            left, right = self.owners[:, 0] == germ, self.owners[:, 1] == germ
+            rows = np.flatnonzero(left | right)
+            lines = np.where(left[rows, None], self.edges[rows], self.edges[rows][:, ::-1])
+            beside = np.where(left[rows], self.owners[rows, 1], self.owners[rows, 0])
+            beside = np.unique(beside[beside != OUTSIDE])
+            cell = Table()
+            cell.set(Mot("VISU"), self._lines(lines))
+            cell.set(Mot("ARTS"), ListEnti(rows + 1))
+            cell.set(Mot("VOIS"), poi1(self.nodes, self.places[beside], self.colour))
+            cells.set(Point(self.nodes, int(place)), cell)
         order = np.argsort(self.places)
         values = NodeValues(self.places[order], self.weights[order])
         told.set(Mot("VISU"), self._lines(self.edges))
@@ -186,19 +192,6 @@ class _Told:
         told.set(Mot("CELL"), cells)
         told.set(Mot("ARTS"), arcs)
         return told
-
-    def _cell(self, germ: int) -> Table:
-        """Edges with the germ's cell on their left, their numbers, and the cells beside it."""
-        left, right = self.owners[:, 0] == germ, self.owners[:, 1] == germ
-        rows = np.flatnonzero(left | right)
-        lines = np.where(left[rows, None], self.edges[rows], self.edges[rows][:, ::-1])
-        beside = np.where(left[rows], self.owners[rows, 1], self.owners[rows, 0])
-        beside = np.unique(beside[beside != OUTSIDE])
-        cell = Table()
-        cell.set(Mot("VISU"), self._lines(lines))
-        cell.set(Mot("ARTS"), ListEnti(rows + 1))
-        cell.set(Mot("VOIS"), poi1(self.nodes, self.places[beside], self.colour))
-        return cell
 
     def _lines(self, table: IntArray) -> Mesh:
         return Mesh.of(self.nodes, "SEG2", table, self.colour)
