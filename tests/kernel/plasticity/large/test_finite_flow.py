@@ -150,7 +150,7 @@ def test_elastic_stretch_between_rigid_walls(word, share):
         np.testing.assert_allclose(seen[:, 0], 0.1 * D, rtol=5e-4)
 
 
-@together("word", ["MI_PAS", "FIN_PAS"])
+@together("word", ["MI_PAS", "FIN_PAS", "TOTAL"])
 @together("mesh", MESH)
 def test_given_stresses_are_shown_at_their_displacement(mesh, word):
     zone, blank, cells = zone_of(mesh, "kinematic", word)
