@@ -20,8 +20,9 @@ from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.matrices.location import support_mesh
+from ssilang.kernel.matrices.submatrices import relation_nodes, support_mesh
 from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.combine import union as united
 from ssilang.language.registry import words_in
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing.pictures import (
@@ -90,7 +91,11 @@ def _mesh(said: _Said, value: Any) -> None:
 
 
 def _matrix(said: _Said, value: Any) -> None:
-    said.subjects.meshes.append(support_mesh(value))
+    cells, held = support_mesh(Matrix(value.table, value.blocks, ())), relation_nodes(value)
+    parts = [cells] if cells.blocks else []
+    if len(held):
+        parts.append(poi1(value.table, held, 2))
+    said.subjects.meshes.append(united(*parts, as_given=True) if parts else cells)
 
 
 def _deformed(said: _Said, value: Deformed) -> None:
