@@ -179,6 +179,8 @@ NUMBERS = {
     "XTX C": in_cells(lambda x, y: UX(x, y) ** 2 + UY(x, y) ** 2),
     "XTX C C 3. -1.": in_cells(lambda x, y: 4 * (UX(x, y) ** 2 + UY(x, y) ** 2)),
     "XTX U V 2. -3.": 4 * dot(EVERY, EVERY) - 12 * dot(EVERY, VEVERY) + 9 * dot(VEVERY, VEVERY),
+    "(PROG 1. 2.) EGA (PROG 1. 2.5)": False, "(PROG 1. 2.5) EGA (PROG 1. 2.)": False,
+    "(PROG 1. 2.) EGA (PROG 1. 2.5) 0.5": True, "(PROG 1. 2.5) NEG (PROG 1. 2.) 0.4": True,
     "SOMM L": 2.5, "SOMM I": 8, "EXTR U 'UY' P7": 1.25, "EXTR C 'VX' 1 1 3": -0.5,
     "EXTR C 'VY' 2 1 2": 1.0, "INTG E": [1.0 - 0.5, 3 * 5.25 / 2],
     "NBNO S": 6, "NBEL S": 3, "MESU S": 0.5 + 0.625 + 0.5 * abs(-1 * 0.25 - 0.75 * -2),
