@@ -115,6 +115,15 @@ def test_a_support_may_come_and_be_driven(found):
     assert u[held] == pytest.approx(0.1 * times[held], rel=1e-12)
 
 
+def test_a_stop_is_driven_as_by_the_load(found):
+    stop = COARSE + "ST = BLOQ 'MINI' 'UY' P ; T1 . 'RIGI' = (T1 . 'RIGI') ET ST ; "
+    curve = "(EVOL 'MANU' (PROG 0. 2.) (PROG 0. 0.16))"
+    given, _ = lists(found, stop + f"T1 . 'CHAR' = CHAR 'DIMP' (DEPI ST 1.) {curve} ; ")
+    made, _ = lists(found, stop + procedure(("ADDI_SECOND", "DEPI ST (0.08 * TI)")))
+    assert (given > 0.1).sum() > 40
+    assert np.abs(made - given).max() <= 1e-12
+
+
 def test_reactions_of_an_added_support_stand_in_the_results(found):
     made = procedure(("ADDI_MATRICE", "B1"))
     script = BASE + "B1 = BLOQ 'UY' P ; T1 . 'DEPL' = 0. * (T1 . 'DEPL') ; "

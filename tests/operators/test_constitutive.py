@@ -52,11 +52,13 @@ def test_elastic_law_adds_the_stress_of_the_step(found):
 
 
 def test_plastic_bar_hardens_keeps_its_plastic_strain_and_unloads(found):
-    c, s, v, e, back = found(
+    c, s, v, e, back, done = found(
         BAR + "E1 = EPSI M U ; C = COMP M (A ET Z) (A ET E1) ; "
-        "D = COMP M (A ET E1 ET C) (A ET (0.5 * E1)) ; S1 V1 D1 = ECOU M S0 V0 E1 A ;",
-        "C", "S1", "V1", "D1", "D",
+        "D = COMP M (A ET E1 ET C) (A ET (0.5 * E1)) ; X = TABL ; "
+        "S1 V1 D1 = ECOU M S0 V0 E1 A X ; OK = X . 'SUCCES' ;",
+        "C", "S1", "V1", "D1", "D", "OK",
     )  # fmt: skip
+    assert done is True
     plastic = (1e3 * 6e-3 - 2) / (1e3 + 250)
     for field in (c, s):
         np.testing.assert_allclose(component(field, "EFFX"), 3 * (2 + 250 * plastic), rtol=1e-9)

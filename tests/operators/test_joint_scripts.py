@@ -111,11 +111,21 @@ def test_energies_of_points_add_up_to_those_of_the_table(found):
     assert p == pytest.approx(4 * 20 * (1 - np.exp(-1e5 * xi / 20)), rel=1e-7)
 
 
-def test_vtk_without_mesh_takes_that_of_the_model_and_shows_states(tmp_path):
+BESIDE = """
+L9 = DROI 1 (5. 0.) (6. 0.) ; M9 = MODE L9 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ;
+A9 = MATE M9 'YOUN' 7. 'NU' 0. 'SIGY' 1. 'SECT' 2. 'RHO' 1. ; B9 = BLOQ 'DEPL' L9 ;
+T1 . 'MODELE' = (T1 . 'MODELE') ET M9 ; T1 . 'RIGI' = (T1 . 'RIGI') ET (RIGI M9 A9) ET B9 ;
+T1 . 'CARACTERISTIQUES' = (T1 . 'CARACTERISTIQUES') ET A9 ; T1 . 'MASS' = (T1 . 'MASS') ET
+(MASS M9 A9) ;
+"""
+
+
+@pytest.mark.parametrize("beside", ["", BESIDE])
+def test_vtk_without_mesh_takes_that_of_the_model_and_shows_states(tmp_path, beside):
     import meshio
 
-    text = HOPPER + "T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'FICHIER_VTK' = 'hop' ; T2 = DYNAMIC T1 ;"
-    ran(text, output_directory=tmp_path)
+    text = "T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'FICHIER_VTK' = 'hop' ; T2 = DYNAMIC T1 ;"
+    ran(HOPPER + beside + text, output_directory=tmp_path)
     files = sorted(tmp_path.rglob("hop*.vtu"))
     assert len(files) == 6
     for file in files:
@@ -123,6 +133,8 @@ def test_vtk_without_mesh_takes_that_of_the_model_and_shows_states(tmp_path):
         (opening,) = read.cell_data["opening"][0].ravel()[:1]
         state = read.cell_data["joint_state"][0][0]
         assert (state > 2) == (opening > 0)
+        pressed = read.cell_data["traction"][0].ravel()[0]
+        assert pressed == pytest.approx(1000 * min(opening, 0.0), abs=1e-9)
         stored = read.cell_data["stored_energy"][0][0]
         assert stored == pytest.approx(500 * min(opening, 0.0) ** 2, abs=1e-12)
         assert read.cell_data["lost_energy"][0][0] == 0.0

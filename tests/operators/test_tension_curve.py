@@ -1,5 +1,6 @@
 """MATE 'TRAC': a tension test in the place of the hardening curve."""
 
+import numpy as np
 import pytest
 
 BAR = (
@@ -20,7 +21,22 @@ def material(curve, young="200.E9"):
     return BAR + f"MA = MATE M 'YOUN' {young} 'NU' 0.3 'SECT' 1. 'TRAC' ({curve}) ; "
 
 
-def test_a_pulled_bar_follows_its_tension_curve(found):
-    curve = "EVOL 'MANU' (PROG 0. 1.E-3 2.E-2 1.E-1) (PROG 0. 200.E6 300.E6 340.E6)"
-    stress = found(material(curve) + PULLED, "X")
-    assert stress == pytest.approx(300.0e6 + (0.03 - 0.02) / (0.1 - 0.02) * 40.0e6, rel=1e-6)
+STRAINS = np.array([0.0, 1e-3, 2e-2, 1e-1])
+COLD, WARM = np.array([0.0, 200e6, 300e6, 340e6]), np.array([0.0, 200e6, 220e6, 230e6])
+
+
+def curve(stresses):
+    x, y = (" ".join(map(repr, v.tolist())) for v in (STRAINS, stresses))
+    return f"(EVOL 'MANU' 'EPS' (PROG {x}) 'SIG' (PROG {y}))"
+
+
+@pytest.mark.parametrize("share", [0.0, 0.25])
+def test_a_pulled_bar_follows_its_tension_curve(found, share):
+    """Alone, or between those of two temperatures: as far from both at the same plastic strain."""
+    between = f"NUAG 'COMP' 'T' 0. 100. 'COMP' 'TRAC' {curve(COLD)} {curve(WARM)}"
+    there = f"MA = VARI 'NUAG' M MA (MANU 'CHPO' L 1 'T' {100 * share}) 'STRESSES' ; "
+    text = material(between) + there if share else material(curve(COLD))
+    stress = found(text + PULLED, "X")
+    at, parts = 0.03 - stress / 200e9, (COLD, WARM)
+    flow = [np.interp(at, (STRAINS - part / 200e9)[1:], part[1:]) for part in parts]
+    assert stress == pytest.approx((1 - share) * flow[0] + share * flow[1], rel=1e-6)

@@ -93,8 +93,6 @@ class GrowingFile:
     def commit(self, root: int) -> None:
         """Let the file be what the root group's header at that address says."""
         try:
-            if os.fstat(self._handle).st_size < self.end:
-                os.ftruncate(self._handle, self.end)
             if self._changes:
                 self.put(0, hdf5.superblock(self._root, self.end))
                 for address, data in self._changes:

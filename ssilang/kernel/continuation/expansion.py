@@ -69,10 +69,13 @@ def names_of(matrices: Sequence[Matrix], harmonics: int) -> Names:
 
 
 def expanded(matrix: Matrix, names: Names, terms: FloatArray) -> Matrix:
-    """The matrix whose coefficients i and j are coupled by `terms[i, j]` times the given one."""
+    """The matrix whose coefficients i and j are coupled by `terms[i, j]` times the given one.
+
+    Where one of two coefficients acts on the other, so does the other on it.
+    """
     blocks = []
     for block in matrix.blocks:
-        for i, j in zip(*np.nonzero(np.triu(np.abs(terms) + np.abs(terms.T))), strict=True):
+        for i, j in zip(*np.nonzero(np.triu(terms)), strict=True):
             blocks.append(_coupled(block, names, int(i), int(j), terms))
     relations = tuple(
         _renamed(r, names, place) for r in matrix.relations for place in range(names.places)

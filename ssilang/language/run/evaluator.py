@@ -313,7 +313,7 @@ class Evaluator(PhraseRunner):
             self.store(statement.targets[0], left[0].value)
             return
         targets = self._typed_targets(statement.targets)
-        self.refuse_leftovers(left[:1] if left and is_call(left) else [])
+        self.refuse_leftovers(left[:1] if is_call(left) else [])
         taken = []
         for target, wanted in targets:
             at = 0

@@ -15,8 +15,9 @@ from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
-from ssilang.kernel.matrices.location import support_mesh
+from ssilang.kernel.matrices.submatrices import relation_nodes, support_mesh
 from ssilang.kernel.mesh.combine import poi1
+from ssilang.kernel.mesh.combine import union as united
 from ssilang.language.registry import words_in
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing.pictures import (
@@ -80,6 +81,14 @@ _OPTIONS: tuple[Entry, ...] = (
 )
 
 
+def _matrix(said: _Said, value: Any) -> None:
+    cells, held = support_mesh(Matrix(value.table, value.blocks, ())), relation_nodes(value)
+    parts = [cells] if cells.blocks else []
+    if len(held):
+        parts.append(poi1(value.table, held, 2))
+    said.subjects.meshes.append(united(*parts, as_given=True) if parts else cells)
+
+
 def _deformed(said: _Said, value: Deformed) -> None:
     old = said.subjects.deformed
     said.subjects.deformed = value if old is None else Deformed(old.parts + value.parts)
@@ -103,7 +112,7 @@ def _annotation(said: _Said, value: Annotation) -> None:
 
 _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
     "MAILLAGE": lambda said, value: said.subjects.meshes.append(value),
-    "RIGIDITE": lambda said, value: said.subjects.meshes.append(support_mesh(value)),
+    "RIGIDITE": _matrix,
     "DEFORME": _deformed,
     "VECTEUR": _arrows,
     "CHPOINT": _values,

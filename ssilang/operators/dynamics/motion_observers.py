@@ -87,11 +87,14 @@ SHOWN = {"joint_state": "ETAT", "stored_energy": "ESTO", "lost_energy": "EPER"}
 
 
 def joint_points(variables: CellField) -> dict[str, CellField]:
-    """State and energies of joints, for cells: the most open point, and means of energies."""
-    found = {}
-    for name, component in SHOWN.items():
+    """State and energies of joints, for cells: the most open point, and means of energies.
+
+    None where the variables are of bodies alone.
+    """
+    found, joints = {}, [b for b in variables.blocks if "ETAT" in b.components]
+    for name, component in SHOWN.items() if joints else ():
         blocks = []
-        for block in variables.blocks:
+        for block in joints:
             values = block.components[component]
             if component == "ETAT":
                 values = values.max(axis=1, keepdims=True)

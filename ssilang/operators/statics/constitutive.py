@@ -197,8 +197,6 @@ def _state_read(
 ) -> _StateRead:
     """What `_STATE` reads."""
     precision = precision if number is None else number
-    if precision <= 0.0:
-        raise call.error("operators.statics.precision-not-positive", precision=precision)
     return _StateRead(present(call, model), stress, variables, joined(material), precision)
 
 

@@ -32,6 +32,9 @@ def test_tangent_of_a_load_on_neighbours(n):
     np.testing.assert_allclose(answer.tangent.toarray(), exact, atol=1e-4)
     np.testing.assert_allclose(answer.force, -law(2.0, u).force)
     np.testing.assert_allclose(answer.rate, -law(1.0, u).force, rtol=1e-6)
+    given = loaded_bulk(Bulk((), (), n), lambda *_: Added(size, half), np.ones(n), 1.0, pattern, "")
+    tangent = given.respond(given.begin((), u, 2.0), np.zeros(n), 2.0).tangent
+    assert (tangent != half).nnz == 0
     if n > 30:
         assert len(bulk._groups(np.arange(n))) < 10  # not one by one
 

@@ -153,16 +153,21 @@ def test_newton_converges_quadratically() -> None:
 @pytest.mark.parametrize("sense", ["", "'MINI'"])
 @pytest.mark.parametrize("down", [-0.01, 0.02])
 def test_supports_that_move_are_met_before_the_first_turn(sense: str, down: float) -> None:
-    """Nothing yields: what the tangents of the start predict is the answer."""
+    """Nothing yields, joints stay closed: what the tangents of the start predict is the answer."""
     result = ran(
         "OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ; S = (DROI 4 (0 0) (3 0)) TRAN 2 (0 1) ; "
         "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT ; A = MATE M YOUN 1.E3 NU .3 SIGY 1.E6 ; "
-        f"B = (BLOQ UX (COTE 4 S)) ET (BLOQ UY {sense} (COTE 1 S)) ; H = BLOQ UY (COTE 3 S) ; "
-        f"B = B ET H ; F = DEPI H {down} ; C = CHAR DIMP F (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;"
+        "G = (COTE 4 S) PLUS (0. 0.) ; J = RACC 1.E-6 (COTE 4 S) G ; "
+        "MJ = MODE J MECANIQUE ELASTIQUE JOINT_SDM CISAILLEMENT_ELASTIQUE ; "
+        "AJ = MATE MJ KN 3.E3 KS 5.E2 ; V = BLOQ UX G ; H = BLOQ UY ((COTE 3 S) ET G) ; "
+        f"B = (BLOQ UX (COTE 2 S)) ET (BLOQ UY {sense} (COTE 1 S)) ET H ET V ; "
+        f"F = (DEPI H {down}) ET (DEPI V 0.08) ; E = EVOL MANU (PROG 0. 1.) (PROG 0. 1.) ; "
+        "C = CHAR DIMP F E ;"
     )
     zones, support = plastic_zones(at(result, "M")), at(result, "B")
     stiffness = Matrix(support.table, tuple(without_stiffness(z) for z in zones), support.relations)
-    problem = make_problem(Inputs(stiffness, np.linspace(0, 1, 3), load=at(result, "C")))
+    joints = {"model": at(result, "MJ"), "characteristics": at(result, "AJ")}
+    problem = make_problem(Inputs(stiffness, np.linspace(0, 1, 3), load=at(result, "C"), **joints))
     bulk = bulk_of(zones, at(result, "A"), problem.numbering)
     run = BulkRun(problem, bulk, bulk.unloaded())
     run.observers = [recorder := Recorder(3)]

@@ -17,7 +17,8 @@ MESH = {
     "space": "OPTI DIME 3 ELEM CUB8 ; "
     "S = VOLU 1 (TRAN 1 (DROI 1 (0 0 0) (1 0 0)) (0 1 0)) 'TRAN' (0.2 0 1) ;",
     "BARR": "OPTI DIME 3 ELEM SEG2 ; S = DROI 2 (0 0 0) (1 2 0.5) ;",
-    "beam of the plane": "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; S = DROI 3 (0 0) (3 4) ;",
+    **dict.fromkeys(("beam of the plane", "sheared"), "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; "
+    "S = DROI 3 (0 0) (3 4) ;"),
     "POUT": "OPTI DIME 3 ELEM SEG2 ; S = DROI 3 (0 0 0) (3 4 2) ;",
     **dict.fromkeys(("DKT", "COQ3"), "OPTI DIME 3 ELEM TRI3 ; "
     "S = (DROI 1 (0 0 0) (1 0.2 0.1)) TRAN 1 (0.1 0.8 0.3) ;"),
@@ -27,6 +28,7 @@ SECTION = "'SECT' 0.1 'INRY' 1.E-2 'INRZ' 3.E-2 'TORS' 2.E-2"
 SLIM = {
     "BARR": ("BARR", "'SECT' 0.1", finite_zone, 0),
     "beam of the plane": ("POUT", "'SECT' 0.1 'INRZ' 3.E-2", lambda z, a: finite_beam(z, a, 2), 1),
+    "sheared": ("TIMO", "'SECT' 0.1 'INRZ' 3.E-2", lambda z, a: finite_beam(z, a, 1), 1),
     "POUT": ("POUT", SECTION, lambda z, a: finite_space_beam(z, a, 2), 3),
     **{n: (n, "'EPAI' 0.1", lambda z, a: finite_plate(z, a, 3), 3) for n in ("DKT", "COQ3")},
 }

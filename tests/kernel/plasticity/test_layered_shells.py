@@ -9,11 +9,12 @@ OPTI DIME 3 ELEM TRI3 ;
 L = DROI 3 (0. 0. 0.) (10. 0. 0.) ; S = L TRAN 1 (0. 1. 0.) ;
 L1 = COTE S 4 ; L2 = COTE S 2 ;
 MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' {law} DKT 'INTEGRE' {layers} ;
-MA = MATE MO 'YOUN' 2.E11 'NU' {nu} {strength} 'EPAI' 0.5 ;
+MA = MATE MO 'YOUN' 2.E11 'NU' {nu} {strength} 'EPAI' 0.5 'ALPH' 1.E-5 ;
+TE = MANU 'CHPO' S 3 'TINF' 1. 'T' 3. 'TSUP' 8. ;
 B1 = BLOQ 'UX' 'UZ' 'RY' L1 ; B2 = BLOQ '{what}' L2 ; B3 = BLOQ 'UY' (POIN L1 1) ;
 T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
 T . 'BLOCAGES_MECANIQUES' = B1 ET B2 ET B3 ;
-T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B2 {size}) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
+T . 'CHARGEMENT' = (CHAR 'DIMP' (DEPI B2 {size}) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.))) {heat} ;
 T . 'TEMPS_CALCULES' = PROG 0. 0.1 'PAS' 0.1 1. ;
 PASAPAS T ;
 R = T . 'REACTIONS' . 10 ; F = EXTR (RESU (REDU R L2)) '{dual}' (POIN L2 1) ;
@@ -22,22 +23,26 @@ PERFECT = {"law": "PARFAIT", "strength": "'SIGY' 1.E8"}
 
 
 def run(tmp_path, more="", **words):
-    words = {"layers": 7, "nu": "0.", **PERFECT, **words}
+    words = {"layers": 7, "nu": "0.", "heat": "", **PERFECT, **words}
     return ran(PLATE.format(**words) + more, output_directory=tmp_path).session.root.find
 
 
 @pytest.mark.parametrize("layers", [2, 5])
 def test_below_the_limit_the_shell_is_the_elastic_one(tmp_path, layers):
+    """Bent, and heated on one side more than on the other."""
     elastic = (
-        "MO = MODE S 'MECANIQUE' 'ELASTIQUE' DKT ; MA = MATE MO 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.5 ;"
-        "U = RESO ((RIGI MO MA) ET B1 ET B2 ET B3) (DEPI B2 1.E-3) ; "
-        "A = MAXI 'ABS' (EXCO 'UZ' ((T . 'DEPLACEMENTS' . 10) - U)) ; "
-        "SI0 = EXCO 'M11' (SIGM MO MA U) ; SI1 = EXCO 'M11' (T . 'CONTRAINTES' . 10) ; "
-        "B = MAXI 'ABS' (SI1 - SI0) ; C = MAXI 'ABS' SI0 ;"
+        "MO = MODE S 'MECANIQUE' 'ELASTIQUE' DKT ; MA = MATE MO 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.5 "
+        "'ALPH' 1.E-5 ; H = THET MO MA TE ; U = RESO ((RIGI MO MA) ET B1 ET B2 ET B3) "
+        "((DEPI B2 1.E-3) ET (BSIG MO MA H)) ; A = (T . 'DEPLACEMENTS' . 10) - U ; "
+        "D = MAXI 'ABS' (EXCO 'UX' A) ; A = MAXI 'ABS' (EXCO 'UZ' A) ; "
+        "SI0 = (SIGM MO MA U) - H ; SI1 = T . 'CONTRAINTES' . 10 ; "
+        "B = MAXI 'ABS' (SI1 - SI0) ; C = MAXI 'ABS' (EXCO 'M11' SI0) ;"
     )
-    words = {"what": "UZ", "dual": "FZ", "size": "1.E-3", "nu": "0.3"}
+    heat = "ET (CHAR 'T' TE (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)))"
+    words = {"what": "UZ", "dual": "FZ", "size": "1.E-3", "nu": "0.3", "heat": heat}
     find = run(tmp_path, elastic, layers=layers, **words)
     assert find("A") < 1e-12
+    assert find("D") < 1e-12
     assert find("B") < 1e-8 * find("C")
 
 

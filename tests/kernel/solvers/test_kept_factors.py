@@ -27,11 +27,13 @@ def test_an_equal_matrix_finds_its_factor(keeping):
     assert matrix(1) @ first.solve(b) == pytest.approx(b)
 
 
-def test_another_matrix_gets_its_own_and_the_oldest_is_dropped(keeping):
+def test_another_matrix_gets_its_own_and_what_rested_longest_is_dropped(keeping):
     first, second = factorise(matrix(1), True), factorise(matrix(2), True)
     assert second is not first
+    assert factorise(matrix(1), True) is first
     factorise(matrix(3), True)
-    assert factorise(matrix(1), True) is not first
+    assert factorise(matrix(1), True) is first
+    assert factorise(matrix(2), True) is not second
 
 
 def test_a_factor_of_another_tolerance_is_not_taken(keeping):

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.plastic import (
     cam_clay,
@@ -269,6 +270,8 @@ def check_given(law: PlasticLaw, values: Mapping[str, NDArray[Any]]) -> None:
     wanted = {"YOUN", "NU", *law.required}
     if not wanted <= set(given) or any(given[n].dtype == object for n in numbers & set(given)):
         return
+    if any(isinstance(v, Cloud) for n in {*law.curves} & set(given) for v in given[n].flat):
+        return  # it becomes a curve where fields are known
     if len({v.shape[1] for v in given.values()} - {1}) > 1:
         return
     shape = np.broadcast_shapes(*(v.shape for v in given.values()))

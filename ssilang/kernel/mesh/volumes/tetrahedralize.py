@@ -307,9 +307,7 @@ def _lattice(low: FloatArray, high: FloatArray, edge: float) -> FloatArray:
 def ray_inside(positions: FloatArray, points: FloatArray, triangles: IntArray) -> BoolArray:
     """Which positions (n, 3) a closed surface holds: parity of crossings of a ray."""
     way = np.array([0.26856, 0.53242, 0.80248])  # along no axis or diagonal
-    way /= np.linalg.norm(way)
     first = np.cross(way, [1.0, 0.0, 0.0])
-    first /= np.linalg.norm(first)
     frame = np.column_stack([first, np.cross(way, first), way])
     corners, at = (points @ frame)[triangles], positions @ frame
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]

@@ -6,6 +6,7 @@ import pytest
 from ssilang.kernel import elements
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.solids import solid
+from ssilang.kernel.elements.solids.solid_products import _cofactors
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.mesh.mesh import CellBlock
@@ -47,6 +48,15 @@ def matrices(zone, parameters, monkeypatch):
     found = elements.stiffness(zone, field).values
     monkeypatch.setattr(solid, "uniform_stiffness", lambda *given: None)
     return found, elements.stiffness(zone, field).values, seen[0] is not None
+
+
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_cofactors_are_the_inverse_s_and_stay_in_their_matrix(d):
+    J, room = np.random.default_rng(d).standard_normal((d, d)), np.full((5, d), 7.0)
+    det = _cofactors(J, room[:d])
+    np.testing.assert_allclose(room[:d], det * np.linalg.inv(J).T, rtol=1e-12)
+    assert det == pytest.approx(np.linalg.det(J), rel=1e-12)
+    assert (room[d:] == 7.0).all()
 
 
 STRESS = Mode.PLANE_STRESS
