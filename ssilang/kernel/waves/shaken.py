@@ -13,6 +13,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.statics.cells_amiss import bordered_solids
+from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
@@ -25,6 +27,8 @@ LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made 
 STRONG = 0.9  # of the energy of the ground's velocity: what lies below carries the motion
 FEWER = 0.625  # of the usual cells of a wavelength: five linear ones, where each costs a tenth
 LOOKED_AT = 2000  # cells of a block
+GRAVITIES = (9.81, 9810.0)  # in metres or millimetres
+ALIKE = (0.75, 6.0)  # impedances of sides over that of their cells; rock beside soil has some
 
 
 def axes_of(problem: Problem) -> list[str]:
@@ -52,11 +56,18 @@ def changing(problem: Problem) -> BoolArray:
 
 
 def accelerations(problem: Problem) -> FloatArray:
-    """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others."""
+    """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others.
+
+    Where one node has all the mass, any force on it is some: one of -1 alone, or of -g, is meant.
+    """
     forces, T, along = problem.loading.forces, problem.constraints.T, translations(problem)
     if forces.size >= LARGE or not along.size:
         return np.zeros((along.shape[1], forces.shape[1]))
-    return shares(T.T @ (problem.M @ along), T.T @ forces)
+    found = shares(T.T @ (problem.M @ along), T.T @ forces)
+    if len(np.unique(problem.numbering.nodes[problem.M.diagonal() > 0.0])) == 1:
+        meant = np.isclose(-found.min(axis=0)[:, None], (1.0, *GRAVITIES), SAME).any(axis=1)
+        found = found * (meant | ~changing(problem))
+    return found
 
 
 def is_shaken(problem: Problem, name: str) -> bool:
@@ -104,6 +115,38 @@ class Long:
     wanted: float
     cells: float
     usual: int
+
+
+def unlike_sides(stiffness: Matrix, mass: Matrix, damping: Matrix) -> tuple[int, float] | None:
+    """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
+
+    A uniform strain s across a face of area A and a translation t tell the impedance of cells of
+    length l: `rho V_p A = sqrt(s K s t M t) / l`.
+    """
+    heavy = {id(b.raw_nodes): b for b in mass.blocks}
+    edges = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+    for block, zone, border in bordered_solids(stiffness) if edges else ():
+        points = block.table.coordinates[block.nodes]
+        faces = [(list(local), own) for (_, local), own in zip(zone.cells.kind.faces, border)]
+        ways = [(i, n) for i, n in ((0, "UX"), (0, "UR"), (1, "UY")) if n in block.unknowns]
+        for local, own in faces if id(block.raw_nodes) in heavy else ():
+            keys, across = face_keys(block.nodes[:, local]), np.ptp(points, axis=1)
+            for axis, name in ways[: zone.cells.kind.dimension - 1]:
+                flat = np.ptp(points[:, local, axis], axis=1) < SAME * across[:, axis]
+                for edge in edges if (own & flat).any() else ():
+                    met = own & flat & np.isin(keys, beside := face_keys(edge.nodes))
+                    on = np.array([u == name for u in block.unknowns]) * 1.0
+                    x = points[met, :, axis] - points[met, :, axis].mean(axis=1, keepdims=True)
+                    s, K = x[:, block.local] * on, block.values[met]
+                    M = heavy[id(block.raw_nodes)].values[met]
+                    stiff = np.einsum("ni,nij,nj->n", s, K, s) * np.einsum("i,nij,j->n", on, M, on)
+                    wanted = float((np.sqrt(np.maximum(stiff, 0.0)) / across[met, axis]).sum())
+                    on = np.array([u == name for u in edge.unknowns]) * 1.0
+                    given = edge.values[np.isin(beside, keys[met])]
+                    ratio = float(np.einsum("i,nij,j->", on, given, on)) / (wanted or np.inf)
+                    if ratio and not ALIKE[0] < ratio < ALIKE[1]:
+                        return int(block.nodes[met][0, local[0]]), ratio
+    return None
 
 
 def longest_cell(
