@@ -80,7 +80,7 @@ def warn_of_rate(call: Call, curve: Curve, highest: float) -> None:
 
 
 def _left_out(call: Call, times: FloatArray) -> int:
-    """How many instants a motion of the script had, of which these were kept; nought if none had."""
+    """How many instants a motion of the script had, of which these were kept; 0 if none had."""
     for value in call.session.frame.named().values():
         held = value.stand_ins("ACCE") if isinstance(value, LazyRows) else None
         track = getattr(held[0], "track", None) if held else None

@@ -78,11 +78,9 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
         if mass > 0.0 and any(abs(weight / mass / g - 2.0) < AGAIN for g in GRAVITIES):
             yield "operators.dynamics.weight-twice", {"mass": mass, "weight": weight, "node": node}
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
-            if (
-                mass * GRAVITIES[0] > TIMES * weight
-                and (accelerations(problem) * changing(problem)).any()
-            ):
-                told = {"mass": mass, "weight": weight, "times": mass * GRAVITIES[0] / weight}
+            times = mass * GRAVITIES[0] / weight
+            if times > TIMES and (accelerations(problem) * changing(problem)).any():
+                told = {"mass": mass, "weight": weight, "times": times}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
             if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
                 for code, told in _beside_its_base(bodies, own, up, force):
@@ -91,12 +89,9 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
 
 def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    numbering, joints, stops = (
-        bodies.problem.numbering,
-        bodies.problem.interface,
-        bodies.problem.contact,
-    )
-    rows = joints.J if joints is not None else stops.G
+    problem, joints = bodies.problem, bodies.problem.interface
+    assert joints is not None or problem.contact is not None
+    rows, numbering = problem.contact.G if joints is None else joints.J, problem.numbering
     lifts = (rows @ up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
