@@ -99,7 +99,10 @@ def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: Floa
     borne = numbering.nodes[np.unique(rows.indices)]
     borne = borne[np.isin(borne, numbering.nodes[own])]
     centre = numbering.table.coordinates[borne].mean(axis=0)
-    for turn in (rigid_motions(numbering, centre)[:, 3:] * own[:, None]).T:
+    motions, C = rigid_motions(numbering, centre) * own[:, None], problem.constraints.C
+    aside = motions[:, : len(axes_of(problem)) - 1]
+    for turn in motions[:, 3:].T:
+        turn -= aside @ np.linalg.lstsq(C @ aside, C @ turn)[0]  # about what is held aside
         if bodies.holds(turn):
             continue
         levers, ends = (rows @ turn).reshape(lifts.shape)[under, -1], np.zeros(int(under.sum()))
