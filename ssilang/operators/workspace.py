@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -51,6 +52,8 @@ class Workspace:
         Files of the run; made when first asked for (`ssilang.operators.files.outputs.run_output`).
     petsc : PetscServer or None
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
+    heated : mapping of object to str
+        What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
     """
 
     nodes: NodeTable = field(default_factory=NodeTable)
@@ -64,6 +67,7 @@ class Workspace:
     options: dict[str, Any] = field(default_factory=dict)
     output: RunOutput | None = None
     petsc: PetscServer | None = None
+    heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
 
     @property
     def units(self) -> UnitSystem | None:
@@ -104,7 +108,7 @@ def open_session(session: Session) -> Session:
     """Give a session its evaluator, its workspace and its operators."""
     from ssilang.language.run.evaluator import Evaluator
     from ssilang.operators.loader import prepare_operators
-    from ssilang.operators.tables.soundness import apart, flaw_of
+    from ssilang.operators.tables.soundness import apart, flaw_of, follow
 
     prepare_operators()
     Evaluator(session)
@@ -113,5 +117,5 @@ def open_session(session: Session) -> Session:
     session.make_point = made.point
     session.dimension = lambda: made.dimension
     session.units = lambda: made.units
-    session.flaw_of, session.apart = flaw_of, apart
+    session.flaw_of, session.apart, session.follow = flaw_of, apart, follow
     return session

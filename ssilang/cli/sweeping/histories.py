@@ -142,7 +142,7 @@ def _parquet(target: Path, runs: list[tuple[Row, Path]], swept: Sequence[str]) -
                 continue
             table = pq.read_table(path)
             first = [
-                pa.array([_as(row[n], kind, pa)] * len(table), kind)
+                pa.array([str(row[n]) if kind == pa.string() else row[n]] * len(table), kind)
                 for n, kind in zip(("run", *swept), kinds, strict=True)
             ]
             arrays = [*first, *(table[name].cast(own.field(name).type) for name in own.names)]
@@ -158,7 +158,3 @@ def _type(pa: Any, values: list[Any]) -> Any:
     if kinds == {int}:
         return pa.int64()
     return pa.float64() if kinds <= {int, float} else pa.string()
-
-
-def _as(value: Any, kind: Any, pa: Any) -> Any:
-    return str(value) if kind == pa.string() else value

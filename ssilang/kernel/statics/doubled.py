@@ -94,6 +94,19 @@ def idle_nodes(blocks: Iterable[ElementMatrices], matrix: Matrix) -> IntArray:
     return np.array(found, np.int64)
 
 
+def clamped_alone(matrix: Matrix) -> IntArray:
+    """The node (1,) of plates that is clamped, where no other is held and springs bear some."""
+    terms, springs = terms_of(matrix), [b.nodes for b in matrix.blocks if b.raw_nodes.shape[1] == 1]
+    zoned = [(b.nodes, b.zone) for b in matrix.blocks if b.zone and "RX" in b.unknowns]
+    plates = [nodes for nodes, zone in zoned if zone.cells.kind.dimension == 2]
+    if not plates or not springs:
+        return terms.nodes[:0]
+    own = np.unique(np.concatenate([n.ravel() for n in plates]))
+    held = terms.nodes[terms.alone & (terms.sense == 0) & np.isin(terms.nodes, own)]
+    borne = np.isin(np.concatenate([n.ravel() for n in springs]), own).sum()
+    return held[: int(len(held) > PLANE and (held == held[0]).all() and borne >= PLANE)]
+
+
 def held_nowhere(matrix: Matrix) -> set[str]:
     """Unknowns that conditions of one term hold, and no element, of a model, nor other one has."""
     terms = terms_of(matrix)
@@ -145,6 +158,8 @@ def terms_of(matrix: Matrix) -> Terms:
     return made
 
 
+PLANE = 3
+"""Conditions, or nodes, that a plate in space wants at least to be clamped, or borne."""
 SAME = 1e-9
 """Difference of the sums of two cells' matrices that is none."""
 _POINTS = ("IMPEDANCE", "MODAL", "STATIQUE")

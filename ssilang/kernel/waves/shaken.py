@@ -7,16 +7,19 @@ the ground then.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.statics.cells_amiss import bordered_solids
+from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
-    from ssilang.kernel.matrices.matrix import Matrix
+    from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
     from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -25,6 +28,9 @@ LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made 
 STRONG = 0.9  # of the energy of the ground's velocity: what lies below carries the motion
 FEWER = 0.625  # of the usual cells of a wavelength: five linear ones, where each costs a tenth
 LOOKED_AT = 2000  # cells of a block
+GRAVITIES = (9.81, 9810.0)  # in metres or millimetres
+SIDEWAYS = ((0, "UX"), (0, "UR"), (1, "UY"))
+ALIKE = (0.75, 6.0)  # impedances of sides over that of their cells; rock beside soil has some
 
 
 def axes_of(problem: Problem) -> list[str]:
@@ -52,11 +58,18 @@ def changing(problem: Problem) -> BoolArray:
 
 
 def accelerations(problem: Problem) -> FloatArray:
-    """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others."""
+    """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others.
+
+    Where one node has all the mass, any force on it is some: one of -1 alone, or of -g, is meant.
+    """
     forces, T, along = problem.loading.forces, problem.constraints.T, translations(problem)
     if forces.size >= LARGE or not along.size:
         return np.zeros((along.shape[1], forces.shape[1]))
-    return shares(T.T @ (problem.M @ along), T.T @ forces)
+    found = shares(T.T @ (problem.M @ along), T.T @ forces)
+    if len(np.unique(problem.numbering.nodes[problem.M.diagonal() > 0.0])) == 1:
+        meant = np.isclose(-found.min(axis=0)[:, None], (1.0, *GRAVITIES), SAME).any(axis=1)
+        found = found * (meant | ~changing(problem))
+    return found
 
 
 def is_shaken(problem: Problem, name: str) -> bool:
@@ -106,6 +119,50 @@ class Long:
     usual: int
 
 
+def unlike_sides(stiffness: Matrix, mass: Matrix, damping: Matrix) -> tuple[int, float] | None:
+    """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
+
+    A uniform strain s across a face of area A and a translation t tell the impedance of cells of
+    length l: `rho V_p A = sqrt(s K s t M t) / l`.
+    """
+    heavy = {id(b.raw_nodes): b for b in mass.blocks}
+    edges = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+    solids = bordered_solids(stiffness) if edges else []
+    for (block, zone, border), (axis, name) in product(solids, SIDEWAYS):
+        x = block.table.coordinates[block.nodes, axis]
+        if name not in block.unknowns or axis == zone.cells.kind.dimension - 1:
+            continue
+        for (_, local), own in zip(zone.cells.kind.faces, border, strict=True):
+            side = own & (np.ptp(x[:, local], axis=1) < SAME * np.ptp(x, axis=1))
+            keys = face_keys(block.nodes[:, local])
+            for edge in edges if side.any() and id(block.raw_nodes) in heavy else ():
+                beside = face_keys(edge.nodes)
+                met, own_mass = side & np.isin(keys, beside), heavy[id(block.raw_nodes)]
+                squares = _strained(block, own_mass, np.flatnonzero(met), x[met], name)
+                wanted = (
+                    np.sqrt(np.maximum(np.prod(squares, axis=0), 0.0)) / np.ptp(x[met], axis=1)
+                ).sum()
+                on = np.array([u == name for u in edge.unknowns]) * 1.0
+                given = np.einsum("i,nij,j->", on, edge.values[np.isin(beside, keys[met])], on)
+                if (times := given / (wanted or np.inf)) and not ALIKE[0] < times < ALIKE[1]:
+                    return int(block.nodes[met][0, local[0]]), float(times)
+    return None
+
+
+def _strained(
+    block: ElementMatrices,
+    mass: ElementMatrices,
+    some: slice | IntArray,
+    x: FloatArray,
+    name: str,
+) -> tuple[FloatArray, FloatArray]:
+    """`s K s` and `t M t` of cells, s growing with coordinates x by one and t a translation."""
+    moved = np.array([u == name for u in block.unknowns]) * 1.0
+    strain = (x - x.mean(axis=1, keepdims=True))[:, block.local] * moved
+    stiff = np.einsum("ni,nij,nj->n", strain, block.values[some], strain)
+    return stiff, np.einsum("i,nij,j->n", moved, mass.values[some], moved)
+
+
 def longest_cell(
     stiffness: Matrix, mass: Matrix, axis: str, frequency: float, upwards: bool = True
 ) -> Long | None:
@@ -124,10 +181,7 @@ def longest_cell(
         if axis in block.unknowns and len({*block.unknowns}) == kind.dimension > 1:
             some = slice(None, None, 1 + len(block.values) // LOOKED_AT)
             up = block.table.coordinates[block.nodes[some], kind.dimension - 1]
-            moved = np.array([u == axis for u in block.unknowns]) * 1.0
-            shear = (up - up.mean(axis=1, keepdims=True))[:, block.local] * moved
-            stiff = np.einsum("ni,nij,nj->n", shear, block.values[some], shear)
-            whole = np.einsum("i,nij,j->n", moved, heavy[id(block.raw_nodes)].values[some], moved)
+            stiff, whole = _strained(block, heavy[id(block.raw_nodes)], some, up, axis)
             speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
             length = np.ptp(up, axis=1) if upwards else longest_sides(zone)[some]
             times = length / np.where(speed > 0.0, speed, np.inf)

@@ -238,6 +238,7 @@ class PhraseRunner(OperandReader):
         if found.family in OF_MODELS:
             for value in self.session.apart([o.value for o in call.used]):
                 call.warn("operand-apart", value, operand=call.place_of(value).text[:40])
+        self.session.follow(call, found.name, results)
         span = operand.span
         if self._overflowed:
             self._overflowed = False

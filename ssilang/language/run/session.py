@@ -116,6 +116,8 @@ class Session:
         the operators' package.
     apart : function
         The fields among operands that have no node of the model beside them; set likewise.
+    follow : function
+        Looks at each call of an operator, by its name, and at what it gave; set likewise.
     """
 
     script_directory: Path = field(default_factory=Path.cwd)
@@ -132,6 +134,7 @@ class Session:
     units: Callable[[], UnitSystem | None] = lambda: None
     flaw_of: Callable[[Any], str] = lambda value: ""
     apart: Callable[[Sequence[Any]], list[Any]] = lambda values: []
+    follow: Callable[[Any, str, Any], None] = lambda call, name, results: None
     warnings: list[Any] = field(default_factory=list)
     assignments: dict[str, Any] = field(default_factory=dict)  # name -> span of its first target
     checks: list[Check] = field(default_factory=list)

@@ -100,7 +100,9 @@ def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> R
     index = " ".join(names) if len(names) > _LISTED else "\n".join(before + name for name in names)
     meaning = entry.said(language)
     if entry.values:
-        meaning += "\n" + teller(language)("help.allowed", values=_allowed(entry))
+        meaning += "\n" + teller(language)(
+            "help.allowed", values=" | ".join(map(as_written, entry.values))
+        )
     for bound, code in ((entry.range, "help.range"), (entry.usual, "help.usual-range")):
         if told := bounds_told(bound, entry.index, language):
             meaning += f"\n{teller(language)(code)}{COLON[language]}{told}"
@@ -120,10 +122,6 @@ _ANY = {"": "help.any-index", "unknown": "help.any-unknown"}
 def _index(entry: TableEntry, language: str) -> str:
     special = {NUMBER: "help.any-integer", ANYTHING: _ANY[entry.by]}.get(entry.index)
     return teller(language)(special) if special else entry.index
-
-
-def _allowed(entry: TableEntry) -> str:
-    return " | ".join(as_written(w) for w in entry.values)
 
 
 def _default(entry: TableEntry, language: str) -> str:

@@ -6,6 +6,7 @@ import re
 
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.kernel.waves.shaken import strong_frequency
+from ssilang.language.values import LazyRows
 from ssilang.operators.prelude import *
 
 CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples show, they do
@@ -67,9 +68,23 @@ def warn_of_rate(call: Call, curve: Curve, highest: float) -> None:
     if len(steps) < 3 or (steps <= 0.0).any():
         return
     most = 0.5 / float(np.median(steps))
-    if highest > most * (1.0 + 1e-6) and strong_frequency(times, values, 0, CONTENT) > 0.5 * most:
-        told = {"highest": highest, "most": most, "step": 0.5 / most}
+    if highest <= most * (1.0 + 1e-6):
+        return
+    told = {"highest": highest, "most": most, "step": 0.5 / most}
+    if count := _left_out(call, times):
+        call.warn("operators.curves.spectrum-beyond-kept", **told, count=count, kept=len(times))
+    elif strong_frequency(times, values, 0, CONTENT) > 0.5 * most:
         call.warn("operators.curves.spectrum-beyond-sampling", **told)
+
+
+def _left_out(call: Call, times: FloatArray) -> int:
+    """How many instants a motion of the script had, of which these were kept; 0 if none had."""
+    for value in call.session.frame.named().values():
+        held = value.stand_ins("ACCE") if isinstance(value, LazyRows) else None
+        track = getattr(held[0], "track", None) if held else None
+        if track and len(times) == len(held[1]) < len(track.wanted) and (held[1] == times).all():
+            return len(track.wanted)
+    return 0
 
 
 def warn_of_damping(call: Call, *ratios: float) -> None:

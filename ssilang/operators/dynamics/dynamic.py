@@ -65,7 +65,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     plausibility.warn_of_start(entries, problem, inputs)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
-    plausibility.warn_resolution(entries, problem)
+    plausibility.warn_of_strength(entries, problem)
     asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
     results = TableObserver(NodeHistories(saved, problem=problem, nodes=asked), whole)
@@ -85,8 +85,13 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     try:
         with recorded(record):
             history = _integrated(entries, problem, observers, line, bodies)
+    except BaseException:
+        plausibility.warn_of_contact(entries, problem)
+        raise
     finally:
         line.close()
+    shown = extremes.known and uplift is not None  # macro-elements rock unseen
+    plausibility.warn_of_contact(entries, problem, extremes if shown else None)
     if record is not None:
         record.save(history, extremes)
     _say_reduction(entries, history)

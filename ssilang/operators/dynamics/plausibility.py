@@ -14,7 +14,7 @@ from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import idle_nodes
-from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
+from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
@@ -30,9 +30,10 @@ from ssilang.kernel.stepping.problem.plausibility import (
 )
 from ssilang.kernel.waves.shaken import AXES, translations
 from ssilang.operators.dynamics.reports import conserved
-from ssilang.operators.dynamics.shaking import bridged, warn_of_shaking
+from ssilang.operators.dynamics.shaking import bridged, sides_unlike, warn_of_shaking
 from ssilang.operators.dynamics.standing import (
     bodies_stand,
+    footing_too_wide,
     ground_twice,
     out_of_balance,
     unequal_joints,
@@ -42,6 +43,7 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
+    from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
@@ -127,10 +129,10 @@ def _mass_held(problem: Problem, _: Inputs) -> Told:
     """A mass that supports hold, all but a hundredth of it."""
     mass, along = problem.M, translations(problem)
     moved = np.asarray((along * (mass @ along)).sum(axis=1), float)
-    held = abs(problem.constraints.T).sum(axis=1) <= ROUNDING
-    if moved[held].sum() > HELD * moved.sum() > 0.0 and not problem.loading.imposed.any():
-        told = {"held": moved[held].sum() / along.shape[1], "whole": moved.sum() / along.shape[1]}
-        node = problem.numbering.table.told(int(problem.numbering.nodes[(moved * held).argmax()]))
+    still = held(problem)
+    if moved[still].sum() > HELD * moved.sum() > 0.0 and not problem.loading.imposed.any():
+        told = {"held": moved[still].sum() / along.shape[1], "whole": moved.sum() / along.shape[1]}
+        node = problem.numbering.table.told(int(problem.numbering.nodes[(moved * still).argmax()]))
         yield "operators.dynamics.mass-held", {**told, "node": node}
 
 
@@ -167,18 +169,18 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
     for sunk in bodies.sunk():
         told = {"node": problem.numbering.table.told(sunk.node), "axis": sunk.axis}
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
-    loose = list(bodies.loose())
+    zones, loose = () if (joints := problem.interface) is None else joints.joints, [*bodies.loose()]
+    slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
     if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in asked()):
-        joints = () if (found := problem.interface) is None else found.joints
-        slides = found is not None and (found.parameters[:, Parameter.KS1] == 0.0).any()
-        told = {"macro": any(is_macro(j.zone) for j in joints), "slides": bool(slides)}
+        told = {"macro": any(is_macro(j.zone) for j in zones), "slides": slides}
         yield "operators.dynamics.turns-away", told
     for found in loose:
         told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
         if found.pressed:
             yield "operators.dynamics.nothing-presses", told
         else:
-            yield "operators.dynamics.slides-away", told | {"joints": problem.interface is not None}
+            told |= {"joints": problem.interface is not None, "slides": slides}
+            yield "operators.dynamics.slides-away", told
 
 
 def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
@@ -197,10 +199,12 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
-    ground_twice,
+    ground_twice, footing_too_wide, sides_unlike,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
-IN_STATICS = (_imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice)
+IN_STATICS = (
+    _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
+)  # fmt: skip
 OF_STIFFNESS = (_masses_alone, _motions, out_of_balance, bodies_stand)
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
@@ -277,14 +281,21 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         yield "operators.dynamics.load-missed", told | {"seen": float(seen[at])}
 
 
-def warn_resolution(entries: Entries, problem: Problem) -> None:
-    """Warn when the step does not resolve contact, saying the step to use."""
+def warn_of_strength(entries: Entries, problem: Problem) -> None:
+    """Warn of joints out of proportion, of what has no mass, of ground that yields."""
     warn_contrast(entries, problem)
     warn_massless(entries, problem)
     warn_overloaded(entries, problem)
-    found = contact_resolution(problem)
-    if found is None or found.resolved:
+
+
+def warn_of_contact(entries: Entries, problem: Problem, extremes: Extremes | None = None) -> None:
+    """Warn when the step does not resolve contact that was lost, as far as is known."""
+    found, known = contact_resolution(problem), {} if extremes is None else extremes.found()
+    lost = known.get(("OUVERTURE", ""))
+    if found is None or found.resolved or (lost is not None and not lost.value):
         return
+    if entries.call.session.warned("operators.dynamics.mass-held"):
+        return  # of the mass that is left
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
     keeps = joints is not None and conserved(joints)

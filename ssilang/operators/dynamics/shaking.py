@@ -19,13 +19,14 @@ from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
-from ssilang.kernel.stepping.problem.bodies import ROUNDING, loose_bodies
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
+    GRAVITIES,
     SAME,
     accelerations,
     axes_of,
@@ -34,13 +35,13 @@ from ssilang.kernel.waves.shaken import (
     shares,
     strong_frequency,
     translations,
+    unlike_sides,
 )
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
-GRAVITIES = (G, 1e3 * G)  # in metres or millimetres
 STRONG = 3.0  # g; more than the ground of any earthquake but one
 WEIGHT = (0.05, 3.0)  # g; what pulls down
 MANY = 3  # nodes, or instants: fewer say nothing of a rule
@@ -122,7 +123,7 @@ class _Entering:
 
     def _masses_one_way(self) -> Told:
         """Masses that move along some axes, and do not weigh, or shake, along others."""
-        problem, free = self.problem, abs(self.problem.constraints.T).sum(axis=1) > ROUNDING
+        problem, free = self.problem, ~held(self.problem)
         nodes, at = np.unique(problem.numbering.nodes, return_inverse=True)
         by_node = sp.csr_array((np.ones(len(at)), (at, np.arange(len(at)))))
         mass = np.asarray(by_node @ (self.along * (problem.M @ self.along)))
@@ -183,30 +184,38 @@ class _Entering:
         numbering, damping = self.problem.numbering, self.inputs.damping
         rows, up = abs(self.problem.constraints.C).sum(axis=0) > 0.0, len(self.axes) - 1
         dashpots = [b for b in damping.blocks if b.kind == "AMORTISSEMENT"] if damping else []
-        held = np.concatenate([numbering.nodes[rows], *(b.nodes.ravel() for b in dashpots)])
+        tied = np.concatenate([numbering.nodes[rows], *(b.nodes.ravel() for b in dashpots)])
         blocks = [b.nodes.ravel() for b, _, _ in bordered_solids(self.inputs.stiffness)]
-        if not blocks or not len(held):
+        if not blocks or not len(tied):
             return 0.0
         points = numbering.table.coordinates[np.concatenate(blocks)]
         size, low = np.ptp(points, axis=0), points[:, up].min()
-        free = (numbering.table.coordinates[held, up] <= low + ROUNDING * size[up]).all()
+        free = (numbering.table.coordinates[tied, up] <= low + ROUNDING * size[up]).all()
         return float(size[up] / size[axis]) if free and size[axis] else 0.0
 
     def _sides(self) -> Told:
         """Rollers along the shaking: held that way and free to move up, at several heights."""
-        numbering, T = self.problem.numbering, self.problem.constraints.T
-        free = abs(T).sum(axis=1) > ROUNDING
+        numbering, free = self.problem.numbering, ~held(self.problem)
         rising = numbering.nodes[(self.along[:, -1] > 0.0) & free]
         moved = self.shaken + np.abs(self.base).sum(axis=1)
         for axis in np.flatnonzero(moved[:-1] > SAME * moved.max()):
-            held = numbering.nodes[(self.along[:, axis] > 0.0) & ~free]
-            held = held[np.isin(held, rising)]
-            points = numbering.table.coordinates[held]
+            still = numbering.nodes[(self.along[:, axis] > 0.0) & ~free]
+            still = still[np.isin(still, rising)]
+            points = numbering.table.coordinates[still]
             heights, across = points[:, len(self.axes) - 1], points[:, axis]
             if len(np.unique(heights.round(9))) >= LEVELS:
-                told = {"count": len(held), "node": numbering.table.told(int(held[0]))}
+                told = {"count": len(still), "node": numbering.table.told(int(still[0]))}
                 told |= {"axis": self.axes[axis], "plane": not np.ptp(across).round(9)}
                 yield "operators.dynamics.sides-held", told
+
+
+def sides_unlike(_: Problem, inputs: Inputs) -> Told:
+    """Upright sides that absorb waves of another ground than that beside them."""
+    if inputs.mass is not None and inputs.damping is not None:
+        found = unlike_sides(inputs.stiffness, inputs.mass, inputs.damping)
+        if found is not None:
+            told = {"node": inputs.mass.table.told(found[0]), "times": found[1]}
+            yield "operators.dynamics.sides-unlike", told
 
 
 def bridged(problem: Problem, inputs: Inputs) -> Told:
@@ -250,7 +259,7 @@ def _across(
 
 def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str) -> Told:
     """A joint's lower side held whole, on cells that go on below it."""
-    numbering, free = problem.numbering, abs(problem.constraints.T).sum(axis=1) > ROUNDING
+    numbering, free = problem.numbering, ~held(problem)
     along = numbering.nodes[(numbering.codes == numbering.code(axis)) & free]
     if np.isin(lower, along).any() or problem.loading.imposed.any():
         return
@@ -288,7 +297,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         yield STUCK[bool(moves.any())], {}
         return
     alone = np.diff(rows.indptr) == 1
-    held, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
+    fixed, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
     for joint in joints.joints:
         if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
             continue
@@ -300,7 +309,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         along = _normal(joint)
         names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}
         codes = [numbering.code(n) for n in names & {*numbering.unknowns}]
-        kept = held[np.isin(numbering.nodes[held], tied) & np.isin(numbering.codes[held], codes)]
+        kept = fixed[np.isin(numbering.nodes[fixed], tied) & np.isin(numbering.codes[fixed], codes)]
         if len(kept):
             yield "operators.dynamics.footing-held", {"unknown": numbering.label(int(kept[0]))}
             return

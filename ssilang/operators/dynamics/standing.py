@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.io.ground_motions.record import G
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
@@ -22,7 +21,7 @@ from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-from ssilang.kernel.waves.shaken import LARGE, accelerations, axes_of, changing, shares
+from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -30,10 +29,12 @@ OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 OFF = 1e-3  # of a load's factor: less is no other one
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
+AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
 TIMES = 10.0  # masses of a body over that of its weight
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BESIDE = 1e-6  # of a footing's width
+WIDE = 20.0  # sizes of a model
 
 
 def out_of_balance(problem: Problem, _: Inputs) -> Told:
@@ -55,7 +56,7 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
 
 
 def bodies_stand(problem: Problem, _: Inputs) -> Told:
-    """Bodies that joints or stops alone bear: from which side, where, and with what weight."""
+    """Bodies that joints or stops alone bear: from which side, where; with what weight, all."""
     bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
     force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
     for body in bodies.moving if axes else ():
@@ -72,33 +73,42 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
                 yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
+        if mass > 0.0 and any(abs(weight / mass / g - 2.0) < AGAIN for g in GRAVITIES):
+            yield "operators.dynamics.weight-twice", {"mass": mass, "weight": weight, "node": node}
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
-            if mass * G > TIMES * weight and (accelerations(problem) * changing(problem)).any():
-                told = {"mass": mass, "weight": weight, "times": mass * G / weight}
+            times = mass * GRAVITIES[0] / weight
+            if times > TIMES and (accelerations(problem) * changing(problem)).any():
+                told = {"mass": mass, "weight": weight, "times": times}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
-            joints = problem.interface if problem.contact is None else None
-            if joints is not None and not bodies.touches(up):
-                for code, told in _beside_its_base(bodies, own, up, force, joints):
+            if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
+                for code, told in _beside_its_base(bodies, own, up, force):
                     yield code, {**told, "node": node}
 
 
-def _beside_its_base(
-    bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray, joints: Interface
-) -> Told:
+def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    lifts, numbering = (joints.J @ up).reshape(-1, joints.dimension), bodies.problem.numbering
+    problem, joints = bodies.problem, bodies.problem.interface
+    assert joints is not None or problem.contact is not None
+    rows, numbering = problem.contact.G if joints is None else joints.J, problem.numbering
+    lifts = (rows @ up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
         return
-    upper = np.concatenate([numbering.table.resolve(j.upper).ravel() for j in joints.joints])
-    upper = upper[np.isin(upper, numbering.nodes[own])]
-    centre = numbering.table.coordinates[upper].mean(axis=0)
-    for turn in (rigid_motions(numbering, centre)[:, 3:] * own[:, None]).T:
+    borne = numbering.nodes[np.unique(rows.indices)]
+    borne = borne[np.isin(borne, numbering.nodes[own])]
+    centre = numbering.table.coordinates[borne].mean(axis=0)
+    motions, C = rigid_motions(numbering, centre) * own[:, None], problem.constraints.C
+    aside = motions[:, : len(axes_of(problem)) - 1]
+    for turn in motions[:, 3:].T:
+        turn -= aside @ np.linalg.lstsq(C @ aside, C @ turn)[0]  # about what is held aside
         if bodies.holds(turn):
             continue
-        middle, half = _normal_jumps(joints, turn)
-        levers = np.append((joints.J @ turn).reshape(-1, joints.dimension)[under, -1], middle)
-        ends = np.append(np.zeros(int(under.sum())), half)
+        levers, ends = (rows @ turn).reshape(lifts.shape)[under, -1], np.zeros(int(under.sum()))
+        if joints is not None:
+            middle, half = _normal_jumps(joints, turn)
+            levers, ends = np.append(levers, middle), np.append(ends, half)
+        elif (rows @ turn)[~under].any():  # stops that act along other axes
+            continue
         low, high = float((levers - ends).min()), float((levers + ends).max())
         at, width = float(turn @ force) / float(up @ force), high - low
         off = max(low - at, at - high)
@@ -148,3 +158,13 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
         stiff = float(np.median(problem.K.diagonal()[cells])) if cells.any() else 0.0
         if float(joints.parameters[:, Parameter.KN].max()) < STIFF * stiff:
             yield "operators.dynamics.ground-twice", {"node": numbering.table.told(node)}
+
+
+def footing_too_wide(problem: Problem, _: Inputs) -> Told:
+    """Macro-elements wider than the model is large, many times: millimetres among metres."""
+    if (joints := problem.interface) is None or not any(is_macro(j.zone) for j in joints.joints):
+        return
+    size = float(np.ptp(problem.numbering.table.coordinates[problem.numbering.nodes], axis=0).max())
+    widths = joints.parameters[:, [Parameter.LARG, Parameter.LONG, Parameter.RAYO]]
+    if (wide := float(widths.max(initial=0.0))) > WIDE * size > 0.0:
+        yield "operators.dynamics.footing-too-wide", {"width": wide, "size": size}

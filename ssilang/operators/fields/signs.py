@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import reduce
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
@@ -357,14 +358,13 @@ def vector_product_in_cells(
 
 def _crossed(algebra: Any, first: Any, second: Any, names: list[list[str]]) -> Any:
     a, b, c = names
-    total = None
+    terms = []
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         plus = algebra.multiplied_by_names(first, second, ([a[j]], [b[k]], [c[i]]))
         minus = algebra.multiplied_by_names(first, second, ([a[k]], [b[j]], [c[i]]))
-        term = algebra.added(plus, minus, -1.0)
-        total = term if total is None else algebra.added(total, term)
-    return total
+        terms.append(algebra.added(plus, minus, -1.0))
+    return reduce(algebra.added, terms)
 
 
 def _picked_nodes(field: NodeField, old: list[str], new: list[str]) -> NodeField:

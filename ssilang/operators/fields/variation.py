@@ -92,11 +92,22 @@ def beyond_laws(laws: CellField, fields: CellField) -> Iterator[dict[str, Any]]:
         known = _known(block, fields)
         for name, values in block.components.items():
             held = values.ravel() if values.dtype == object else ()
-            for part in {id(v): v.parts[0] for v in held if isinstance(v, Curve)}.values():
-                over = part.abscissa_name.strip()
-                at = known.get(over, np.zeros(0))
-                if (value := beyond(part.abscissas, part.ordinates, at)) is not None:
-                    yield _told(part.abscissas, value, name, over)
+            for law in {id(v): v for v in held if isinstance(v, Curve | Cloud)}.values():
+                over, x, y = _points(law)
+                if (value := beyond(x, y, known.get(over, np.zeros(0)))) is not None:
+                    yield _told(x, value, name, over)
+
+
+def _points(law: Curve | Cloud) -> tuple[str, FloatArray, FloatArray]:
+    """What a law depends on first, where it is given, its values there; of objects, rising ones."""
+    if isinstance(law, Curve):
+        part = law.parts[0]
+        return part.abscissa_name.strip(), part.abscissas, part.ordinates
+    over, *rest = law.columns
+    x = law.numbers(over)
+    plain = len(rest) == 1 and all(isinstance(v, int | float) for v in law.columns[rest[0]])
+    order = np.argsort(x)
+    return over, x[order], (law.numbers(rest[0]) if plain else x)[order]
 
 
 @vari.form(said("NUAG"))

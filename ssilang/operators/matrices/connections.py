@@ -13,6 +13,7 @@ from ssilang.kernel.statics.cells_amiss import (
 from ssilang.kernel.statics.doubled import (
     beside_joints,
     bodies_apart,
+    clamped_alone,
     doubled_supports,
     held_nowhere,
     idle_nodes,
@@ -79,6 +80,7 @@ def warn_connections(
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": idle_nodes(springs, matrix),
+        "operators.matrices.clamped-alone": clamped_alone(matrix),
         "operators.matrices.relation-sign": wrong_signs(matrix),
         "operators.matrices.lines-crossed": crossed_lines(matrix),
         "operators.matrices.joints-twice": repeated_joints(model, characteristics),

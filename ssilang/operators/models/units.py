@@ -14,6 +14,8 @@ COMPRESSIBLE = 0.49
 """Poisson's ratio beyond which linear cells are told: a punch on QUA4 is 4 % too stiff there, by
 27 % at 0.499; on CUB8 by 43 % and three times."""
 _PURE = ("", "deg", "rad")  # the same in any system
+THICK = {"EPAI": (1, 1.0), "SECT": (2, 10.0)}
+"""Parameters that are lengths of a section: their power, how many times the size of a zone."""
 _SIZES = Range(high=5000.0)  # m; what soil and structures measure across at most
 
 
@@ -104,8 +106,10 @@ def _odd(
             told = {"other": other, "range": usual.text(f"{name}/{other}")}
             yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
             break
-    if name == "EPAI" and low > (size := _size(zone)) > 0.0:
-        yield "operators.models.thicker-than-large", {"value": low, "size": size}
+    power, times = THICK.get(name, (1, np.inf))
+    if low ** (1.0 / power) > times * (size := _size(zone)) > 0.0:
+        told = {"value": low, "size": size, "across": low ** (1.0 / power), "shell": power == 1}
+        yield "operators.models.thicker-than-large", told
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
     if name == "NU" and high > COMPRESSIBLE and mean is not None:
         yield "operators.models.locks", {"value": high, "mean": mean, "element": zone.element}

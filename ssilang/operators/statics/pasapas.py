@@ -178,7 +178,9 @@ def _stretch(
         observers.append(keeper)
     line = ProgressLine("PASAPAS", entries.call.session.told)
     try:
-        (plausibility.warn_resolution if dynamic else plausibility.warn_contrast)(work, problem)
+        (plausibility.warn_of_strength if dynamic else plausibility.warn_contrast)(work, problem)
+        if dynamic:
+            plausibility.warn_of_contact(work, problem)
         with recorded(record):
             if path:
                 history = follow(entries, _path_run(problem, inputs, bodies, observers))

@@ -1,5 +1,5 @@
 """Values that no calculation can use: numbers that are not finite, curves without content, fields
-that lie elsewhere than the model they are given with."""
+that lie elsewhere than the model they are given with, stresses with those of a temperature."""
 
 from __future__ import annotations
 
@@ -13,9 +13,19 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
+from ssilang.operators.workspace import workspace
 
 Field = NodeField | CellField
+_HANDED = {
+    "BSIG": {"stress": "force"}, "RESO": {"force": "motion"}, "SIGM": {"motion": "whole"},
+    "EXCO": {"whole": "whole"}, "ET": {"force": "force", "motion": "motion", "whole": "whole"},
+    "+": {"force": "force", "motion": "motion"}, "*": {"force": "force", "motion": "motion"},
+}  # fmt: skip
+"""What operators make of what a temperature left: forces, displacements, stresses of the whole
+strain. Whatever else is done with these, such as taking the stress of THET from them, clears it."""
+_READ = frozenset(("MAXI", "MINI", "PRIN", "VMIS", "TRAC", "EXTR", "EVOL", "LIST", "INVA"))
 
 
 def flaw_of(value: object) -> str:
@@ -38,6 +48,27 @@ def apart(values: Sequence[object]) -> list[Any]:
     for block in model.mesh.blocks if lying else ():
         reached[block.connectivity] = True
     return [f for f, nodes in lying if not any(reached[n].any() for n in nodes)]
+
+
+def follow(call: Call, name: str, results: object) -> None:
+    """Warn where stresses of the whole strain are read from which no temperature was taken."""
+    heated = workspace(call.session).heated
+    made = [r for r in (results if isinstance(results, tuple) else (results,)) if r is not None]
+    if name == "THET":
+        heated.update((f, "stress") for f in made if isinstance(f, CellField))
+        heated.update(
+            (b.cells, "cells") for f in made if isinstance(f, CellField) for b in f.blocks
+        )
+    fields = [o.value for o in call.used if isinstance(o.value, Field)]
+    kinds = {heated[f] for f in fields if f in heated} if heated else set()
+    if "whole" in kinds and name in _READ:
+        call.warn("operators.statics.heat-in-stress")
+        heated.clear()
+    for kind in kinds & _HANDED.get(name, {}).keys():
+        for field in made:
+            cold = isinstance(field, CellField) and not any(b.cells in heated for b in field.blocks)
+            if isinstance(field, Field) and not cold:
+                heated[field] = _HANDED[name][kind]
 
 
 def other_values(first: CellField, second: CellField) -> list[str]:

@@ -8,14 +8,13 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.family import displacement_names, has_rotations
 from ssilang.kernel.statics.linear_motion import tied, without_pairs
 from ssilang.kernel.stepping.problem.problem import Problem
 
 ROUNDING = 1e-9  # stiffness against a translation, relative to the diagonal
-FREE = 1e-12  # share of the free motions in an unknown that is not fixed; less is rounding
 
 _KNOWN: WeakKeyDictionary[Problem, IntArray] = WeakKeyDictionary()
 """Bodies of problems that are still there: several looks at a start need them."""
@@ -46,6 +45,11 @@ def bodies_of(problem: Problem) -> IntArray:
     return _KNOWN[problem]
 
 
+def held(problem: Problem) -> BoolArray:
+    """Which unknowns (n,) the conditions leave no motion."""
+    return np.asarray(abs(problem.constraints.T).sum(axis=1)).ravel() <= ROUNDING
+
+
 def translation(problem: Problem, normals: FloatArray) -> FloatArray:
     """Motion (n,) of everything that is not fixed along the mean of normals (n_pairs, d)."""
     mean = normals.mean(axis=0)
@@ -55,8 +59,7 @@ def translation(problem: Problem, normals: FloatArray) -> FloatArray:
     assert joints is not None
     for name, value in zip(displacement_names(joints.joints[0].zone), mean, strict=True):
         motion[problem.numbering.where(name)] = value
-    fixed = np.asarray(abs(problem.constraints.T).sum(axis=1)).ravel() <= FREE
-    return np.where(fixed, 0.0, motion)
+    return np.where(held(problem), 0.0, motion)
 
 
 def loose_bodies(problem: Problem, t: FloatArray) -> list[LooseBody]:

@@ -21,7 +21,7 @@ from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.solvers.backends import SuperLUFactor
-from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, translation
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, translation
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces, closed_stiffness
 from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.problem import Problem
@@ -75,7 +75,7 @@ class Bodies:
         self.problem = problem
         self.label = bodies_of(problem)
         self.factors = problem.loading.at(problem.times)
-        moving = np.unique(self.label[abs(problem.constraints.T).sum(axis=1) > ROUNDING]).tolist()
+        moving = np.unique(self.label[~held(problem)]).tolist()
         self.moving: list[int] = moving if len(moving) <= MOST_BODIES else []
 
     def loose(self) -> Iterator[Loose]:
@@ -375,15 +375,15 @@ def overloads(problem: Problem, factors: FloatArray) -> list[Overload]:
         return []
     label = bodies_of(problem)
     force = problem.loading.forces @ factors
-    held = [label[_above(problem, bed)[0]] for bed in joints.beds]
+    borne = [label[_above(problem, bed)[0]] for bed in joints.beds]
     found = []
-    for bed, body in zip(joints.beds, held, strict=True):
+    for bed, body in zip(joints.beds, borne, strict=True):
         cells, cell = joints.cell_of(bed)
         along = translation(problem, cells.frames[cell, :1, -1])
         motion = np.where(label == body, along, 0.0)
         resisting = motion @ (problem.K @ motion)
         natural = motion**2 @ abs(problem.K.diagonal())
-        if held.count(body) > 1 or abs(resisting) > ROUNDING * natural:
+        if borne.count(body) > 1 or abs(resisting) > ROUNDING * natural:
             continue
         pressing = -float(motion @ force)
         if pressing > bed.capacity:

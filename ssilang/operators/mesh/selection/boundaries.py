@@ -84,19 +84,12 @@ def cote(
     mesh: Mesh = Arg("MAILLAGE", en="surface"),
 ) -> Mesh:
     """Give back a side."""
-    kept = _sides(call, mesh)
-    if not 1 <= number <= len(kept):
-        raise call.error("operators.mesh.no-such-side", number, number=number, count=len(kept))
-    return kept[number - 1]
+    return _one(call, number, all_sides(call, mesh), "operators.mesh.no-such-side")
 
 
 @cote.form(gives=ANY)
 def all_sides(call: Call, mesh: Mesh = Arg("MAILLAGE", en="surface")) -> tuple[Mesh, ...]:
     """Give back all sides."""
-    return _sides(call, mesh)
-
-
-def _sides(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     if not mesh.sides:
         raise call.error("operators.mesh.no-sides", mesh)
     return mesh.sides
@@ -109,19 +102,18 @@ def face(
     mesh: Mesh = Arg("MAILLAGE", en="volume"),
 ) -> Mesh:
     """Give back a face."""
-    kept = _faces(call, mesh)
-    if not 1 <= number <= len(kept):
-        raise call.error("operators.mesh.no-such-face", number, number=number, count=len(kept))
-    return kept[number - 1]
+    return _one(call, number, all_faces(call, mesh), "operators.mesh.no-such-face")
 
 
 @face.form(gives=ANY)
 def all_faces(call: Call, mesh: Mesh = Arg("MAILLAGE", en="volume")) -> tuple[Mesh, ...]:
     """Give back all faces."""
-    return _faces(call, mesh)
-
-
-def _faces(call: Call, mesh: Mesh) -> tuple[Mesh, ...]:
     if not mesh.sides:
         raise call.error("operators.mesh.no-faces", mesh)
     return mesh.sides
+
+
+def _one(call: Call, number: int, kept: tuple[Mesh, ...], lacking: str) -> Mesh:
+    if not 1 <= number <= len(kept):
+        raise call.error(lacking, number, number=number, count=len(kept))
+    return kept[number - 1]
