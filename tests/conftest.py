@@ -75,9 +75,22 @@ class _Nothing(set[str]):
 compiled.ALLOWED = _Nothing()
 
 
+COMPILE = {"kernel", "decks", "docs", "diagnostics", "api"}
+"""Folders whose tests need most of what is compiled."""
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Long tests come first: none is left to one process while the others wait for it."""
-    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    """Long tests come first: none is left to one process while the others wait for it.
+
+    Then those that compile, so that they are one process's: two would compile the same at a time.
+    """
+    root = Path(__file__).parent
+
+    def order(item: pytest.Item) -> tuple[bool, bool]:
+        folder = item.path.relative_to(root).parts[0]
+        return item.get_closest_marker("long") is None, folder not in COMPILE
+
+    items.sort(key=order)
 
 
 def pytest_collection_finish() -> None:

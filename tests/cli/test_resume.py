@@ -208,7 +208,6 @@ def wait_for(path: Path, process: subprocess.Popen) -> None:
 
 
 @posix
-@pytest.mark.long
 def test_processes_that_are_killed_go_on_to_the_same_files(tmp_path):
     deck, draw = tmp_path / "case.ssi", random.Random(3)
     deck.write_text(LONG)

@@ -164,26 +164,18 @@ import program
 
 from ssilang.kernel.base.compiled import PLAIN
 from ssilang.kernel.base.compiled.apart import Apart
-from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
+from ssilang.kernel.solvers.dense import factorise_dense
 
 assert isinstance(factorise_dense, Apart) is not PLAIN
 assert isinstance(program.halve, Apart) is not PLAIN
 
-
-@compiled
-def solved(A, pivots, X):
-    # elimination of 40 unknowns, then two right sides: functions apart called by a compiled one
-    if not factorise_dense(A, pivots):
-        raise ValueError("singular")
-    solve_factors_together(A, pivots, X)
-
-
-random = np.random.default_rng(5)
-A, X = random.normal(size=(40, 40)), random.normal(size=(40, 2))
-solved(A.copy(), np.zeros(40, np.int64), found := X.copy())
-assert np.allclose(A @ found, X)
-print([float(x).hex() for x in found.ravel()])
+# elimination of 40 unknowns: it calls a function apart
+A, rows = np.random.default_rng(5).normal(size=(40, 40)), np.arange(40)
+assert factorise_dense(made := A.copy(), pivots := np.zeros(40, np.int64))
+for i, j in enumerate(pivots):
+    rows[[i, j]] = rows[[j, i]]
+assert np.allclose((np.tril(made, -1) + np.eye(40)) @ np.triu(made), A[rows])
+print([float(x).hex() for x in made.ravel()])
 print(program.halve(np.array([8.0, 16.0]), 2))
 """
 
