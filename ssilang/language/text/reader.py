@@ -49,7 +49,7 @@ def integer_of(text: str, span: Span) -> tree.Number:
 
 def real_of(text: str, span: Span) -> tree.Number:
     """A real number, with E or D before its exponent; 'long-real' beyond what 64 bits hold."""
-    value = float(text.upper().replace("D", "E"))
+    value = float(text.upper().replace("D", "E").rstrip(" ."))
     if math.isinf(value):
         raise SsiError("long-real", span, text=text[:40])
     return tree.Number(value, span)

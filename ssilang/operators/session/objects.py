@@ -121,7 +121,7 @@ def _in_load(call: Call, load: Load) -> bool:
 
 
 def _in_model(call: Call, model: Model) -> bool:
-    what = call.keyword(("FORM", "CONS", "ELEM", "MATE"))
+    what = call.keyword(("FORM", "CONS", "ELEM", "MATE", "NON_LOCAL"))
     if what is None:
         raise call.error("operators.session.what-of-the-model")
     words = [str(w).strip() for w in call.all("MOT")]
@@ -131,6 +131,7 @@ def _in_model(call: Call, model: Model) -> bool:
             "CONS": (zone.constituent,),
             "ELEM": (zone.element,),
             "MATE": zone.behaviour,
+            "NON_LOCAL": (),  # MODE makes none
         }[what]
         if all(w in holders for w in words):
             return True

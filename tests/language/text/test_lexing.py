@@ -41,7 +41,7 @@ def test_words_take_underscores_and_special_first_characters(word):
     [
         ("1.", 1.0), (".5", 0.5), ("1.5", 1.5), ("200e9", 2e11), ("2E11", 2e11),
         ("1.D-3", 1e-3), ("2D-3", 2e-3), ("5.E-3", 5e-3), ("1.e+2", 100.0), ("-1.", -1.0),
-        ("-.5", -0.5), ("+3.", 3.0),
+        ("-.5", -0.5), ("+3.", 3.0), ("2.7e-2 .", 0.027), ("2D-3 . ", 2e-3),
     ],
 )  # fmt: skip
 def test_reals_are_written_with_a_dot_or_an_exponent(text, value):
