@@ -18,13 +18,7 @@ def write_completion(shell: str, parser: argparse.ArgumentParser, out: TextIO) -
     if shell == "words":
         out.write("\n".join(known_words()) + "\n")
         return
-    # The options of each command, and what each does.
-    formatter = parser._get_formatter()
-    found: Options = {}
-    for name, command in _subparsers(parser).choices.items():
-        actions = (a for a in command._actions if a.option_strings)
-        found[name] = {a.option_strings[-1]: formatter._get_help_string(a) or "" for a in actions}
-    out.write(_SHELLS[shell](found, commands_of(parser)))
+    out.write(_SHELLS[shell](options_of(parser), commands_of(parser)))
 
 
 def known_words() -> list[str]:
@@ -51,6 +45,16 @@ def commands_of(parser: argparse.ArgumentParser) -> dict[str, str]:
         str(a.metavar or a.dest): formatter._get_help_string(a) or ""
         for a in _subparsers(parser)._choices_actions
     }
+
+
+def options_of(parser: argparse.ArgumentParser) -> Options:
+    """The options of each command, and what each does."""
+    formatter = parser._get_formatter()
+    found: Options = {}
+    for name, command in _subparsers(parser).choices.items():
+        actions = (a for a in command._actions if a.option_strings)
+        found[name] = {a.option_strings[-1]: formatter._get_help_string(a) or "" for a in actions}
+    return found
 
 
 # ---- the shells ---------------------------------------------------------------------------------

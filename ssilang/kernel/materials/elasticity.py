@@ -24,7 +24,13 @@ KEPT: dict[Mode, tuple[int, ...]] = {
 
 
 def check_isotropic(young: FloatArray, poisson: FloatArray) -> None:
-    """Refuse moduli that no stable material has."""
+    """Refuse moduli that no stable material has.
+
+    Raises
+    ------
+    MaterialError
+        Unless -1 < NU < 0.5 everywhere.
+    """
     bad = (poisson <= -1) | (poisson >= 0.5)
     if bad.any():
         raise MaterialError(

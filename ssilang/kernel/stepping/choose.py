@@ -333,7 +333,14 @@ def only(name: str) -> tuple[Rule, ...]:
 
 
 def refuse_combinations(problem: Problem, full: bool) -> None:
-    """Refuse schemes and methods that exclude each other."""
+    """Refuse schemes and methods that exclude each other.
+
+    Raises
+    ------
+    KernelError
+        For adapted steps with others, and for conserving steps with friction, dual relations
+        or bearings.
+    """
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full):
         raise KernelError("kernel.stepping.adapted-steps-condensed-interface")

@@ -47,7 +47,13 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
 
 
 def refuse_expanding(joints: list[Zone], material: CellField) -> None:
-    """Refuse joints that expand where temperatures load a model in time."""
+    """Refuse joints that expand where temperatures load a model in time.
+
+    Raises
+    ------
+    MaterialError
+        If one has a coefficient of expansion: laws of joints take no free jumps.
+    """
     for seen in (zone_field(z, material) for z in joints):
         for name in {n for rates in JOINT_RATES.values() for n in rates if n in seen}:
             if np.any(seen.at(name, "STRESSES")):

@@ -213,7 +213,13 @@ def pendulum_energy(
 
 
 def check_lead_parameters(parameters: FloatArray) -> None:
-    """Refuse a lead and rubber bearing without stiffness, strength or hysteresis."""
+    """Refuse a lead and rubber bearing without stiffness, strength or hysteresis.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
     columns = _bearing_columns(parameters)
     refuse(columns["QD"] <= 0, columns["QD"], "QD", "> 0")
     refuse(columns["KPOS"] < 0, columns["KPOS"], "KPOS", ">= 0")
@@ -223,7 +229,13 @@ def check_lead_parameters(parameters: FloatArray) -> None:
 
 
 def check_pendulum_parameters(parameters: FloatArray) -> None:
-    """Refuse a friction pendulum without bowl or friction."""
+    """Refuse a friction pendulum without bowl or friction.
+
+    Raises
+    ------
+    MaterialError
+        Naming the parameter.
+    """
     columns = _bearing_columns(parameters)
     refuse(columns["RAYO"] <= 0, columns["RAYO"], "RAYO", "> 0")
     refuse(columns["FROT"] < 0, columns["FROT"], "FROT", ">= 0")

@@ -203,7 +203,14 @@ def _cumulate(state: FloatArray, new: FloatArray, n: int) -> None:
 
 
 def check_mohr_parameters(parameters: FloatArray) -> None:
-    """Refuse parameters of a Mohr-Coulomb joint that have no meaning."""
+    """Refuse parameters of a Mohr-Coulomb joint that have no meaning.
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, or a shear stiffness, angle, cohesion or strength is negative, or the
+        hardening in compression is not below the elastic stiffness.
+    """
     columns = {p.name: parameters[:, p] for p in Par}
     if not np.isfinite(parameters).all():
         raise MaterialError("kernel.interface.joint-parameter-not-finite-or-steep")

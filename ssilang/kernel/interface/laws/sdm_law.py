@@ -237,7 +237,17 @@ def _slide(
 def check_sdm_parameters(parameters: FloatArray) -> None:
     """Refuse parameters for which the SDM law has no traction or several.
 
-    With KN <= FU^2 / GF softening would be steeper than the elastic unloading.
+    Parameters
+    ----------
+    parameters : array (n, N_PARAMETERS)
+
+    Raises
+    ------
+    MaterialError
+        If KN <= 0, KS < 0, FU < 0, GF < 0, FC > 0, a perfectly brittle point (FU > 0 with
+        GF = 0), or KN <= FU^2 / GF: softening would be steeper than the elastic unloading, so
+        that one opening would have several tractions. The message names the least admissible KN
+        and the largest admissible FU.
     """
     columns = {p.name: parameters[:, p] for p in Par}
     refuse(columns["KN"] <= 0, columns["KN"], "KN", "> 0")

@@ -247,7 +247,13 @@ def _respond(
 
 
 def check_perfect(parameters: PointParameters) -> None:
-    """Refuse strengths without a cone."""
+    """Refuse strengths without a cone.
+
+    Raises
+    ------
+    MaterialError
+        Unless LTR > 0 and |LCS| >= LTR.
+    """
     tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
     if (tension <= 0).any() or (compression < tension).any():
         told = {"tension_min": tension.min(), "compression_min": compression.min()}
@@ -255,7 +261,13 @@ def check_perfect(parameters: PointParameters) -> None:
 
 
 def check_hardening(parameters: PointParameters) -> None:
-    """Refuse an ultimate cone of another slope than the first: ETA / MU = ALFA / BETA."""
+    """Refuse an ultimate cone of another slope than the first.
+
+    Raises
+    ------
+    MaterialError
+        Unless ETA / MU = ALFA / BETA, with BETA, MU and DELT positive.
+    """
     alpha, beta, eta, mu = (parameters[n] for n in ("ALFA", "BETA", "ETA", "MU"))
     if (beta <= 0).any() or (mu <= 0).any() or (parameters["DELT"] < 0).any():
         raise MaterialError("kernel.materials.drucker-prager-needs-beta")

@@ -65,7 +65,13 @@ def _crept(
 
 
 def check(parameters: PointParameters) -> None:
-    """Refuse exponents for which a step has no single answer."""
+    """Refuse exponents for which a step has no single answer.
+
+    Raises
+    ------
+    MaterialError
+        Unless AF1 >= 0, AF2 >= 1 and 0 < AF3 <= 1.
+    """
     limits = (("AF1", 0.0, np.inf), ("AF2", 1.0, np.inf), ("AF3", 1e-6, 1.0))
     for name, low, high in limits:
         wrong = (parameters[name] < low) | (parameters[name] > high)

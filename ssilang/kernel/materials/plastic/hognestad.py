@@ -67,7 +67,13 @@ def _table(p: PointParameters) -> FloatArray:
 
 
 def check(p: PointParameters) -> None:
-    """Refuse concrete whose curves do not exist, or whose cracks close gradually."""
+    """Refuse concrete whose curves do not exist, or whose cracks close gradually.
+
+    Raises
+    ------
+    MaterialError
+        Naming what must hold.
+    """
     if (p["FAMX"] >= 0).any():
         soft = MaterialError("kernel.materials.soft-crack-closing", value=p["FAMX"].max())
         raise soft.about("FAMX")

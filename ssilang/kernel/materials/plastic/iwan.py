@@ -29,7 +29,12 @@ _COMPONENTS = ("XX", "YY", "XY", "XZ", "YZ")
 
 
 def check(parameters: PointParameters) -> None:
-    """Refuse curves that no soil has."""
+    """Refuse curves that no soil has.
+
+    Raises
+    ------
+    MaterialError
+    """
     for curve in parameters.curves[CURVE][0]:
         break_points(curve)
 

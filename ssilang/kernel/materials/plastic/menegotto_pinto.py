@@ -57,7 +57,13 @@ def _table(p: PointParameters) -> FloatArray:
 
 
 def check(p: PointParameters) -> None:
-    """Refuse steel whose curves do not exist."""
+    """Refuse steel whose curves do not exist.
+
+    Raises
+    ------
+    MaterialError
+        Naming what must hold.
+    """
     slender = p["FALD"] > 5
     rules = {
         "STSY <= STSU": p["STSY"] <= p["STSU"],

@@ -90,6 +90,12 @@ def concrete(
 
 
 def check_concrete(parameters: PointParameters) -> None:
-    """Refuse concrete without strength."""
+    """Refuse concrete without strength.
+
+    Raises
+    ------
+    MaterialError
+        If FC = 0.
+    """
     if (parameters["FC"] == 0).any():
         raise MaterialError("kernel.materials.fc-concrete-needs-strength").about("FC")

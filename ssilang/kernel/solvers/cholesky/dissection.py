@@ -23,11 +23,21 @@ THIN = 0.3  # axes along which a part is shorter than this of its longest are no
 
 @dataclass(frozen=True, eq=False)
 class Tree:
-    """Order of elimination."""
+    """Order of elimination.
 
-    order: IntArray  # (n,) unknown at each place
-    first: IntArray  # (n_supernodes + 1,) first places; descendants right before their ancestor
-    parent: IntArray  # (n_supernodes,) supernode that separated it from others, -1 for roots
+    Attributes
+    ----------
+    order : array (n,)
+        Unknown at each place.
+    first : array (n_supernodes + 1,)
+        First place of each supernode; descendants stand right before their ancestor.
+    parent : array (n_supernodes,)
+        Supernode that separated it from others, -1 for roots.
+    """
+
+    order: IntArray
+    first: IntArray
+    parent: IntArray
 
 
 def dissection(A: sp.csr_array, points: FloatArray, last: IntArray) -> Tree:
@@ -92,12 +102,23 @@ class _Parts(NamedTuple):
 
 
 class _Points(NamedTuple):
-    """Points of the parts of one level, part after part."""
+    """Points of the parts of one level, part after part.
 
-    of: IntArray  # (n,) their numbers
-    first: IntArray  # (m,) place of the first point of each part
-    part: IntArray  # (n,)
-    links: Links  # numbers of points that are linked, both of one part
+    Attributes
+    ----------
+    of : array (n,)
+        Their numbers.
+    first : array (m,)
+        Place of the first point of each part.
+    part : array (n,)
+    links : Links
+        Numbers of points that are linked, both of one part.
+    """
+
+    of: IntArray
+    first: IntArray
+    part: IntArray
+    links: Links
 
     def numbers(self, chosen: BoolArray) -> IntArray:
         """How many chosen points are in each part."""
@@ -140,9 +161,7 @@ def _dissect(
         here = order[place]
         part_of[:] = -1
         part_of[here] = part
-        one, other = part_of[links[0]], part_of[links[1]]
-        within = (one == other) & (one >= 0)
-        links = links[0][within], links[1][within]
+        links = _inside(links, part_of)
         known = _Points(here, first, part, links)
         kind, cut = _best_cuts(known, parts.size, axes)
         # and those that no cut would part
@@ -159,6 +178,13 @@ def _dissect(
     return order, start, parent
 
 
+def _inside(links: Links, part_of: IntArray) -> Links:
+    """Links whose ends are of one part."""
+    one, other = part_of[links[0]], part_of[links[1]]
+    kept = (one == other) & (one >= 0)
+    return links[0][kept], links[1][kept]
+
+
 def _best_cuts(
     points: _Points, size: IntArray, axes: list[_Coordinate]
 ) -> tuple[IntArray, BoolArray]:
@@ -166,22 +192,12 @@ def _best_cuts(
     best, kinds = np.full(len(size), -1), np.zeros(len(points.of), np.int64)
     if not len(size):
         return kinds, best >= 0
-    first, places = points.first, [axis.x[points.of] for axis in axes]
-    ends = [(np.maximum.reduceat(x, first), np.minimum.reduceat(x, first)) for x in places]
-    spans = np.array([high - low for high, low in ends])
+    spans = np.array([_spans(axis.x[points.of], points.first) for axis in axes])
     widest = spans.max(axis=0)
     for axis, span in zip(axes, spans, strict=True):
-        many = len(axis.values)
-        ordered = np.sort(points.part * many + axis.ranks[points.of])
-        cut = axis.values[ordered[points.first + size // 2] % many] - 1e-9 * widest
+        cut = _middles(points, axis, size) - 1e-9 * widest
         upper = axis.x[points.of] >= cut[points.part]
-        n = len(axis.x)  # all points
-        side, touched = np.empty(n, bool), np.zeros(n, bool)
-        side[points.of] = upper
-        one, other = points.links
-        crossing = np.flatnonzero(side[one] != side[other])
-        touched[one[crossing]] = touched[other[crossing]] = True
-        touching = touched[points.of]
+        touching = _touching(points, upper, len(axis.x))
         below = points.numbers(~upper)
         above_touching, below_touching = (points.numbers(touching & u) for u in (upper, ~upper))
         score = np.minimum(above_touching, below_touching)
@@ -194,6 +210,29 @@ def _best_cuts(
         kind = np.where(border, BETWEEN, np.where(upper, ABOVE, BELOW))
         kinds = np.where(better[points.part], kind, kinds)
     return kinds, best >= 0
+
+
+def _spans(x: FloatArray, first: IntArray) -> FloatArray:
+    span: FloatArray = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
+    return span
+
+
+def _middles(points: _Points, axis: _Coordinate, size: IntArray) -> FloatArray:
+    """Coordinate of each part that half of its points have before it."""
+    many = len(axis.values)
+    ordered = np.sort(points.part * many + axis.ranks[points.of])
+    middles: FloatArray = axis.values[ordered[points.first + size // 2] % many]
+    return middles
+
+
+def _touching(points: _Points, upper: BoolArray, n: int) -> BoolArray:
+    """Which points of a side are linked to the other; n is the number of all points."""
+    side, touching = np.empty(n, bool), np.zeros(n, bool)
+    side[points.of] = upper
+    one, other = points.links
+    crossing = np.flatnonzero(side[one] != side[other])
+    touching[one[crossing]] = touching[other[crossing]] = True
+    return touching[points.of]
 
 
 def _sorted(points: _Points, kind: IntArray) -> IntArray:

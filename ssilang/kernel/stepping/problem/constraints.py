@@ -148,7 +148,13 @@ def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:
 
 
 def check_values(constraints: Constraints, imposed: FloatArray, numbering: Numbering) -> None:
-    """Refuse imposed values (n_rows, k) that redundant conditions contradict."""
+    """Refuse imposed values (n_rows, k) that redundant conditions contradict.
+
+    Raises
+    ------
+    KernelError
+        Naming the unknowns of the worst such row.
+    """
     for d in imposed.T:
         gap = np.abs(constraints.C @ constraints.particular(d) - d)
         wrong = np.flatnonzero(gap > 1e-9 * np.abs(d).max(initial=0.0))

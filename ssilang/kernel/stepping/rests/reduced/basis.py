@@ -152,7 +152,13 @@ class Reduction:
 
 
 def refuse_reduction(problem: Problem) -> None:
-    """Refuse what reduced models do not do."""
+    """Refuse what reduced models do not do.
+
+    Raises
+    ------
+    KernelError
+        For unilateral and non-associated relations, adaptive or conserving steps.
+    """
     if problem.contact is not None:
         raise KernelError("kernel.stepping.reduction-unilateral")
     if not problem.constraints.associated:
