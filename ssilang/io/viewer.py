@@ -278,7 +278,7 @@ class _Scene:
             self.plotter.add_mesh(data, scalars=name, rgb=True, lighting=False)
         else:
             self._add(data, name, values, row)
-        if camera is None:
+        if camera is None:  # from above on what lies in a plane, else as TRAC does
             self.plotter.enable_parallel_projection()
             low_x, high_x, low_y, high_y, low_z, high_z = self.plotter.bounds
             if high_z - low_z <= 1e-9 * max(high_x - low_x, high_y - low_y, 1e-300):

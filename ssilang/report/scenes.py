@@ -158,7 +158,7 @@ class _Shape:
 
     def __init__(self, grid: Any) -> None:
         self._size, self._types = grid.n_points, np.asarray(grid.celltypes).copy()
-        found = np.zeros(grid.n_cells, bool)
+        found = np.zeros(grid.n_cells, bool)  # joints: cells that have an opening or a traction
         for name in ("opening", "traction"):
             values = grid.cell_data.get(name)
             if values is not None:

@@ -104,6 +104,7 @@ def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
     normals : array (n, dim)
         Outer normals of the side that the points belong to.
     """
+    # shape functions (n, n_cells, k) of the feet of points on the cells' planes
     first = side.corners[:, 0]
     edges = side.corners[:, 1:] - first[:, None]
     metric = np.einsum("cid,cjd->cij", edges, edges)

@@ -56,7 +56,7 @@ def monodromy(M: FloatArray, C: FloatArray, K: FloatArray, w: float) -> FloatArr
         A.append(matrix)
     omega = 0.5 * h * (A[0] + A[1]) + np.sqrt(3.0) / 12.0 * h * h * (A[1] @ A[0] - A[0] @ A[1])
     total = np.eye(2 * n)
-    one = np.eye(omega.shape[-1])
+    one = np.eye(omega.shape[-1])  # for the exponential, by Pade's approximant
     square = omega @ omega
     even, odd = one + square / 10.0, 0.5 * omega + omega @ square / 120.0
     for factor in np.asarray(np.linalg.solve(even - odd, even + odd), dtype=np.float64):

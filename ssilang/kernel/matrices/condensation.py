@@ -53,8 +53,9 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
     order = np.argsort(rows.multipliers, kind="stable")
     S = sp.csr_array(S[order][:, order])
     codes = np.zeros(len(order), dtype=np.int64)
-    own = {"unknowns": ("LX",), "duals": ("FLX",), "codes": codes}
-    marks = replace(numbering, nodes=rows.multipliers[order], **own)
+    marks = replace(
+        numbering, unknowns=("LX",), duals=("FLX",), nodes=rows.multipliers[order], codes=codes
+    )
     return matrix_from_sparse(S, marks, "RIGIDITE", rows.associated)
 
 

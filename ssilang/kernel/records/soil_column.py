@@ -92,7 +92,7 @@ def transfers(
     where = np.clip(np.searchsorted(tops, depths * (1 - 1e-9), "right") - 1, 0, len(tops) - 2)
     for i, h in enumerate(soil.thickness):
         alpha, beta = (c[i] for c in soil.rayleigh())
-        modulus = soil.modulus[i] * (1 + 1j * omega * beta)
+        modulus = soil.modulus[i] * (1 + 1j * omega * beta)  # complex; k is the wave number
         k = omega * np.sqrt(soil.density[i] * (1 - 1j * alpha / omega) / modulus)
         for row in np.flatnonzero(where == i):
             u_at[row], s_at[row] = _down(u, s, k, modulus, depths[row] - tops[i])

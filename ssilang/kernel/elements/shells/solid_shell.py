@@ -229,6 +229,7 @@ class SolidShell(ElementFamily):
         values = np.zeros((n, 24, 24))
         for cells in chunks(n):
             brick = _bricks(zone, cells)
+            # geometric stiffness (n, 8, 8) of one unknown, 2 x 2 points in each layer
             square, line = quadrature("quadrangle", 4), quadrature("line", 5)
             points = np.column_stack([np.tile(square.points, (5, 1)), np.repeat(line.points, 4)])
             rule = Rule(points, np.repeat(line.weights, 4) * np.tile(square.weights, 5))

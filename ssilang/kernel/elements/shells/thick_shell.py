@@ -107,6 +107,7 @@ class ThickShell(ShellFamily):
         for a in range(3):
             G[:, :, a, :, :, a] = flat
         G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
+        # frames (n, p, 3, 3): along the first reference axis, in the surface, normal
         e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
         normal = np.cross(J[:, :, 0], J[:, :, 1])
         e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)

@@ -112,7 +112,7 @@ def _planned(A: sp.csr_array, tree: Tree) -> _Plan:
     lower = sp.csr_array(sp.triu(A[tree.order][:, tree.order]))  # its rows are columns of tril
     indptr, indices = lower.indptr.astype(np.int64), lower.indices.astype(np.int64)
     ptr, rows, above = _rows_below(tree, indptr, indices)
-    k, below = np.diff(tree.first), np.diff(ptr)
+    k, below = np.diff(tree.first), np.diff(ptr)  # where the panels of each begin
     whole, rest = np.divmod(k, WIDTH)
     sizes = WIDTH * whole * (k + below) - WIDTH**2 * (whole * (whole - 1) // 2)
     sizes += rest * (rest + below)
