@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
@@ -42,6 +45,8 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.curves.curve import Load
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 

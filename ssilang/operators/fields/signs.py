@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import Any
+
+import numpy as np
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
