@@ -293,12 +293,13 @@ class Bulk:
 
     def variables(self, state: State) -> list[CellFieldBlock]:
         """Internal variables of the zones."""
-        return [z.variable_block(s) for z, s in zip(self.zones, state, strict=True)]
+        pairs = zip(self.zones, state, strict=True) if self.zones else ()
+        return [z.variable_block(s) for z, s in pairs]
 
     def plastic_strains(self, state: State) -> list[CellFieldBlock]:
         """Plastic strains of the zones that have them."""
-        blocks = (z.plastic_block(s) for z, s in zip(self.zones, state, strict=True))
-        return [b for b in blocks if b is not None]
+        pairs = zip(self.zones, state, strict=True) if self.zones else ()
+        return [b for z, s in pairs if (b := z.plastic_block(s)) is not None]
 
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
 
 from ssilang.io.errors import NoGraphicsError
 from ssilang.io.plots.animation import animation_frames, save_animation
@@ -15,6 +19,7 @@ from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.submatrices import relation_nodes, support_mesh
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.combine import union as united
@@ -81,6 +86,10 @@ _OPTIONS: tuple[Entry, ...] = (
 )
 
 
+def _mesh(said: _Said, value: Any) -> None:
+    said.subjects.meshes.append(value)
+
+
 def _matrix(said: _Said, value: Any) -> None:
     cells, held = support_mesh(Matrix(value.table, value.blocks, ())), relation_nodes(value)
     parts = [cells] if cells.blocks else []
@@ -111,7 +120,7 @@ def _annotation(said: _Said, value: Annotation) -> None:
 
 
 _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
-    "MAILLAGE": lambda said, value: said.subjects.meshes.append(value),
+    "MAILLAGE": _mesh,
     "RIGIDITE": _matrix,
     "DEFORME": _deformed,
     "VECTEUR": _arrows,

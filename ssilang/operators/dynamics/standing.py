@@ -7,11 +7,10 @@ them: the levers of all points about an axis have its own between them.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
@@ -20,8 +19,11 @@ from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Bodies
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
+
+if TYPE_CHECKING:
+    from ssilang.kernel.base.arrays import BoolArray, FloatArray
+    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -88,8 +90,9 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
 def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
     problem, joints = bodies.problem, bodies.problem.interface
-    assert joints is not None or problem.contact is not None
-    rows, numbering = problem.contact.G if joints is None else joints.J, problem.numbering
+    stops = None if problem.contact is None else problem.contact.G
+    numbering, rows = problem.numbering, stops if joints is None else joints.J
+    assert rows is not None
     lifts = (rows @ up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from functools import reduce
+from typing import Any
+
+import numpy as np
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power

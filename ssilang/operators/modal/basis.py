@@ -74,7 +74,7 @@ def _at_marks(table: NodeTable, shapes: list[Shape], values: list[float], dual: 
 # --- projection ------------------------------------------------------------------------------
 
 
-BASIS = either(
+BASIS: Any = either(
     "basis",
     group(
         "tables",

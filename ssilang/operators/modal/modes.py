@@ -10,7 +10,8 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
 )
 from ssilang.kernel.matrices.submatrices import support_mesh
-from ssilang.kernel.modal.modes import ComplexMode, Mode, complex_modes, modes_between, modes_near
+from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
+from ssilang.kernel.modal.modes import Mode as RealMode
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
@@ -159,7 +160,7 @@ def directions(values: Sequence[float]) -> Table:
     return Table.of({i + 1: float(v) for i, v in enumerate(values)}, "DEPLACEMENTS_GENERALISES")
 
 
-def _real_entry(mode: Mode, signed: bool) -> dict[str, Any]:
+def _real_entry(mode: RealMode, signed: bool) -> dict[str, Any]:
     return {
         "FREQUENCE": mode.frequency if signed else abs(mode.frequency),
         "MASSE_GENERALISEE": mode.mass,

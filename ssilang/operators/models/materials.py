@@ -246,7 +246,14 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if isinstance(value, Model):
         raise call.error("operators.models.parameter-is-no-model", value, name=name)
     if isinstance(value, CellField):
-        return _field_values(call, zone, name, value)
+        seen = zone_field(zone, value)
+        if not seen.names:
+            return None
+        if name not in seen.names and len(seen.names) > 1:
+            raise call.error(
+                "operators.models.field-has-several-components", value, name=name, names=seen.names
+            )
+        return seen.raw(name if name in seen.names else seen.names[0])
     if isinstance(value, NodeField) and name not in SHAPES:
         raise call.error("operators.models.parameter-is-no-nodal-field", value, name=name)
     if isinstance(value, Point | Curve | Cloud | NodeField):
@@ -263,17 +270,6 @@ def _one_object(value: Any, n: int) -> Value:
     one = np.empty((1, 1), dtype=object)
     one[0, 0] = value
     return np.broadcast_to(one, (n, 1)), "GRAVITE"
-
-
-def _field_values(call: Call, zone: Zone, name: str, value: CellField) -> Value | None:
-    seen = zone_field(zone, value)
-    if not seen.names:
-        return None
-    if name not in seen.names and len(seen.names) > 1:
-        raise call.error(
-            "operators.models.field-has-several-components", value, name=name, names=seen.names
-        )
-    return seen.raw(name if name in seen.names else seen.names[0])
 
 
 def _set_axes(

@@ -16,7 +16,7 @@ _HELD = ("CHPOINT", "MCHAML", "MMODEL", "MAILLAGE", "RIGIDITE", "POINT")
 _NAME = opt("name", "MOT", en="name, of 4 characters")
 _LINK = choice("link", ("LIE", "LIBR"), en="follows the matter or not: the same here")
 _MOVES = choice("moves", ("TRAN", "ROTA"), en="moving: not available")
-_PATH = group(  # behind the name, which may be this word
+_PATH: Any = group(  # behind the name, which may be this word
     "path", choice("path", ("TRAJ",), en="moving: not available")
 )
 

@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
 
 from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.matrices.assembly import imposed_outside

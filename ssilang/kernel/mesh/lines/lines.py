@@ -229,7 +229,17 @@ def frenet_frames(line: Mesh) -> tuple[IntArray, FloatArray]:
     tangent, bend = _circle(u[both], v[both])
     frames[both, 0], frames[both, 1] = tangent, bend
     _ends(frames, ids, before, after, xyz, ~both)
-    return ids, _completed(frames)
+    # Normals made orthogonal and unit, binormals from them.
+    t, n = frames[:, 0], frames[:, 1]
+    n -= (n * t).sum(axis=1, keepdims=True) * t
+    size = np.linalg.norm(n, axis=1)
+    straight = size < _STRAIGHT
+    along_z = np.abs(t[:, 2]) > 1.0 - 1e-9
+    up = np.where(along_z[:, None], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    n[straight] = np.cross(up[straight], t[straight])
+    n /= np.linalg.norm(n, axis=1, keepdims=True)
+    frames[:, 2] = np.cross(t, n)
+    return ids, frames
 
 
 def _neighbours(line: Mesh) -> tuple[IntArray, IntArray]:
@@ -283,17 +293,3 @@ def _ends(
             continue
         frames[row, 0] = 2.0 * (near[0] @ chord) * chord - near[0]
         frames[row, 1] = near[1]
-
-
-def _completed(frames: FloatArray) -> FloatArray:
-    """Normals made orthogonal and unit, binormals from them."""
-    t, n = frames[:, 0], frames[:, 1]
-    n -= (n * t).sum(axis=1, keepdims=True) * t
-    size = np.linalg.norm(n, axis=1)
-    straight = size < _STRAIGHT
-    along_z = np.abs(t[:, 2]) > 1.0 - 1e-9
-    up = np.where(along_z[:, None], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
-    n[straight] = np.cross(up[straight], t[straight])
-    n /= np.linalg.norm(n, axis=1, keepdims=True)
-    frames[:, 2] = np.cross(t, n)
-    return frames

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ssilang.kernel.waves.layered_half_space import (
+    Given,
     HalfSpace,
     Kind,
     PlaneWave,
@@ -54,7 +55,7 @@ def _wave(entries: Entries, kind: Kind, depth: float) -> PlaneWave:
             "operators.dynamics.record-drifts", velocity=float(velocity[-1]), largest=largest
         )
     angle = np.radians(float(entries.needed("ANGLE")))
-    given = cast("Given", entries.get("NATURE"))
+    given = cast(Given, entries.get("NATURE"))
     return PlaneWave(kind, float(angle), given, float(curve.abscissas[0]), step, a, depth)
 
 
