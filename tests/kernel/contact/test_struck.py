@@ -11,7 +11,8 @@ from references.rocking import HousnerBlock
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.plasticity.run import BulkRun, integrate_bulk
+from ssilang.kernel.plasticity.run import BulkRun, integrate_bulk, step_bulk_statics
+from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
@@ -140,6 +141,52 @@ def test_the_block_comes_to_rest():
     assert np.abs(motion.theta[-100:]).max() < 1e-12
     assert motion.record.of("contact")[-1] == pytest.approx([0.5 * M * G] * 2, rel=1e-4)  # rounding
     assert motion.history.energies[-1, LOST] == pytest.approx(motion.available, rel=1e-4)
+
+
+def _loads(p, seen):
+    return step_statics(p, [seen])
+
+
+def _steps(p, seen):
+    return integrate(p, [seen])
+
+
+def _newton(p, seen):
+    return integrate(p, [seen], full_newton=True)
+
+
+def _yielding(way):
+    return lambda p, seen: way(BulkRun(p, Bulk((), (), p.numbering.size), (), (seen,)))
+
+
+@pytest.mark.parametrize(
+    ("run", "rule"),
+    [(_loads, ""), (_steps, ""), (_steps, "condensed"), (_newton, ""),
+     (_yielding(integrate_bulk), ""), (_yielding(step_bulk_statics), "")],
+)  # fmt: skip
+def test_a_stop_that_moves_does_the_work_of_its_reaction(run, rule, monkeypatch):
+    """By trapezia of instants: a spring is pressed, and let go, by what it stands on."""
+    if rule:
+        monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only(rule))
+    bench, times = Bench(), np.linspace(0.0, 1.0, 13)
+    top = bench.node(0.0, 0.0)
+    bench.spring(50.0, top)
+    bench.mass(0.5, top)
+    bench.fix(top, "UX")
+    stop = np.array([bench.relate([(1.0, "UY", top)], sense=1)])
+    way = 0.3 + 0.2 * np.sin(2.0 * times)
+    load = bench.load(NodeField.of(bench.table, stop, {"FLX": np.ones(1)}), times, way)
+    start = {
+        "displacement": bench.field((top, "UY", 0.3)),
+        "velocity": bench.field((top, "UY", 0.4)),
+    }
+    mass = bench.mass_matrix
+    problem = make_problem(Inputs(bench.stiffness, times, mass, None, load, **start))
+    history = run(problem, seen := Recorder(len(times)))
+    pushed, u = seen.of("contact")[:, 0], seen.of("u")[:, problem.numbering.index_of(top, "UY")]
+    np.testing.assert_allclose(u, way, atol=1e-9)
+    work = np.cumsum(0.5 * (pushed[1:] + pushed[:-1]) * np.diff(way))
+    np.testing.assert_allclose(history.energies[1:, EXTERNAL], work, rtol=1e-9)
 
 
 FEET = [(-1.0, 0.0, 1.0), (-1.0, -0.5, 0.0, 0.5, 1.0), (-1.0, -1.0, 1.0, 1.0)]

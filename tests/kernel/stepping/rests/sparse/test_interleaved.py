@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sparse
+from references.recorder import Recorder, assert_alike
 from references.soil_block import soil_block
 
 from ssilang.kernel.stepping import effective
@@ -15,25 +16,10 @@ BONDED = {"KN": 2e8, "KS": 1e8, "FU": 1e6, "GF": 1e6}
 SIZE = (16, 8, 4)
 
 
-class Instants:
-    """Keeps chosen instants."""
-
-    def __init__(self, problem, every=3):
-        self.wanted = np.arange(len(problem.times)) % every == 0
-        self.kept = []
-
-    def receive(self, snapshot):
-        """One more."""
-        self.kept.append(snapshot)
-
-    def close(self):
-        """Nothing to close."""
-
-
 def motions(problem, full):
-    instants = Instants(problem)
+    instants = Recorder(len(problem.times), 3)
     history = integrate(problem, [instants], full_newton=full)
-    return history, instants.kept
+    return history, instants.snapshots
 
 
 def assert_same(problem, tolerance=1e-9):
@@ -41,12 +27,7 @@ def assert_same(problem, tolerance=1e-9):
     assert (fast.loop, fast.solver) == ("condensed", "nested dissection")
     assert full.loop == "full Newton"
     assert len(kept) == len(expected) > 10
-    for name in ("u", "v", "reaction", "w", "t", "state"):
-        a, b = (np.array([getattr(s, name) for s in k]) for k in (kept, expected))
-        if b.size:
-            assert np.abs(a - b).max() <= tolerance * np.abs(b).max(), name
-    size = np.abs(full.energies).max()
-    assert np.abs(fast.energies - full.energies).max() <= tolerance * size
+    assert_alike((fast, kept), (full, expected), tolerance)
     return expected
 
 

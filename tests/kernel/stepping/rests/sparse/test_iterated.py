@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sparse
+from references.recorder import Recorder, assert_alike
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
@@ -19,42 +20,22 @@ from ssilang.kernel.stepping.run import integrate
 BY_MULTIGRID = Solver("multigrid")
 
 
-class Last:
-    """Keeps every fifth instant."""
-
-    def __init__(self, problem):
-        self.wanted = np.arange(len(problem.times)) % 5 == 0
-        self.kept = []
-
-    def receive(self, snapshot):
-        """One more."""
-        self.kept.append(snapshot)
-
-    def close(self):
-        """Nothing to close."""
-
-
 @pytest.fixture(autouse=True)
 def several_levels(monkeypatch):
     monkeypatch.setattr("ssilang.kernel.solvers.multigrid.hierarchy.COARSEST", 20)
 
 
 def run(problem, solver=FIRST_FIT):
-    kept = Last(problem)
+    kept = Recorder(len(problem.times), 5)
     history = integrate(replace(problem, solver=solver), [kept])
-    return history, kept.kept
+    return history, kept.snapshots
 
 
 def assert_same(problem, tolerance=1e-9):
     (found, kept), (exact, expected) = run(problem, BY_MULTIGRID), run(problem)
     assert (found.loop, found.solver) == ("multigrid", "multigrid")
     assert exact.solver != "multigrid"
-    for name in ("u", "v", "reaction", "w", "t", "state"):
-        a, b = (np.array([getattr(s, name) for s in k]) for k in (kept, expected))
-        if b.size:
-            assert np.abs(a - b).max() <= tolerance * np.abs(b).max(), name
-    size = np.abs(exact.energies).max()
-    assert np.abs(found.energies - exact.energies).max() <= tolerance * size
+    assert_alike((found, kept), (exact, expected), tolerance)
     return kept
 
 
