@@ -89,9 +89,9 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
 
 def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    problem, joints = bodies.problem, bodies.problem.interface
-    assert joints is not None or problem.contact is not None
-    rows, numbering = problem.contact.G if joints is None else joints.J, problem.numbering
+    problem, joints, stops = bodies.problem, bodies.problem.interface, bodies.problem.contact
+    numbering, rows = problem.numbering, joints.J if joints is not None else stops and stops.G
+    assert rows is not None
     lifts = (rows @ up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
