@@ -61,7 +61,7 @@ MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked 
 AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
-WANTED = 20  # steps of a period
+FEWEST, WANTED = 3, 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
 HELD = 0.99  # of all mass, on nodes that do not move
@@ -192,8 +192,9 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
     dt, found = float(np.diff(problem.times).max()), asked()
     period = min((s.period for s in found if s.sudden), default=dt)
     ratio = max((s.damping for s in found), default=0.0)
-    if dt > period:
+    if FEWEST * dt > period > 0.0 and any(s.sudden for s in found):
         told = {"dt": dt, "period": period, "wanted": period / WANTED, "steps": WANTED}
+        told["dt_over"] = dt / period
         yield "operators.dynamics.step-over-period", told
     if any(s.damping < 0.0 for s in found):
         yield "operators.dynamics.driven-by-dashpots", {"ratio": min(s.damping for s in found)}
