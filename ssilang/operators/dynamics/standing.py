@@ -89,8 +89,9 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
 
 def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    problem, joints, stops = bodies.problem, bodies.problem.interface, bodies.problem.contact
-    numbering, rows = problem.numbering, joints.J if joints is not None else stops and stops.G
+    problem, joints = bodies.problem, bodies.problem.interface
+    stops = None if problem.contact is None else problem.contact.G
+    numbering, rows = problem.numbering, stops if joints is None else joints.J
     assert rows is not None
     lifts = (rows @ up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
