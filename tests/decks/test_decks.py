@@ -111,7 +111,7 @@ SMALLER = {
         ("DT0 = 1.6E-3 ; NSAU = 10", "DT0 = 3.2E-3 ; NSAU = 5"),
     ],
     "seismic/record_to_verdict.ssi": [
-        ("1.25E-3 (MAXI LT0) ; T1 . 'PAS_SAUVES' = 16", "2.5E-3 3. ; T1 . 'PAS_SAUVES' = 8")
+        ("1.25E-3 (MAXI LT0) ; T1 . 'PAS_SAUVES' = 8", "2.5E-3 3. ; T1 . 'PAS_SAUVES' = 8")
     ],
     "seismic/tower_quake.ssi": [
         ("DUREE = 3. ;", "DUREE = 2.4 ;"),

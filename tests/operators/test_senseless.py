@@ -125,6 +125,19 @@ FILES = {
         "OPTI DIME 3 ; S = LIRE 'STL' 'm.stl' ;", {"m.stl": STL.format(0)},
         "operators.files.surface-flat",
     ),
+    "a surface without a triangle, binary": (
+        "OPTI DIME 3 ; S = LIRE 'STL' 'm.stl' ;", {"m.stl": 80 * "x" + 4 * "\0"},
+        "io.holds-no-triangles",
+    ),
+    "a surface whose corner is nowhere": (
+        "OPTI DIME 3 ; S = LIRE 'STL' 'm.stl' ;", {"m.stl": STL.format("nan")},
+        "io.no-readable-stl-file",
+    ),
+    "a set of more numbers than there is memory": (
+        "T = LIRE 'm.inp' ;",
+        {"m.inp": ABAQUS + "*NSET, NSET=A, GENERATE\n1, 1000000000000, 1\n"},
+        "io.no-readable-mesh-file",
+    ),
     "a flat surface as a table": (
         "OPTI DIME 3 ; S = LIRE 'm.stl' ;", {"m.stl": STL.format(0)},
         "operators.files.surface-flat",

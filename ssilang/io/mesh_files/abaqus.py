@@ -33,6 +33,7 @@ _NUMBERED = {
 _BEAMS = {"1": "SEG2", "2": "SEG3", "3": "SEG2"}
 _NAME = re.compile(r"([A-Z]+(?:[23]D)?)(\d+)")
 _MIDDLE_SECOND = (0, 1, 2)  # of a line's three nodes the second is the middle one, as Cast3M's
+MOST = 10**7  # numbers of a set that one line generates: no mesh here has more
 _GENERATED = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
 """Keywords that make nodes or elements, or move them, without their being written."""
 
@@ -127,6 +128,8 @@ def _members(generated: bool, data: list[str]) -> Iterator[str | int]:
         words = [t.strip().strip('"') for t in line.split(",") if t.strip()]
         if generated:
             first, last, step = ([int(t) for t in words] + [1])[:3]
+            if last - first > MOST * abs(step):
+                raise ValueError(f"{line.strip()}, GENERATE")
             yield from range(first, last + 1, step)
         else:
             yield from (int(t) if t.lstrip("-").isdigit() else t for t in words)

@@ -48,16 +48,17 @@ def read_stl(path: Path) -> FloatArray:
     """
     with readable(path):
         raw = path.read_bytes()
-    if len(raw) >= 84:
-        (count,) = struct.unpack_from("<I", raw, 80)
+    (count,) = struct.unpack_from("<I", raw, 80) if len(raw) >= 84 else (-1,)
+    try:
         if len(raw) == 84 + 50 * count:
             kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-            return np.frombuffer(raw, kind, count, 84)["corners"].astype(float)
-    rows = [
-        t.split()[1:4] for t in raw.decode("latin-1").splitlines() if t.split()[:1] == ["vertex"]
-    ]
-    try:
-        corners = np.array(rows, dtype=float).reshape(-1, 3, 3)
+            corners = np.frombuffer(raw, kind, count, 84)["corners"].astype(float)
+        else:
+            words = [t.split() for t in raw.decode("latin-1").splitlines()]
+            rows = [w[1:4] for w in words if w[:1] == ["vertex"]]
+            corners = np.array(rows, dtype=float).reshape(-1, 3, 3)
+        if not np.isfinite(corners).all():
+            raise ValueError("nan, inf")
     except ValueError as error:
         raise InputError("io.no-readable-stl-file", name=path.name, error=error) from error
     if len(corners) == 0:

@@ -102,8 +102,8 @@ def clamped_alone(matrix: Matrix) -> IntArray:
     if not plates or not springs:
         return terms.nodes[:0]
     own = np.unique(np.concatenate([n.ravel() for n in plates]))
-    held = terms.nodes[terms.alone & (terms.sense == 0) & np.isin(terms.nodes, own)]
-    borne = np.isin(np.concatenate([n.ravel() for n in springs]), own).sum()
+    held: IntArray = terms.nodes[terms.alone & (terms.sense == 0) & np.isin(terms.nodes, own)]
+    borne = int(np.isin(np.concatenate([n.ravel() for n in springs]), own).sum())
     return held[: int(len(held) > PLANE and (held == held[0]).all() and borne >= PLANE)]
 
 

@@ -151,8 +151,8 @@ def _describe_body(
     nodes = np.unique(numbering.nodes[own])
     points = numbering.table.coordinates[nodes]
     centre, extent = points.mean(axis=0), float(np.abs(points).max())
-    rigid = rigid_motions(numbering, centre)[own]
-    local = span[own]
+    own = own & np.isin(numbering.nodes, numbering.nodes[(span**2).sum(axis=1) > 1e-18])
+    rigid, local = rigid_motions(numbering, centre)[own], span[own]
     left, size, _ = np.linalg.svd(local, full_matrices=False)
     local = left[:, size > 1e-6 * size.max(initial=0.0)]
     pure = [k for k in range(6) if _inside(rigid[:, k], local)]

@@ -249,6 +249,7 @@ def _only(call: Call, field: NodeField) -> str:
 # ---- in time ------------------------------------------------------------------------------------
 
 MISSING = object()
+_NONE = 1e-12  # of the model's size: what a body at rest moves by rounding
 _LOST = 5.0  # % of a largest value that may stand between two instants
 
 
@@ -309,7 +310,9 @@ def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str)
         return
     steps, top = len(fields.track.wanted), int(np.abs(values).argmax())
     code = "operators.curves.peak-between"
-    if len(values) == steps or not 0 < top < len(values) - 1:
+    size = float(np.ptp(fields.track.problem.numbering.table.coordinates, axis=0).max())
+    rounding = abs(values[top]) <= _NONE * size
+    if len(values) == steps or rounding or not 0 < top < len(values) - 1:
         return
     bend = abs(values[top - 1] - 2.0 * values[top] + values[top + 1]) / 8.0
     told = {"share": 100.0 * bend / (abs(values[top]) or 1.0), "kept": len(values), "steps": steps}

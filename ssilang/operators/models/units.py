@@ -107,9 +107,9 @@ def _odd(
             yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}
             break
     power, times = THICK.get(name, (1, np.inf))
-    if low ** (1.0 / power) > times * (size := _size(zone)) > 0.0:
-        told = {"value": low, "size": size, "across": low ** (1.0 / power), "shell": power == 1}
-        yield "operators.models.thicker-than-large", told
+    if (across := low ** (1.0 / power)) > times * (size := _size(zone)) > 0.0:
+        thick: dict[str, Any] = {"value": low, "size": size, "across": across}
+        yield "operators.models.thicker-than-large", thick | {"shell": power == 1}
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
     if name == "NU" and high > COMPRESSIBLE and mean is not None:
         yield "operators.models.locks", {"value": high, "mean": mean, "element": zone.element}

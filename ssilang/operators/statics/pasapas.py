@@ -54,6 +54,7 @@ from ssilang.operators.statics.pasapas_steering import (
     working_table,
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
+from ssilang.operators.statics.solve import NOT_SMALL, far
 from ssilang.operators.statics.temperatures import warn_of_temperatures
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
@@ -200,6 +201,9 @@ def _stretch(
         record.save(history)
     if not dynamic or finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
+    moved = reached.values.get("DEPLACEMENTS")
+    for told in far(moved, NOT_SMALL) if moved is not None and not finite and not dynamic else ():
+        entries.warn("operators.statics.moves-far", operator="PASAPAS", **told)
     added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
     return Table.of(reached.values)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
-FAR = 10.0
+FAR, NOT_SMALL = 10.0, 0.2
 """Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
 _WORDS = (
@@ -82,22 +82,23 @@ def _reso(
     for load, solution in zip(loads, solutions, strict=True):
         if _is_anywhere(load) and not _is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
-        if "FLX" not in load.components:  # what is imposed may be a unit
-            _warn_far(call, solution)
+        judged = workspace(call.session).units is not None
+        if judged or "FLX" not in load.components:  # what is imposed may be a unit
+            for told in far(solution, NOT_SMALL if judged else FAR):
+                call.warn("operators.statics.moves-far", **told)
     _warn_condition(call, matrix, options)
     return solutions
 
 
-def _warn_far(call: Call, solution: NodeField) -> None:
-    """Warn of displacements of many times the size of the mesh."""
+def far(solution: NodeField, most: float) -> Iterator[dict[str, float]]:
+    """Displacements of more than so many times the size of the mesh."""
     parts = [p for n, p in solution.components.items() if n in ("UX", "UY", "UZ", "UR")]
     way = max((float(np.abs(p.values).max(initial=0.0)) for p in parts), default=0.0)
     if way > 0.0:
         nodes = np.concatenate([p.nodes for p in parts])
         size = float(np.ptp(solution.table.coordinates[nodes], axis=0).max())
-        if way > FAR * size > 0.0:
-            told = {"way": way, "size": size, "times": way / size}
-            call.warn("operators.statics.moves-far", **told)
+        if way > most * size > 0.0:
+            yield {"way": way, "size": size, "times": way / size}
 
 
 def _is_anywhere(field: NodeField) -> bool:

@@ -21,6 +21,9 @@ def warn_of_temperatures(entries: Entries, times: FloatArray) -> None:
     fields = [part_at(p, float(times[0])) for p in parts]
     if not fields or any(not isinstance(f, NodeField) for f in fields):
         return
+    given = {n: v.dtype for b in material.blocks for n, v in b.components.items()}
+    if not EXPANDS & given.keys() and np.dtype(object) not in given.values():
+        entries.warn("operators.statics.no-expansion")
     nodes = np.concatenate([f.node_ids for f in fields])
     if len(lost := without(model, material, nodes)):
         told = {"count": len(lost), "node": fields[0].table.told(int(lost[0]))}

@@ -53,21 +53,20 @@ def apart(values: Sequence[object]) -> list[Any]:
 def follow(call: Call, name: str, results: object) -> None:
     """Warn where stresses of the whole strain are read from which no temperature was taken."""
     heated = workspace(call.session).heated
-    made = [r for r in (results if isinstance(results, tuple) else (results,)) if r is not None]
+    if name != "THET" and not heated:
+        return
+    made = [f for f in (results if isinstance(results, tuple) else (results,)) if f is not None]
     if name == "THET":
-        heated.update((f, "stress") for f in made if isinstance(f, CellField))
         heated.update(
-            (b.cells, "cells") for f in made if isinstance(f, CellField) for b in f.blocks
+            dict.fromkeys(made, "stress") | {b.cells: "cells" for f in made for b in f.blocks}
         )
-    fields = [o.value for o in call.used if isinstance(o.value, Field)]
-    kinds = {heated[f] for f in fields if f in heated} if heated else set()
+    kinds = {heated.get(o.value, "") for o in call.used if isinstance(o.value, Field)}
     if "whole" in kinds and name in _READ:
         call.warn("operators.statics.heat-in-stress")
         heated.clear()
     for kind in kinds & _HANDED.get(name, {}).keys():
-        for field in made:
-            cold = isinstance(field, CellField) and not any(b.cells in heated for b in field.blocks)
-            if isinstance(field, Field) and not cold:
+        for field in (f for f in made if isinstance(f, Field)):
+            if isinstance(field, NodeField) or any(b.cells in heated for b in field.blocks):
                 heated[field] = _HANDED[name][kind]
 
 
