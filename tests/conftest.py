@@ -84,11 +84,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
     Then those that compile, so that they are one process's: two would compile the same at a time.
     """
-    root = Path(__file__).parent
 
     def order(item: pytest.Item) -> tuple[bool, bool]:
-        folder = item.path.relative_to(root).parts[0]
-        return item.get_closest_marker("long") is None, folder not in COMPILE
+        folders = item.nodeid.split("/")
+        return item.get_closest_marker("long") is None, COMPILE.isdisjoint(folders)
 
     items.sort(key=order)
 
