@@ -121,21 +121,20 @@ def _in_load(call: Call, load: Load) -> bool:
 
 
 def _in_model(call: Call, model: Model) -> bool:
-    what = call.keyword(("FORM", "CONS", "ELEM", "MATE", "NON_LOCAL"))
+    what = call.keyword(tuple(_OF_ZONES))
     if what is None:
         raise call.error("operators.session.what-of-the-model")
-    words = [str(w).strip() for w in call.all("MOT")]
-    for zone in model.zones:
-        holders = {
-            "FORM": (zone.formulation,),
-            "CONS": (zone.constituent,),
-            "ELEM": (zone.element,),
-            "MATE": zone.behaviour,
-            "NON_LOCAL": (),  # MODE makes none
-        }[what]
-        if all(w in holders for w in words):
-            return True
-    return False
+    words = {str(w).strip() for w in call.all("MOT")}
+    return any(words <= set(_OF_ZONES[what](zone)) for zone in model.zones)
+
+
+_OF_ZONES: dict[str, Callable[[Any], tuple[Any, ...]]] = {
+    "FORM": lambda zone: (zone.formulation,),
+    "CONS": lambda zone: (zone.constituent,),
+    "ELEM": lambda zone: (zone.element,),
+    "MATE": lambda zone: zone.behaviour,
+    "NON_LOCAL": lambda zone: (),  # MODE makes none
+}
 
 
 def _in_solution(call: Call, solution: Any) -> bool:

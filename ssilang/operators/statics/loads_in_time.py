@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+
 from ssilang.kernel.curves.algebra import check_increasing
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -131,7 +133,12 @@ def _sum(a: Any, b: Any, factor: float = 1.0) -> Any:
 
 
 def part_at(part: LoadPart, time: float) -> Any:
-    """What one loading is at a time: its field, scaled, or interpolated between its steps."""
+    """What one loading is at a time: its field, scaled, or interpolated between its steps.
+
+    Of a trajectory (TRAJ) it is a point.
+    """
+    if part.name == "TRAJ" and part.time is not None and isinstance(part.space, NodeField):
+        return _on_path(part.space, part.time.at(time))
     if not part.steps:
         factor = 1.0 if part.time is None else part.time.at(time)
         return part.space if part.time is None else _scaled(part.space, factor)
@@ -144,6 +151,15 @@ def part_at(part: LoadPart, time: float) -> Any:
         return before
     share = (time - times[k - 1]) / (times[k] - times[k - 1])
     return _sum(_scaled(before, 1.0 - share), part.steps[k][1], share)
+
+
+def _on_path(abscissas: NodeField, at: float) -> Point:
+    """The point of a meshed line where its curvilinear abscissa is `at`, or the nearest end."""
+    along = next(iter(abscissas.components.values()))
+    order = np.argsort(along.values)
+    nodes = abscissas.table.coordinates[along.nodes[order]]
+    found = np.array([[np.interp(at, along.values[order], x) for x in nodes.T]])
+    return Point(abscissas.table, int(abscissas.table.add(found)[0]))
 
 
 _LOAD = arg("load", "CHARGEME", en="loading")
@@ -165,10 +181,7 @@ def tire(
         raise call.error("operators.statics.parts-do-not-add-up", load, kinds=sorted(kinds))
     if not values:
         raise call.error("operators.statics.loading-empty", load)
-    total = values[0]
-    for value in values[1:]:
-        total = _sum(total, value)
-    return total
+    return reduce(_sum, values)
 
 
 @tire.form(said("TABL"))
@@ -297,16 +310,9 @@ def in_steps(call: Call, load: Load = _LOAD, name: str = _PART) -> Load:
     """Parts of a name as fields at listed times."""
     chosen = _named(call, load, [name])
     times = sorted({t for p in chosen for t in _times(p)})
-    total = Load(chosen)
-    steps = []
-    for time in times:
-        values = [part_at(p, time) for p in total.parts]
-        merged = values[0]
-        for value in values[1:]:
-            merged = _sum(merged, value)
-        steps.append((time, merged))
+    steps = tuple((t, reduce(_sum, [part_at(p, t) for p in chosen])) for t in times)
     others = tuple(p for p in load.parts if p not in chosen)
-    return Load((LoadPart(chosen[0].name, None, None, tuple(steps)), *others))
+    return Load((LoadPart(chosen[0].name, None, None, steps), *others))
 
 
 def _times(part: LoadPart) -> list[float]:

@@ -118,7 +118,11 @@ def _tell(session: Session, mesh: Mesh) -> None:
     for kind, check, code in _CHECKS:
         found = check(mesh)
         if found.n_cells:
-            count[kind] += 1
-            name = f"{kind}{count[kind]}"
-            session.frame.assign(name, found)
+            nodes = found.blocks[0].connectivity[:, 0].tolist()
+            held = [found] if kind == "MESH" else [Point(mesh.nodes, n) for n in nodes]
+            names = [f"{kind}{count[kind] + i + 1}" for i in range(len(held))]
+            count[kind] += len(held)
+            for name, value in zip(names, held, strict=True):
+                session.frame.assign(name, value)
+            name = " ... ".join(dict.fromkeys((names[0], names[-1])))
             session.print(" " + session.told(code, count=found.n_cells, name=name))
