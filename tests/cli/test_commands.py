@@ -41,6 +41,11 @@ COMMANDS = [
     ("help ZZZZ", "", 1, ["ZZZZ"], []),
     ("help CAPACITE", "", 1, ["CAPA is a Cast3M operator (heat)"], []),
     ("--lang fr help RESO", "", 0, ["RESO : opérateur"], []),
+    ("--lang fr help KN", "", 0, ["Raideur normale du joint"], []),
+    ("--lang=fr help KN", "", 0, ["Raideur normale du joint"], []),
+    ("help KN --lang fr", "", 0, ["Raideur normale du joint"], []),
+    ("help friction angle", "", 0, ["PHI"], []),
+    ("help TIOM", "", 1, ["did you mean TIMO?"], []),
 ]  # fmt: skip
 
 
