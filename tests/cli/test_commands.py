@@ -33,11 +33,19 @@ COMMANDS = [
     ("check {}", "x = FLUX 1 2 3 ; MESS x ;", 1, [], []),
     ("check --syntax-only {}", "x = FLUX 1 2 3 ; MESS x ;", 0, [], []),
     ("check {}", "x = 1 / 2 ;\nMESS x ;", 0, ["warning"], []),
+    ("{}", "x = 1 ;\ny = 1 / 0 ;", 1, [], ["deck.ssi:2:5"]),
+    (".", "", 2, [], []),
+    ("--lang fr --out o {}", "A = PRGO 1. ;", 1, [], ["erreur"]),
     ("help prog", "", 0, ["PROG", "Syntax"], []),
     ("help", "", 0, ["PROG", "DIME", "@VERIFIE"], []),
     ("help ZZZZ", "", 1, ["ZZZZ"], []),
     ("help CAPACITE", "", 1, ["CAPA is a Cast3M operator (heat)"], []),
     ("--lang fr help RESO", "", 0, ["RESO : opérateur"], []),
+    ("--lang fr help KN", "", 0, ["Raideur normale du joint"], []),
+    ("--lang=fr help KN", "", 0, ["Raideur normale du joint"], []),
+    ("help KN --lang fr", "", 0, ["Raideur normale du joint"], []),
+    ("help friction angle", "", 0, ["PHI"], []),
+    ("help TIOM", "", 1, ["did you mean TIMO?"], []),
 ]  # fmt: skip
 
 
@@ -49,6 +57,7 @@ def test_a_command_ends_with_its_code_and_says_what_it_should(
     assert done.code == code
     assert [w for w in out if w not in done.out] == [w for w in err if w not in done.err] == []
     assert "never said" not in done.out
+    assert ("Traceback" in done.err) is ("--debug" in arguments)
 
 
 def test_commands_that_say_one_thing_alone(ssilang, script):
@@ -59,13 +68,6 @@ def test_commands_that_say_one_thing_alone(ssilang, script):
     assert (sound.code, sound.out) == (0, "")
     done = ssilang(script("MESS 'sum ' (1 + 2) ;\n"))
     assert (done.code, done.out, done.err) == (0, "sum 3\n", "")
-
-
-def test_a_failing_script_gives_exit_code_1_and_a_placed_message(process, script):
-    done = process(script("x = 1 ;\ny = 1 / 0 ;\n"))
-    assert done.code == 1
-    assert "deck.ssi:2:5" in done.err
-    assert "Traceback" not in done.err
 
 
 @pytest.mark.parametrize(("text", "code"), [("x = 1 ;\n", 0), ("y = 1 / 0 ;\n", 1)])
@@ -94,17 +96,12 @@ def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script
     assert "DYNAMIC: compilé, un mode : linéaire" in ssilang("run", deck, "-v", "--lang", "fr").err
 
 
-def test_a_folder_is_no_script(ssilang, tmp_path):
-    assert ssilang(str(tmp_path)).code == 2
-
-
 def test_scripts_come_by_standard_input(ssilang, process):
     done = process(stdin="MESS 'piped' ;\n")
     assert (done.code, done.out) == (0, "piped\n")
     assert ssilang("-", stdin="MESS 'dash' ;\n").out == "dash\n"
-
-
-def test_standard_input_may_be_latin1(process):
+    done = process("--lang", "fr", stdin="A = PRGO 1. ;\n")
+    assert (done.code, "erreur" in done.err) == (1, True)
     assert process("-", stdin="MESS 'déjà' ;\n".encode("latin-1")).out == "déjà\n"
 
 
@@ -144,9 +141,9 @@ def test_a_setting_has_the_kind_of_the_number_that_it_replaces(ssilang, script):
 
 
 def test_wrong_settings_are_told_in_the_language_asked_for(ssilang, script, capsys):
-    with pytest.raises(SystemExit) as left:
+    with pytest.raises(SystemExit) as ended:
         ssilang("run", script("A = 1 ;\n"), "--set", "A", "--lang", "fr")
-    assert left.value.code == 2
+    assert ended.value.code == 2
     assert capsys.readouterr().err.startswith("erreur : 'A' n'est pas NOM=VALEUR")
 
 
@@ -178,24 +175,9 @@ def test_version(process):
 def test_wrong_usage_gives_exit_code_2(arguments):
     from ssilang.cli.main import main
 
-    with pytest.raises(SystemExit) as stopped:
+    with pytest.raises(SystemExit) as ended:
         main(arguments)
-    assert stopped.value.code == 2
-
-
-def test_options_may_stand_before_the_file(tmp_path, capsys):
-    from ssilang.cli.main import main
-
-    path = tmp_path / "x.ssi"
-    path.write_text("A = PRGO 1. ;\n", encoding="utf-8")
-    assert main(["--lang", "fr", "--out", str(tmp_path / "o"), str(path)]) == 1
-    assert "erreur" in capsys.readouterr().err
-
-
-def test_options_without_a_file_leave_standard_input_to_run(process):
-    done = process("--lang", "fr", stdin="A = PRGO 1. ;\n")
-    assert done.code == 1
-    assert "erreur" in done.err
+    assert ended.value.code == 2
 
 
 def test_deep_blocks_run_in_a_fresh_process(process, tmp_path):

@@ -13,7 +13,6 @@ import pytest
 from script_runs import HOPPING
 
 from ssilang.cli.main import main
-from ssilang.io import checkpoint
 from ssilang.operators.dynamics.checkpoints import KeptCalculation
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of one system")
@@ -22,22 +21,27 @@ SHORT = HOPPING.format(dt=1e-3, end=0.1, every=10, steps=20)
 LONG = HOPPING.format(dt=1e-3, end=3.0, every=300, steps=200)
 
 
+def end_behind(path, *words, step=0, hook="reached"):
+    """Run a deck that is ended once a step was reached, or when all have."""
+    reached = getattr(KeptCalculation, hook)
+
+    def end(self, done, state):
+        reached(self, done, state)
+        if done >= step:
+            raise KeyboardInterrupt
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(KeptCalculation, hook, end)
+        assert main([str(path), *words]) == 1
+
+
 @pytest.fixture
 def case(tmp_path, monkeypatch, capsys):
     """Path of a deck in the working folder, whose calculation was ended behind a checkpoint."""
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "case.ssi"
     path.write_text(SHORT)
-    reached = KeptCalculation.reached
-
-    def end(self, done, state):
-        reached(self, done, state)
-        if done >= 60:
-            raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(KeptCalculation, "reached", end)
-        assert main([str(path)]) == 1
+    end_behind(path, step=60)
     assert (tmp_path / "results" / "case" / "checkpoints" / "1.state").is_file()
     path.with_name("told.txt").write_text(capsys.readouterr().err)
     return path
@@ -56,18 +60,10 @@ def test_who_ends_a_run_is_told_how_to_go_on(case, capsys):
     assert not (case.parent / "results" / "case" / "checkpoints").exists()
 
 
-def test_who_ends_a_run_behind_its_last_step_is_told_too(tmp_path, capsys, monkeypatch):
+def test_who_ends_a_run_behind_its_last_step_is_told_too(tmp_path, capsys):
     deck, out = tmp_path / "case.ssi", ["--out", str(tmp_path / "out")]
     deck.write_text(SHORT)
-    finished = KeptCalculation.finished
-
-    def end(self, done, state):
-        finished(self, done, state)
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(KeptCalculation, "finished", end)
-        assert main([str(deck), *out]) == 1
+    end_behind(deck, *out, hook="finished")
     assert "is kept in" in said(capsys)
     assert main([str(deck), *out, "--resume"]) == 0
     assert "its 100 steps are given back" in said(capsys)
@@ -85,36 +81,37 @@ def test_a_checkpoint_of_another_deck_is_refused(case, capsys):
     assert "goes on behind step 60" in said(capsys)
 
 
-def test_a_checkpoint_of_other_parameters_is_refused(case, capsys):
-    assert main([str(case), "--resume", "--set", "PAS1=2"]) == 1
-    told = said(capsys)
-    assert "other parameters" in told
-    assert "PAS1=2" in told
+@pytest.mark.parametrize(
+    ("other", "told"),
+    [
+        (None, ["other parameters", "PAS1=2"]),
+        (("ssilang.cli.run.__version__", "9.9.9"), ["written by ssilang 0.1.0, this is 9.9.9"]),
+        (("ssilang.io.checkpoint.VERSION", 99), ["were written by ssilang"]),
+        (("ssilang.kernel.stepping.keeping.digest_of", lambda problem: "another"),
+         ["checkpoint of calculation 1"]),
+    ],
+)  # fmt: skip
+def test_a_checkpoint_of_something_else_is_refused(case, capsys, monkeypatch, other, told):
+    """Of other parameters, another version, another format, another calculation."""
+    if other:
+        monkeypatch.setattr(*other)
+    assert main([str(case), "--resume", *([] if other else ["--set", "PAS1=2"])]) == 1
+    found = said(capsys)
+    assert [part for part in told if part not in found] == []
 
 
-def test_a_checkpoint_of_another_version_is_refused(case, capsys, monkeypatch):
-    monkeypatch.setattr("ssilang.cli.run.__version__", "9.9.9")
-    assert main([str(case), "--resume"]) == 1
-    told = said(capsys)
-    assert "written by ssilang 0.1.0, this is 9.9.9" in told
-
-
-def test_a_checkpoint_in_another_format_is_refused(case, capsys, monkeypatch):
-    monkeypatch.setattr(checkpoint, "VERSION", 99)
-    assert main([str(case), "--resume"]) == 1
-    assert "were written by ssilang" in said(capsys)
-
-
-@pytest.mark.parametrize("data", [b"", b"PK\x05\x06" + 18 * b"\0", b"no zip"])
-def test_a_damaged_checkpoint_is_refused(case, capsys, data):
-    (case.parent / "results" / "case" / "checkpoints" / "1.state").write_bytes(data)
-    assert main([str(case), "--resume"]) == 1
-    assert "cannot be read as a checkpoint" in said(capsys)
-
-
-def test_rows_that_are_lost_are_refused(case, capsys):
-    rows = case.parent / "results" / "case" / "checkpoints" / "1.rows"
-    rows.write_bytes(rows.read_bytes()[:-8])
+@pytest.mark.parametrize(
+    ("name", "damaged"),
+    [
+        ("1.state", lambda data: b""),
+        ("1.state", lambda data: b"PK\x05\x06" + 18 * b"\0"),
+        ("1.state", lambda data: b"no zip"),
+        ("1.rows", lambda data: data[:-8]),
+    ],
+)
+def test_a_damaged_checkpoint_is_refused(case, capsys, name, damaged):
+    path = case.parent / "results" / "case" / "checkpoints" / name
+    path.write_bytes(damaged(path.read_bytes()))
     assert main([str(case), "--resume"]) == 1
     assert "cannot be read as a checkpoint" in said(capsys)
 
@@ -145,19 +142,11 @@ def test_a_run_from_the_start_replaces_the_checkpoints_of_the_one_before(case, c
 READS = "OPTI ACQU 'k.txt' ; ACQU K1*FLOTTANT ;\n" + SHORT.replace("1.E7", "K1")
 
 
-def test_a_checkpoint_of_a_run_that_read_other_files_is_refused(case, capsys, monkeypatch):
+def test_a_checkpoint_of_a_run_that_read_other_files_is_refused(case, capsys):
     values = case.parent / "k.txt"
     values.write_text("1.E7\n")
     case.write_text(READS)
-    reached = KeptCalculation.reached
-
-    def end(self, done, state):
-        reached(self, done, state)
-        raise KeyboardInterrupt
-
-    with monkeypatch.context() as patched:
-        patched.setattr(KeptCalculation, "reached", end)
-        assert main([str(case)]) == 1
+    end_behind(case)
     values.write_text("2.E7\n")
     said(capsys)
     assert main([str(case), "--resume"]) == 1
@@ -166,12 +155,6 @@ def test_a_checkpoint_of_a_run_that_read_other_files_is_refused(case, capsys, mo
     assert "k.txt" in told
     values.write_text("1.E7\n")
     assert main([str(case), "--resume"]) == 0
-
-
-def test_a_checkpoint_of_another_calculation_is_refused(case, capsys, monkeypatch):
-    monkeypatch.setattr("ssilang.kernel.stepping.keeping.digest_of", lambda problem: "another")
-    assert main([str(case), "--resume"]) == 1
-    assert "checkpoint of calculation 1" in said(capsys)
 
 
 @pytest.mark.parametrize(
