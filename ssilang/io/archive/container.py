@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang import __version__
-from ssilang.io.archive.classes import class_name, packing_of, saved_fields
+from ssilang.io.archive.classes import NODE_FIELDS, class_name, packing_of, saved_fields
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -171,6 +171,14 @@ class Encoder:
     def held(self) -> set[int]:
         """Identities of the objects that are stored."""
         return set(self._kept)
+
+    def nodes(self, keys: set[int]) -> NDArray[Any]:
+        """Numbers of the nodes that these stored objects stand on."""
+        held = [
+            (v, NODE_FIELDS.get(type(v).__name__, ())) for v, _ in (self._kept[k] for k in keys)
+        ]
+        numbers = [np.ravel(getattr(v, name)) for v, names in held for name in names]
+        return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *numbers]))
 
     def encode(self, value: Any) -> Any:
         """The code of a value.
