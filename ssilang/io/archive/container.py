@@ -172,13 +172,13 @@ class Encoder:
         """Identities of the objects that are stored."""
         return set(self._kept)
 
-    def nodes(self, keys: set[int]) -> NDArray[Any]:
-        """Numbers of the nodes that these stored objects stand on."""
-        held = [
-            (v, NODE_FIELDS.get(type(v).__name__, ())) for v, _ in (self._kept[k] for k in keys)
-        ]
-        numbers = [np.ravel(getattr(v, name)) for v, names in held for name in names]
-        return np.unique(np.concatenate([np.empty(0, dtype=np.int64), *numbers]))
+    def nodes(self, keys: set[int], count: int) -> NDArray[np.bool_]:
+        """Which of `count` nodes these stored objects stand on, shape (count,)."""
+        found = np.zeros(count, dtype=bool)
+        for value in (self._kept[key][0] for key in keys):
+            for name in NODE_FIELDS.get(type(value).__name__, ()):
+                found[getattr(value, name)] = True
+        return found
 
     def encode(self, value: Any) -> Any:
         """The code of a value.

@@ -189,7 +189,8 @@ def _record(
     encoder.begin_record()
     codes = [(name, encoder.encode(value)) for name, value in operands]
     reached = encoder.held() - before
-    nodes = set(table.resolve(encoder.nodes(reached)).tolist())
+    stood_on = np.flatnonzero(encoder.nodes(reached, len(table)))
+    nodes = set(table.resolve(stood_on).tolist())
     record = Record(label, {name: code for name, code in codes if name})
     for name in sorted(_own_names(frame)):
         value = frame.find(name)
