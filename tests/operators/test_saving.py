@@ -48,12 +48,14 @@ def test_the_solution_goes_on_from_the_saved_matrix(tmp_path: Path) -> None:
     assert run_text(FIRST + "SAUV K F U ;", tmp_path).exit_code == 0
     again = ran(
         "OPTI DIME 2 ; X0 = 9. 9. ; OPTI REST 'state' ; REST ; "
-        "D = (RESO K F) - U ; E = MAXI 'ABS' D 'AVEC' (MOTS 'UX' 'UY') ; S2 = S ;",
+        "D = (RESO K F) - U ; E = MAXI 'ABS' D 'AVEC' (MOTS 'UX' 'UY') ; S2 = S ; "
+        "G = EXTR F 'FY' P ;",
         tmp_path,
     )
     assert again.session.root.find("E") == pytest.approx(0.0, abs=1e-15)
-    # the mesh was not an operand, but the matrix stands on it
+    # the mesh was not an operand, but the matrix stands on it, and on the point
     assert type_of(again.session.root.find("S2")) == "MAILLAGE"
+    assert again.session.root.find("G") == 1e6
 
 
 def test_labels_and_present_state_of_lists(tmp_path: Path) -> None:

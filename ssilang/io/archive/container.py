@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang import __version__
-from ssilang.io.archive.classes import class_name, packing_of, saved_fields
+from ssilang.io.archive.classes import NODE_FIELDS, class_name, packing_of, saved_fields
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -171,6 +171,14 @@ class Encoder:
     def held(self) -> set[int]:
         """Identities of the objects that are stored."""
         return set(self._kept)
+
+    def nodes(self, keys: set[int], count: int) -> NDArray[np.bool_]:
+        """Which of `count` nodes these stored objects stand on, shape (count,)."""
+        found = np.zeros(count, dtype=bool)
+        for value in (self._kept[key][0] for key in keys):
+            for name in NODE_FIELDS.get(type(value).__name__, ()):
+                found[getattr(value, name)] = True
+        return found
 
     def encode(self, value: Any) -> Any:
         """The code of a value.

@@ -159,7 +159,7 @@ def save(call: Call, operands: list[tuple[str, Any]], label: str = "") -> None:
     output = run_output(call.session)
     begun = output.opened.setdefault("SAUV", _Begun())
     assert isinstance(begun, _Begun)
-    record = _record(begun, frame, operands, label)
+    record = _record(begun, frame, workspace(call.session).nodes, operands, label)
     path = output_path(call, option_name(call.session, "SAUV", 8))
     settings = {word: of(workspace(call.session)) for word, of in _SETTINGS.items()}
     write_archive(
@@ -175,24 +175,28 @@ def _own_names(frame: Frame) -> set[str]:
     return {n for n in given if n not in PREDEFINED or frame.find(n) is not PREDEFINED[n]}
 
 
-def _record(begun: _Begun, frame: Frame, operands: list[tuple[str, Any]], label: str) -> Record:
+def _record(
+    begun: _Begun, frame: Frame, table: NodeTable, operands: list[tuple[str, Any]], label: str
+) -> Record:
     """Codes of the operands, and of every named object that they hold."""
     encoder = begun.encoder
     before = encoder.held()
     encoder.begin_record()
     codes = [(name, encoder.encode(value)) for name, value in operands]
     reached = encoder.held() - before
+    stood_on = np.flatnonzero(encoder.nodes(reached, len(table)))
+    nodes = set(table.resolve(stood_on).tolist())
     record = Record(label, {name: code for name, code in codes if name})
     for name in sorted(_own_names(frame)):
         value = frame.find(name)
-        if name not in record.names and _is_reached(value, reached):
+        if name not in record.names and _is_reached(value, reached, nodes):
             record.names[name] = encoder.encode(value)
     return record
 
 
-def _is_reached(value: Any, reached: set[int]) -> bool:
+def _is_reached(value: Any, reached: set[int], nodes: set[int]) -> bool:
     """Whether an object, or all that it consists of (blocks of a mesh, zones of a model), is in."""
-    if id(value) in reached:
+    if id(value) in reached or (isinstance(value, Point) and value.node in nodes):
         return True
     parts = getattr(value, "blocks", None) or getattr(value, "zones", None) or ()
     return bool(parts) and all(id(part) in reached for part in parts)
