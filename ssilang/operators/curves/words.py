@@ -81,8 +81,8 @@ def _left_out(call: Call, times: FloatArray) -> int:
     """How many instants a motion of the script had, of which these were kept; 0 if none had."""
     for value in call.session.frame.named().values():
         held = value.stand_ins("ACCE") if isinstance(value, LazyRows) else None
-        track = getattr(held[0], "track", None) if held else None
-        if track and len(times) == len(held[1]) < len(track.wanted) and (held[1] == times).all():
+        track, kept = (getattr(held[0], "track", None), held[1]) if held else (None, times)
+        if track and len(times) == len(kept) < len(track.wanted) and (kept == times).all():
             return len(track.wanted)
     return 0
 

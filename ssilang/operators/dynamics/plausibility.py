@@ -172,7 +172,7 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         return
     bodies = Bodies(problem)
     for sunk in bodies.sunk():
-        told = {"node": problem.numbering.table.told(sunk.node), "axis": sunk.axis}
+        told: dict[str, Any] = {"node": problem.numbering.table.told(sunk.node), "axis": sunk.axis}
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     zones, loose = () if (joints := problem.interface) is None else joints.joints, [*bodies.loose()]
     slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())

@@ -10,6 +10,7 @@ from ssilang.operators.vocabulary import words
 
 Given = tuple[NDArray[Any], Any]
 _CODE = "operators.models.unusual-value"
+THICKER = "operators.models.thicker-than-large"
 COMPRESSIBLE = 0.49
 """Poisson's ratio beyond which linear cells are told: a punch on QUA4 is 4 % too stiff there, by
 27 % at 0.499; on CUB8 by 43 % and three times."""
@@ -38,10 +39,11 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         ends = _ends(array) if meant is not None and array.dtype == float else ()
         if meant is None or not ends or (ours and name != "FROT"):
             continue
-        for code, told in _odd(zone, meant, ends, {n: v for n, (v, _) in given.items()}):
-            call.warn(code, said, name=name, **told, meaning=meant.meaning(session.language))
         here = 0.0 if system is None or not meant.unit else system.factor(meant.unit)
         unusual = next((v for v in ends if here and v * here not in meant.usual), None)
+        for code, told in _odd(zone, meant, ends, {n: v for n, (v, _) in given.items()}):
+            if unusual is None or code != THICKER:  # one mistake is told once
+                call.warn(code, said, name=name, **told, meaning=meant.meaning(session.language))
         if unusual is not None and system is not None and not ours:
             _warn(call, meant, unusual, said, system)
 
@@ -109,7 +111,7 @@ def _odd(
     power, times = THICK.get(name, (1, np.inf))
     if (across := low ** (1.0 / power)) > times * (size := _size(zone)) > 0.0:
         thick: dict[str, Any] = {"value": low, "size": size, "across": across}
-        yield "operators.models.thicker-than-large", thick | {"shell": power == 1}
+        yield THICKER, thick | {"shell": power == 1}
     mean = None if zone.mode is Mode.PLANE_STRESS else LOCKING.get(zone.element)
     if name == "NU" and high > COMPRESSIBLE and mean is not None:
         yield "operators.models.locks", {"value": high, "mean": mean, "element": zone.element}

@@ -15,7 +15,6 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
-from ssilang.operators.workspace import workspace
 
 Field = NodeField | CellField
 _HANDED = {
@@ -52,7 +51,7 @@ def apart(values: Sequence[object]) -> list[Any]:
 
 def follow(call: Call, name: str, results: object) -> None:
     """Warn where stresses of the whole strain are read from which no temperature was taken."""
-    heated = workspace(call.session).heated
+    heated = call.session.workspace.heated
     if name != "THET" and not heated:
         return
     made = [f for f in (results if isinstance(results, tuple) else (results,)) if f is not None]
