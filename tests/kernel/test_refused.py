@@ -16,6 +16,7 @@ from ssilang.kernel.elements.results.supports import nodal_of_field, values_at_p
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS
 from ssilang.kernel.interface.laws.law import columns_of
+from ssilang.kernel.interface.laws.mohr_law import check_mohr_parameters
 from ssilang.kernel.materials import behaviours
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
@@ -214,6 +215,9 @@ REFUSED = {
     },
     "interface": {
         "joint-parameter-not-finite": [joint(columns_of, np.nan), joint(columns_of, np.inf)],
+        "joint-parameter-not-finite-or-steep": [
+            joint(check_mohr_parameters, x) for x in (np.nan, np.inf)
+        ],
     },
     "records": {
         "frequencies-values-function": [

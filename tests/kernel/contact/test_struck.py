@@ -87,9 +87,7 @@ def rock(
         )
     )  # fmt: skip
     record = Recorder(len(times))
-    n = problem.numbering.size
-    run = BulkRun(problem, Bulk((), (), n), (), (record,)) if yields else None
-    history = integrate(problem, [record]) if run is None else integrate_bulk(run)
+    history = RUNS["steps of bodies" if yields else "compiled"](problem, record)
     y, z = (record.of("u")[:, problem.numbering.index_of(base, u)] for u in ("UY", "RZ"))
     return Rocking(alpha, times, y, z, record, history)
 
@@ -143,31 +141,25 @@ def test_the_block_comes_to_rest():
     assert motion.history.energies[-1, LOST] == pytest.approx(motion.available, rel=1e-4)
 
 
-def _loads(p, seen):
-    return step_statics(p, [seen])
+def _bodies(problem, seen):
+    return BulkRun(problem, Bulk((), (), problem.numbering.size), (), (seen,))
 
 
-def _steps(p, seen):
-    return integrate(p, [seen])
+RUNS = {
+    "loads": lambda p, seen: step_statics(p, [seen]),
+    "compiled": lambda p, seen: integrate(p, [seen]),
+    "condensed": lambda p, seen: integrate(p, [seen]),
+    "full Newton": lambda p, seen: integrate(p, [seen], full_newton=True),
+    "steps of bodies": lambda p, seen: integrate_bulk(_bodies(p, seen)),
+    "loads of bodies": lambda p, seen: step_bulk_statics(_bodies(p, seen)),
+}
 
 
-def _newton(p, seen):
-    return integrate(p, [seen], full_newton=True)
-
-
-def _yielding(way):
-    return lambda p, seen: way(BulkRun(p, Bulk((), (), p.numbering.size), (), (seen,)))
-
-
-@pytest.mark.parametrize(
-    ("run", "rule"),
-    [(_loads, ""), (_steps, ""), (_steps, "condensed"), (_newton, ""),
-     (_yielding(integrate_bulk), ""), (_yielding(step_bulk_statics), "")],
-)  # fmt: skip
-def test_a_stop_that_moves_does_the_work_of_its_reaction(run, rule, monkeypatch):
+@pytest.mark.parametrize("name", RUNS)
+def test_a_stop_that_moves_does_the_work_of_its_reaction(name, monkeypatch):
     """By trapezia of instants: a spring is pressed, and let go, by what it stands on."""
-    if rule:
-        monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only(rule))
+    if name == "condensed":
+        monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only(name))
     bench, times = Bench(), np.linspace(0.0, 1.0, 13)
     top = bench.node(0.0, 0.0)
     bench.spring(50.0, top)
@@ -182,7 +174,7 @@ def test_a_stop_that_moves_does_the_work_of_its_reaction(run, rule, monkeypatch)
     }
     mass = bench.mass_matrix
     problem = make_problem(Inputs(bench.stiffness, times, mass, None, load, **start))
-    history = run(problem, seen := Recorder(len(times)))
+    history = RUNS[name](problem, seen := Recorder(len(times)))
     pushed, u = seen.of("contact")[:, 0], seen.of("u")[:, problem.numbering.index_of(top, "UY")]
     np.testing.assert_allclose(u, way, atol=1e-9)
     work = np.cumsum(0.5 * (pushed[1:] + pushed[:-1]) * np.diff(way))

@@ -133,6 +133,13 @@ def test_steel_without_a_curve_is_refused(change: dict[str, float], rule: str) -
     assert caught.value.data["rule"] == rule
 
 
+def test_steel_at_the_ends_of_its_bounds_is_taken() -> None:
+    ends = {"STSU": SY, "EPSH": SY / E, "BFAC": 0.0, "A1FA": 0.0, "FALD": 0.0}
+    for change in ({name: end} for name, end in [*ends.items(), ("FALD", 5.0)]):
+        check_parameters(PLASTIC_LAWS["ACIER_UNI"], points({**STEEL, **change}))
+    assert along("ACIER_UNI", STEEL | {"STSU": SY}, [0.001, 0.05]) == pytest.approx([E * 0.001, SY])
+
+
 def test_concrete_has_hognestad_s_parabola_a_line_and_a_rest() -> None:
     path = [-0.0005, -0.001, -0.002, -0.006, -0.02]
     x = np.array([0.25, 0.5, 1.0])
