@@ -80,7 +80,7 @@ def types(mesh: Mesh = _MESH) -> ListMots:
     return ListMots(list(dict.fromkeys(names)))
 
 
-@elem.form(said("COMPRIS"), of=("MAILLAGE",))
+@elem.form(said("COMPRIS"), of=("MAILLAGE",))  # type: ignore[no-redef]  # the name of its page
 def between(
     mesh: Mesh = _MESH,
     first: Point = Arg("POINT", en="where the part begins"),
