@@ -151,18 +151,27 @@ def _describe_body(
     nodes = np.unique(numbering.nodes[own])
     points = numbering.table.coordinates[nodes]
     centre, extent = points.mean(axis=0), float(np.abs(points).max())
-    own = own & np.isin(numbering.nodes, numbering.nodes[(span**2).sum(axis=1) > 1e-18])
-    rigid, local = rigid_motions(numbering, centre)[own], span[own]
-    left, size, _ = np.linalg.svd(local, full_matrices=False)
+    moves = own & np.isin(numbering.nodes, numbering.nodes[(span**2).sum(axis=1) > 1e-18])
+    named = (_rigid_names(numbering, span, rows, centre, extent) for rows in (own, moves))
+    names = next(filter(None, named), [])
+    if not several:
+        return Sentence("kernel.statics.motions", motions=names) if names else None
+    told = {"n_nodes": len(nodes), "place": _place(centre, extent), "motions": names}
+    return Sentence("kernel.statics.motions-of-body", **told)
+
+
+def _rigid_names(
+    numbering: Numbering, span: FloatArray, own: BoolArray, centre: FloatArray, extent: float
+) -> list[Sentence]:
+    """Names of the rigid motions of some unknowns that are free."""
+    rigid = rigid_motions(numbering, centre)[own]
+    left, size, _ = np.linalg.svd(span[own], full_matrices=False)
     local = left[:, size > 1e-6 * size.max(initial=0.0)]
     pure = [k for k in range(6) if _inside(rigid[:, k], local)]
     names = [_motion_name(k) for k in pure]
     if len(pure) < local.shape[1]:
         names += _turns(rigid, local, pure, centre, extent)
-    if not several:
-        return Sentence("kernel.statics.motions", motions=names) if names else None
-    told = {"n_nodes": len(nodes), "place": _place(centre, extent), "motions": names}
-    return Sentence("kernel.statics.motions-of-body", **told)
+    return names
 
 
 def _inside(vector: FloatArray, basis: FloatArray) -> bool:
