@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ssilang.kernel.stepping.run import integrate
+
 
 class Recorder:
     """Keeps displacement, velocity, acceleration, reaction of all times."""
@@ -19,3 +21,20 @@ class Recorder:
 
     def of(self, name: str) -> np.ndarray:
         return np.array([getattr(s, name) for s in self.snapshots])
+
+
+def recorded(problem, every=1, **how):
+    """All instants of a problem, or some at equal distances, and the history of its steps."""
+    recorder = Recorder(len(problem.times))
+    recorder.wanted = np.arange(len(problem.times)) % every == 0
+    return recorder, integrate(problem, [recorder], **how)
+
+
+def assert_alike(run, exact, names=("u", "v", "a", "reaction", "w", "t", "state"), tolerance=1e-9):
+    """Recorders and histories of two runs hold the same, relative to the largest value."""
+    (one, history), (other, truth) = run, exact
+    for name in names:
+        a, b = one.of(name), other.of(name)
+        assert np.abs(a - b).max(initial=0.0) <= tolerance * np.abs(b).max(initial=0.0), name
+    size = np.abs(truth.energies).max()
+    assert np.abs(history.energies - truth.energies).max() <= max(tolerance, 1e-10) * size

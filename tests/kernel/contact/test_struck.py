@@ -5,14 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from references.assembled import Bench
-from references.recorder import Recorder
+from references.recorder import Recorder, recorded
 from references.rocking import HousnerBlock
 
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST
 
@@ -74,16 +73,15 @@ def rock(
     if damping:
         bench.dashpot(damping * M, base)
         bench.dashpot(damping * J, base, "RZ")
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix, bench.damping, load,
-            displacement=bench.field((base, "UY", b * theta), (base, "RZ", theta)),
-            velocity=velocity, scheme=scheme or Scheme(),
-            contact_options=options or ContactOptions(correction="MASSE"),
-        )
-    )  # fmt: skip
-    record = Recorder(len(times))
-    history = integrate(problem, [record])
+    problem = bench.problem(
+        times,
+        load,
+        displacement=bench.field((base, "UY", b * theta), (base, "RZ", theta)),
+        velocity=velocity,
+        scheme=scheme or Scheme(),
+        contact_options=options or ContactOptions(correction="MASSE"),
+    )
+    record, history = recorded(problem)
     y, z = (record.of("u")[:, problem.numbering.index_of(base, u)] for u in ("UY", "RZ"))
     return Rocking(alpha, times, y, z, record, history)
 
@@ -194,14 +192,12 @@ def test_a_flat_fall_rebounds_as_one_stop_would():
     for side in CORNERS:
         bench.relate([(1.0, "UY", base), (side, "RZ", base)], sense=1)
     bench.spring(1e-6 * M, base, unknown="RZ")
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, np.arange(401) * 1e-3, bench.mass_matrix, None,
-            bench.load(bench.field((base, "FY", -M * G))),
-            displacement=bench.field((base, "UY", 0.2)),
-            contact_options=ContactOptions(correction="MASSE"),
-        )
-    )  # fmt: skip
+    problem = bench.problem(
+        np.arange(401) * 1e-3,
+        bench.load(bench.field((base, "FY", -M * G))),
+        displacement=bench.field((base, "UY", 0.2)),
+        contact_options=ContactOptions(correction="MASSE"),
+    )
     record = Recorder(401)
     energies = integrate(problem, [record]).energies[-1]
     assert energies[LOST] == 0.0
