@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from refusing import refusal
 
 from ssilang.io.checkpoint import Checkpoints, Deck, changed_names, digest_of_file
 from ssilang.io.errors import InputError
@@ -141,9 +142,8 @@ def test_checkpoints_of_another_run(tmp_path: Path, deck: Deck, code: str, told:
     _kept(tmp_path)
     going_on = Checkpoints(tmp_path, deck, resume=True)
     for act in (going_on.check, lambda: going_on.read(2)):
-        with pytest.raises(InputError) as caught:
+        with refusal(InputError, code) as caught:
             act()
-        assert caught.value.code == code
         assert {n: caught.value.data[n] for n in told} == told
 
 
@@ -153,9 +153,8 @@ def test_a_damaged_file_is_told(tmp_path: Path, damaged: str, harm) -> None:
     _kept(tmp_path)
     path = tmp_path / damaged
     path.write_bytes(harm(path.read_bytes()))
-    with pytest.raises(InputError) as caught:
+    with refusal(InputError, "io.checkpoint-damaged") as caught:
         Checkpoints(tmp_path, DECK, resume=True).read(1)
-    assert caught.value.code == "io.checkpoint-damaged"
     assert caught.value.data["path"] == path
 
 

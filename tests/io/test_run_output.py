@@ -7,6 +7,7 @@ import socket
 from pathlib import Path
 
 import pytest
+from refusing import refusal
 
 from ssilang.io import run_output
 from ssilang.io.errors import OutputError
@@ -126,17 +127,15 @@ def test_names_that_no_file_can_have_are_refused(output: RunOutput, name: str) -
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "loop").symlink_to("loop")
     for ask in (output.target, output.source):
-        with pytest.raises(OutputError) as refused:
+        with refusal(OutputError, "io.no-such-place"):
             ask(name)
-        assert refused.value.code == "io.no-such-place"
 
 
 def test_the_output_folder_is_held_by_one_run(output: RunOutput) -> None:
     other = RunOutput(output.directory, output.inputs)
     output.hold()
-    with pytest.raises(OutputError) as refused:
+    with refusal(OutputError, "io.folder-in-use") as refused:
         other.hold()
-    assert refused.value.code == "io.folder-in-use"
     assert refused.value.data["pid"] == os.getpid()
     output.release()
     assert list(output.directory.iterdir()) == []
@@ -164,9 +163,8 @@ def test_a_folder_that_is_exchanged_is_noticed(output: RunOutput) -> None:
     assert output.target("a.csv") is not None
     shutil.rmtree(output.directory)
     for act in (lambda: output.target("a.csv"), output.close):
-        with pytest.raises(OutputError) as refused:
+        with refusal(OutputError, "io.output-folder-gone"):
             act()
-        assert refused.value.code == "io.output-folder-gone"
     RunOutput(output.directory, output.inputs).hold()  # another run makes it again
     with pytest.raises(OutputError):
         output.check()

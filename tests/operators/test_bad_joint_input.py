@@ -32,12 +32,10 @@ def outcome(tmp_path):
     return run
 
 
-def test_full_uplift_without_mass_names_body_and_time(outcome):
-    result = outcome(BODY + "T2 = DYNAMIC T1 ;")
-    assert result.exit_code == 1
+def test_full_uplift_without_mass_names_body_and_time(refused):
     # the load turns upwards at 0.5 s, where it is zero: the first step with a pull is that of 0.6
-    assert (
-        "time 0.6: full uplift of the body at node 2 (0. 0.): all 1 joint points" in result.message
+    assert "time 0.6: full uplift of the body at node 2 (0. 0.): all 1 joint points" in refused(
+        BODY + "T2 = DYNAMIC T1 ;"
     )
 
 
@@ -139,11 +137,9 @@ def test_gap_in_a_motion_file_is_refused_with_its_line(outcome, tmp_path, bad):
     assert f"m.csv, line 2: '{bad}' is no finite number" in result.message
 
 
-def test_curve_of_a_load_with_a_gap_is_refused(outcome):
+def test_curve_of_a_load_with_a_gap_is_refused(refused):
     text = BODY.replace("PROG -1. 1.", "PROG -1. (EXTR ((PROG 1.) / (PROG 0.)) 1)")
-    result = outcome(text)
-    assert result.exit_code == 1
-    assert "the curve has inf at abscissa 1" in result.message
+    assert "the curve has inf at abscissa 1" in refused(text)
 
 
 @pytest.mark.parametrize(
@@ -151,33 +147,27 @@ def test_curve_of_a_load_with_a_gap_is_refused(outcome):
     [("JOINT_SOFT", "BETA (unloading) and CPLG"), ("JOINT_COAT", "BETA (unloading) and CPLG"),
      ("ISS_GRANGE", "no public text says how")],
 )  # fmt: skip
-def test_a_law_that_no_public_text_describes_is_refused_with_that_reason(outcome, law, reason):
-    result = outcome(SIDES + f"M = MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' '{law}' ;")
-    assert result.exit_code == 1
-    assert reason in result.message
+def test_a_law_that_no_public_text_describes_is_refused_with_that_reason(refused, law, reason):
+    assert reason in refused(SIDES + f"M = MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' '{law}' ;")
 
 
-def test_comp_has_no_answer_for_ground_that_yields_at_many_places(outcome):
-    result = outcome(
+def test_comp_has_no_answer_for_ground_that_yields_at_many_places(refused):
+    assert "at many places" in refused(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PB = 0. 0. ; J = MANU 'SEG2' (0. -1.) PB ;"
         " M = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ;"
         " A = MATE M 'KN' 8.E7 'KS' 4.E7 'LARG' 4. 'COHE' 5.E4 ;"
         " U = MANU 'CHPO' PB 1 'UY' -1.E-3 ; Z = (ZERO M 'CONTRAIN') ET (ZERO M 'DEFORMAT') ;"
         " C = COMP M (A ET Z) (A ET (EPSI M U)) ;"
     )
-    assert result.exit_code == 1
-    assert "at many places" in result.message
 
 
-def test_contradictory_supports_are_named_in_time_too(outcome):
-    result = outcome(
+def test_contradictory_supports_are_named_in_time_too(refused):
+    assert "one on UX at node 1 (0. 0.) cannot take the value" in refused(
         "OPTI DIME 2 ; P = 0. 0. ; B1 = BLOQ 'UX' P ; B2 = BLOQ 'UX' P ; T = TABL ;"
         " T . 'RIGI' = (APPU 'UY' 1. P) ET B1 ET B2 ; T . 'MASS' = MASS 'DEPL' 1. P ;"
         " EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; T . 'CHAR' = CHAR 'DIMP' (DEPI B1 1.) EV ;"
         " T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; T2 = DYNAMIC T ;"
     )
-    assert result.exit_code == 1
-    assert "one on UX at node 1 (0. 0.) cannot take the value" in result.message
 
 
 BLOCK = """
@@ -197,10 +187,8 @@ T . 'TEMPS_CALCULES' = PROG 0. 1. ;
 @pytest.mark.parametrize("loop", ["", "T . 'NEWTON_COMPLET' = VRAI ;"])
 @pytest.mark.parametrize("nu", ["0.", "0.3"])
 @pytest.mark.parametrize(("sides", "g"), [("A C", "9.81"), ("C A", "-9.81")])
-def test_a_block_that_its_joint_does_not_hold_is_no_equilibrium(outcome, sides, g, nu, loop):
-    result = outcome(BLOCK.format(sides=sides, g=g, nu=nu) + loop + "PASAPAS T ;")
-    assert result.exit_code == 1
-    assert "full uplift" in result.message
+def test_a_block_that_its_joint_does_not_hold_is_no_equilibrium(refused, sides, g, nu, loop):
+    assert "full uplift" in refused(BLOCK.format(sides=sides, g=g, nu=nu) + loop + "PASAPAS T ;")
 
 
 WALKS = [("A C", False), ("(INVE A) C", True), ("C A", True), ("(INVE C) A", False)]

@@ -4,7 +4,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from script_runs import failed, ran
+from script_runs import ran, refused
 from together import together
 
 from ssilang.cli.run import RunResult
@@ -104,8 +104,7 @@ PORTION = "T = TABL ; T . '{0}' = TABL ; T . '{0}' . 1 = {1} ; "
     ],
 )
 def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
-    result = failed(CURVES + text, tmp_path)
-    assert said in result.message
+    assert said in refused(CURVES + text, tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import ran, refused
 
 from ssilang.cli.run import RunResult, run_text
 from ssilang.io.errors import NoGraphicsError
@@ -156,8 +156,7 @@ def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.Monkey
     ],
 )
 def test_what_cannot_turn_is_said(text: str, said: str, tmp_path: Path) -> None:
-    result = failed(text, tmp_path)
-    assert said in result.message
+    assert said in refused(text, tmp_path)
 
 
 def test_deformed_shape_keeps_what_is_given() -> None:
@@ -195,8 +194,7 @@ def test_components_of_arrows(words: str, columns: str) -> None:
     ],
 )
 def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
-    result = failed(PLATE + text, tmp_path)
-    assert said in result.message
+    assert said in refused(PLATE + text, tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -1,7 +1,7 @@
 """INFO, NOTI, AIDE, SOUC."""
 
 import pytest
-from script_runs import failed, ran
+from script_runs import ran, refused
 
 from ssilang.cli.run import run_text
 
@@ -16,8 +16,7 @@ def test_info_of_a_procedure(tmp_path):
 
 
 def test_info_of_nothing_known_says_so(tmp_path):
-    result = failed("INFO ZZZZ ;", folder=tmp_path)
-    assert "no help about ZZZZ" in result.message
+    assert "no help about ZZZZ" in refused("INFO ZZZZ ;", tmp_path)
 
 
 def test_noti_lists_operators_and_procedures(tmp_path):
@@ -120,5 +119,4 @@ def test_assi_takes_the_objects_of_two_tables_at_the_same_index(tmp_path):
     ],
 )  # fmt: skip
 def test_assi_for_all_tells_what_is_in_its_way(phrase, said, tmp_path):
-    result = failed(SLAVES + phrase, folder=tmp_path)
-    assert said in result.message
+    assert said in refused(SLAVES + phrase, tmp_path)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import ran, refused
 
 from ssilang.cli.run import RunOptions, run_file, run_text
 from ssilang.language.run.scopes import Frame
@@ -86,8 +86,7 @@ def test_procedures_and_objects_keep_working_after_two_savings(tmp_path: Path) -
     ],
 )
 def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
-    result = failed("I = 1 ; OPTI SAUV 'state' ; " + text, tmp_path)
-    assert said in result.message
+    assert said in refused("I = 1 ; OPTI SAUV 'state' ; " + text, tmp_path)
 
 
 def test_a_mesh_and_its_named_parts_go_through_a_file(tmp_path: Path) -> None:
@@ -136,8 +135,7 @@ def test_named_unknowns_come_back(tmp_path: Path) -> None:
 
 
 def test_unequal_lists_of_unknowns_are_refused(tmp_path: Path) -> None:
-    result = failed("OPTI INCO (MOTS 'A' 'B') (MOTS 'C') ;", tmp_path)
-    assert "2 primal" in result.message
+    assert "2 primal" in refused("OPTI INCO (MOTS 'A' 'B') (MOTS 'C') ;", tmp_path)
 
 
 def test_results_of_dynamic_are_saved_with_all_their_instants(tmp_path):

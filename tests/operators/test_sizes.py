@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from script_runs import failed, found
+from script_runs import found, refused
 
 from ssilang.cli.run import run_text
 
@@ -47,11 +47,9 @@ def test_size_is_given_cell_by_cell():
 def test_other_elements_and_directions_are_refused():
     line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; "
     line += "M = MODE L MECANIQUE ELASTIQUE JOI1 ; "
-    result = failed(line + "A = TAIL 'DIAMETRE_MIN' M ;")
-    assert "no smallest length" in result.message
+    assert "no smallest length" in refused(line + "A = TAIL 'DIAMETRE_MIN' M ;")
     line = line.replace("JOI1", "BARR")
-    result = failed(line + "A = TAIL 'DIRECTION' M ;")
-    assert "only 'DIAMETRE_MIN'" in result.message
+    assert "only 'DIAMETRE_MIN'" in refused(line + "A = TAIL 'DIRECTION' M ;")
 
 
 def test_shells_and_beams_have_the_length_of_bending_waves():

@@ -1,7 +1,7 @@
 """What RESO refuses or leaves out; parts of a matrix."""
 
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, ran, refused
 from script_runs import found as objects
 
 BAR = """
@@ -30,8 +30,7 @@ def test_free_body_is_named_or_its_load_left_out_when_told():
 
 
 def test_force_on_an_unknown_that_the_matrix_lacks_is_refused():
-    result = failed(BAR + "U = RESO K1 (F1 ET (MOME 'MZ' 1. PB)) ;")
-    assert "MZ at node" in result.message
+    assert "MZ at node" in refused(BAR + "U = RESO K1 (F1 ET (MOME 'MZ' 1. PB)) ;")
 
 
 def test_parts_of_a_matrix():

@@ -5,7 +5,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, ran, refused
 
 from ssilang.cli.run import RunResult
 from ssilang.io.vtk.series import read_pvd
@@ -221,15 +221,15 @@ def test_one_file_begins_anew_and_gives_way_to_files(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("word", ["FORM", "BINA", "SUIT", "NPVD"])
 def test_words_of_files_are_refused_for_one_file(tmp_path: Path, word: str) -> None:
-    result = failed(PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path)
-    assert f"'{word}' is for .vtu files" in result.message
+    assert f"'{word}' is for .vtu files" in refused(
+        PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path
+    )
     assert names(tmp_path) == []
 
 
 def test_another_mesh_in_one_file_is_refused(tmp_path: Path) -> None:
     text = "SORT 'VTK ' S 'VTKHDF' 'TEMP' 1. ; SORT 'VTK ' L 'VTKHDF' 'TEMP' 2. ;"
-    result = failed(PLATE + text, tmp_path)
-    assert "out.vtkhdf has one mesh for all its steps" in result.message
+    assert "out.vtkhdf has one mesh for all its steps" in refused(PLATE + text, tmp_path)
     assert len(steps_of(tmp_path / "out.vtkhdf")) == 1
 
 

@@ -10,6 +10,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
 
 
 class Bench:
@@ -100,6 +101,14 @@ class Bench:
         for n, u, x in values:
             found[u][np.searchsorted(nodes, n)] = x
         return NodeField.of(self.table, nodes, found)
+
+    def problem(self, times, load: Load | None = None, **given) -> Problem:
+        """Of all that was put on it; `given` are entries of `Inputs`, beside or in its place."""
+        own = {
+            "mass": self.mass_matrix if self.mass_blocks else None, "damping": self.damping,
+            "model": self.model, "characteristics": self.characteristics,
+        }  # fmt: skip
+        return make_problem(Inputs(self.stiffness, times, load=load, **own | given))
 
     def load(self, field: NodeField, times=None, factors=None) -> Load:
         if times is None:

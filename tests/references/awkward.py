@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.stepping.newmark import generalised_alpha, hht, newmark
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.problem.problem import Problem
 
 from .assembled import Bench
 
@@ -131,15 +131,14 @@ class Awkward:
             C = Matrix(bench.table, blocks, kind="AMORTISSEMENT")
         start = [(n, u, length * rng.uniform(-3e-4, 3e-4)) for n in heavy for u in ("UX", "UY")]
         fast = [(n, u, length * rng.uniform(-0.05, 0.05)) for n in heavy for u in ("UX", "UY")]
-        return make_problem(
-            Inputs(
-                bench.stiffness, times, bench.mass_matrix, C, load,
-                None if self.tied else bench.field(*start),
-                None if self.tied else bench.field(*fast),
-                model=bench.model, characteristics=bench.characteristics,
-                scheme=SCHEMES[self.scheme],
-            )
-        )  # fmt: skip
+        return bench.problem(
+            times,
+            damping=C,
+            load=load,
+            displacement=None if self.tied else bench.field(*start),
+            velocity=None if self.tied else bench.field(*fast),
+            scheme=SCHEMES[self.scheme],
+        )
 
 
 def problems(**fixed) -> st.SearchStrategy[Awkward]:

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from ssilang.kernel.stepping.run import integrate
+
 
 class Recorder:
     """Keeps displacement, velocity, acceleration, reaction of all times, or of one in `every`."""
@@ -21,11 +23,17 @@ class Recorder:
         return np.array([getattr(s, name) for s in self.snapshots])
 
 
-def assert_alike(found, expected, tolerance: float) -> None:
-    """Two runs, as (history, instants), have the same motions and energies."""
-    for name in ("u", "v", "reaction", "w", "t", "state"):
-        a, b = (np.array([getattr(s, name) for s in kept]) for _, kept in (found, expected))
-        if b.size:
-            assert np.abs(a - b).max() <= tolerance * np.abs(b).max(), name
-    a, b = (history.energies for history, _ in (found, expected))
-    assert np.abs(a - b).max() <= tolerance * np.abs(b).max()
+def recorded(problem, every=1, **how):
+    """All instants of a problem, or some at equal distances, and the history of its steps."""
+    recorder = Recorder(len(problem.times), every)
+    return recorder, integrate(problem, [recorder], **how)
+
+
+def assert_alike(run, exact, names=("u", "v", "a", "reaction", "w", "t", "state"), tolerance=1e-9):
+    """Recorders and histories of two runs hold the same, relative to the largest value."""
+    (one, history), (other, truth) = run, exact
+    for name in names:
+        a, b = one.of(name), other.of(name)
+        assert np.abs(a - b).max(initial=0.0) <= tolerance * np.abs(b).max(initial=0.0), name
+    size = np.abs(truth.energies).max()
+    assert np.abs(history.energies - truth.energies).max() <= max(tolerance, 1e-10) * size

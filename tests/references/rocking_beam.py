@@ -6,7 +6,6 @@ import numpy as np
 
 from references.assembled import Bench
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 COUNT = 14
 
@@ -31,10 +30,4 @@ def rocking(scheme: Scheme, steps: int = 1500):
     times = 1e-3 * np.arange(steps + 1)
     shake = bench.load(arm, times, np.sin(11.0 * times) * np.minimum(times / 0.3, 1.0))
     load = bench.load(weight, times, np.ones(len(times)))
-    return make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix, bench.damping,
-            replace(load, parts=(*load.parts, *shake.parts)), model=bench.model,
-            characteristics=bench.characteristics, scheme=scheme,
-        )
-    )  # fmt: skip
+    return bench.problem(times, replace(load, parts=(*load.parts, *shake.parts)), scheme=scheme)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
-from script_runs import failed, prog, ran
+from script_runs import prog, ran, refused
 
 X = np.linspace(0.1, 3.0, 25)
 NOISE = 0.02 * np.cos(17.0 * np.arange(25) ** 2)
@@ -92,8 +92,7 @@ def test_without_nonlinear_parameters_it_is_linear_least_squares():
 
 
 def test_bounds_are_wanted_for_each_parameter():
-    result = failed(
+    assert "a bound for each" in refused(
         PLAIN + "T = TABL ; T . 'F' = PROG 1. ; T . 'K' = 2 ;"
         "T . 'L' = 2 ; T . 'PMIN' = PROG 0. ; T . 'PMAX' = PROG 1. ; Q P = AJUSTE T ;"
     )
-    assert "a bound for each" in result.message

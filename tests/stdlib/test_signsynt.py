@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, found
+from script_runs import found, refused
 
 TABLE = (
     "SP0 = EVOL 'MANU' 'FREQ' (PROG 0.1 0.5 1. 2.5 5. 33. 50.) 'ACCE' "
@@ -50,5 +50,4 @@ def test_white_noise_has_unit_deviation_and_a_flat_spectrum():
 
 
 def test_unknown_kind_is_refused():
-    result = failed("T = TABL ; E = SIGNSYNT 'AUTRE' T ;")
-    assert "FABR or BLANC" in result.message
+    assert "FABR or BLANC" in refused("T = TABL ; E = SIGNSYNT 'AUTRE' T ;")

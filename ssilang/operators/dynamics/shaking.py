@@ -254,7 +254,7 @@ def _across(
     cells &= (~ours).any(axis=1) | (block.nodes.shape[1] == 1)
     along = np.array(block.unknowns) == axis
     acts = along & (np.abs(np.diagonal(block.values, axis1=1, axis2=2)) > least)
-    return block.nodes[:, block.local][acts & ours[:, block.local] & cells[:, None]]
+    return np.asarray(block.nodes[:, block.local][acts & ours[:, block.local] & cells[:, None]])
 
 
 def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str) -> Told:

@@ -42,8 +42,8 @@ def zbil(
 ) -> None:
     """Keep a verdict."""
     session = call.session
-    for code, told in _doubts(given, found):
-        call.warn(code, **told)
+    for code, doubt in _doubts(given, found):
+        call.warn(code, **doubt)
     peaks = cast(Table, found.get("PICS"))
     told: dict[str, Any] = {
         "area": found.get("AIRE"),

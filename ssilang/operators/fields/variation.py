@@ -204,7 +204,7 @@ def _between(levels: FloatArray, values: list[NDArray[Any]], x: FloatArray) -> N
     stacked = np.stack(values)
     low, high = (np.take_along_axis(stacked, i[None], 0)[0] for i in (k, upper))
     if stacked.dtype != object:
-        return low + share * (high - low)
+        return np.asarray(low + share * (high - low))
     made, kept = np.empty(x.shape, dtype=object), {}
     for place, part in np.ndenumerate(share):
         key = (id(low[place]), id(high[place]), part)

@@ -54,7 +54,9 @@ def follow(call: Call, name: str, results: object) -> None:
     heated = call.session.workspace.heated
     if name != "THET" and not heated:
         return
-    made = [f for f in (results if isinstance(results, tuple) else (results,)) if f is not None]
+    made: list[Any] = [
+        f for f in (results if isinstance(results, tuple) else (results,)) if f is not None
+    ]
     if name == "THET":
         heated.update(
             dict.fromkeys(made, "stress") | {b.cells: "cells" for f in made for b in f.blocks}

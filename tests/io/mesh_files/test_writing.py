@@ -5,6 +5,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
+from refusing import refusal
 
 from ssilang.io.errors import OutputError
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part
@@ -190,9 +191,8 @@ def test_abaqus_deck_line_by_line(tmp_path: Path, plane: str, names: tuple[str, 
 def test_what_a_format_has_not(tmp_path: Path, ending: str, cells: dict, part: str, code: str):
     tables = {k: np.array(t) for k, t in cells.items()}
     mesh = FileMesh(POINTS, tables, {part: Part({k: np.array([0]) for k in tables})})
-    with pytest.raises(OutputError) as caught:
+    with refusal(OutputError, code):
         write_mesh_file(tmp_path / f"m{ending}", mesh, 3)
-    assert caught.value.code == code
     assert not list(tmp_path.iterdir())
 
 

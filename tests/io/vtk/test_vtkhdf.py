@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import pyvista
+from refusing import refusal
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkFieldData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
@@ -234,9 +235,8 @@ def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, 
         "array": (2.0, {"": Part(mesh, {"TEMP": moving(mesh, 3)})}),
         "gone": (2.0, {"": Part(mesh)}),
     }
-    with pytest.raises(OutputError) as refused:
+    with refusal(OutputError, codes[how]):
         series.write_parts(*steps[how])
-    assert refused.value.code == codes[how]
     series.close()
     if how != "gone":
         assert times_of(opened(path)) == [0.0, 1.0]
@@ -278,9 +278,8 @@ def test_an_older_file_is_replaced_when_the_first_step_is_whole(tmp_path: Path) 
 
 def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(OutputError) as refused:
+    with refusal(OutputError, "io.cannot-written"):
         VtkHdfWriter(tmp_path / "file" / "x").write(0.0, bar())
-    assert refused.value.code == "io.cannot-written"
 
 
 def test_a_full_disk_is_told_and_leaves_the_steps_before(

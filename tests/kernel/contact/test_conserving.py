@@ -14,7 +14,6 @@ from ssilang.kernel.contact.conserving import ConservingContact, mean_penalty
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 
 METHODS = [
@@ -62,18 +61,8 @@ def bar(options: ContactOptions, joint: dict | None = None, n: int = 30):
 
 
 def run(bench, times, options, start, load=None):
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            times,
-            bench.mass_matrix,
-            load=load,
-            displacement=start,
-            model=bench.model,
-            characteristics=bench.characteristics,
-            scheme=Scheme(conserving=True),
-            contact_options=options,
-        )
+    problem = bench.problem(
+        times, load, displacement=start, scheme=Scheme(conserving=True), contact_options=options
     )
     recorder = Recorder(len(times))
     return problem, recorder, integrate(problem, [recorder])

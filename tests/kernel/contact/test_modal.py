@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.assembled import Bench
-from references.recorder import Recorder
+from references.recorder import Recorder, assert_alike, recorded
 
 from ssilang.kernel.contact.active_set import active_set_of, anew, find_active, list_closed
 from ssilang.kernel.contact.modal import takes
@@ -18,7 +18,7 @@ from ssilang.kernel.stepping.choose import Case, Rule, only, rule_of
 from ssilang.kernel.stepping.keeping import Cut
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 from ssilang.kernel.stepping.problem.initial import closed_at_start
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.run import Integration, integrate
 
 FEET, K, M = 6, 4e5, 20.0
@@ -57,13 +57,14 @@ def feet(
         parts += bench.load(imposed, t, 0.02 * np.sin(11.0 * t)).parts
     C = {"none": None, "Rayleigh": rayleigh(bench), "dashpots": dashpots(bench, nodes)}[damping]
     fall = bench.field(*((n, "UY", 0.002 * (i + 1)) for i, n in enumerate(nodes)))
-    return make_problem(
-        Inputs(
-            bench.stiffness, t, bench.mass_matrix, C, Load(parts), displacement=fall,
-            scheme=scheme or Scheme(),
-            contact_options=options or ContactOptions(correction="MASSE"),
-        )
-    )  # fmt: skip
+    return bench.problem(
+        t,
+        damping=C,
+        load=Load(parts),
+        displacement=fall,
+        scheme=scheme or Scheme(),
+        contact_options=options or ContactOptions(correction="MASSE"),
+    )
 
 
 def rayleigh(bench: Bench) -> Matrix:
@@ -91,20 +92,15 @@ def both(problem, monkeypatch):
     1e-7 apart after 400 steps. The motions are short for that (see `roundings`).
     """
     assert takes(problem)
-    one, two = Recorder(len(problem.times)), Recorder(len(problem.times))
-    found = integrate(problem, [one])
+    one, found = recorded(problem)
     monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
-    exact = integrate(problem, [two])
+    two, exact = recorded(problem)
     assert exact.loop == "condensed"
     return one, found, two, exact
 
 
 def agree(one, found, two, exact, tolerance=1e-9):
-    for part in ("u", "v", "a", "reaction", "contact"):
-        size = np.abs(two.of(part)).max()
-        assert np.abs(one.of(part) - two.of(part)).max() <= tolerance * size, part
-    scale = np.abs(exact.energies).max()
-    assert np.abs(found.energies - exact.energies).max() <= tolerance * scale
+    assert_alike((one, found), (two, exact), ("u", "v", "a", "reaction", "contact"), tolerance)
     closed = (two.of("contact") > 0.0).mean()
     assert 0.01 < closed < 0.999  # they lift off, and they stand
 
@@ -195,10 +191,7 @@ def test_rounding_of_the_displacements_around_does_not_part_what_touches(gap):
     bench.spring(K, foot, top)
     bench.relate([(1.0, "UY", foot)], sense=1)
     moved = bench.field((foot, "UY", gap), (top, "UY", -1e-3))
-    problem = make_problem(
-        Inputs(bench.stiffness, 1e-3 * np.arange(3), bench.mass_matrix, None, Load(()),
-               displacement=moved)
-    )  # fmt: skip
+    problem = bench.problem(1e-3 * np.arange(3), Load(()), displacement=moved)
     assert closed_at_start(problem).tolist() == [True]
     apart = np.where(problem.u == -1e-3, problem.u, 1e-12)
     assert closed_at_start(replace(problem, u=apart)).tolist() == [False]
@@ -210,8 +203,7 @@ def test_saved_instants_and_step_lengths_do_not_matter():
     few.wanted[:] = False
     few.wanted[[0, 3, 250, 400]] = True
     integrate(problem, [few])
-    whole = Recorder(401)
-    integrate(problem, [whole], keeper=Cut(64))
+    whole, _ = recorded(problem, keeper=Cut(64))
     assert [s.step for s in few.snapshots] == [0, 3, 250, 400]
     for s in few.snapshots:
         np.testing.assert_allclose(s.u, whole.of("u")[s.step], rtol=0, atol=1e-12)

@@ -7,7 +7,6 @@ from references.recorder import Recorder
 
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.statics.stepping import step_statics
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 METHODS = ["LAGRANGE", "AUGMENTE", "UZAWA"]
 
@@ -24,15 +23,10 @@ def test_a_body_comes_to_rest_on_its_stops(method):
     # the bar is rigid: its middle, pressed at a quarter of its length
     middle = bench.node(0.5, 1.0)
     bench.relate([(1.0, "UY", middle), (-0.5, "UY", tops[0]), (-0.5, "UY", tops[1])])
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            np.array([0.0, 1.0, 2.0]),
-            load=bench.load(
-                bench.field((middle, "FY", -2e3), (tops[0], "FY", -1e3)), [0, 1, 2], [0, 1, 2]
-            ),
-            contact_options=ContactOptions(method),
-        )
+    problem = bench.problem(
+        np.array([0.0, 1.0, 2.0]),
+        bench.load(bench.field((middle, "FY", -2e3), (tops[0], "FY", -1e3)), [0, 1, 2], [0, 1, 2]),
+        contact_options=ContactOptions(method),
     )
     recorder = Recorder(3)
     history = step_statics(problem, [recorder])

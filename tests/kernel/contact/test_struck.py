@@ -15,7 +15,6 @@ from ssilang.kernel.plasticity.run import BulkRun, integrate_bulk, step_bulk_sta
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST
 
@@ -78,14 +77,14 @@ def rock(
     if damping:
         bench.dashpot(damping * M, base)
         bench.dashpot(damping * J, base, "RZ")
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix, bench.damping, load,
-            displacement=bench.field((base, "UY", b * theta), (base, "RZ", theta)),
-            velocity=velocity, scheme=scheme or Scheme(),
-            contact_options=options or ContactOptions(correction="MASSE"),
-        )
-    )  # fmt: skip
+    problem = bench.problem(
+        times,
+        load,
+        displacement=bench.field((base, "UY", b * theta), (base, "RZ", theta)),
+        velocity=velocity,
+        scheme=scheme or Scheme(),
+        contact_options=options or ContactOptions(correction="MASSE"),
+    )
     record = Recorder(len(times))
     history = RUNS["steps of bodies" if yields else "compiled"](problem, record)
     y, z = (record.of("u")[:, problem.numbering.index_of(base, u)] for u in ("UY", "RZ"))
@@ -172,8 +171,7 @@ def test_a_stop_that_moves_does_the_work_of_its_reaction(name, monkeypatch):
         "displacement": bench.field((top, "UY", 0.3)),
         "velocity": bench.field((top, "UY", 0.4)),
     }
-    mass = bench.mass_matrix
-    problem = make_problem(Inputs(bench.stiffness, times, mass, None, load, **start))
+    problem = bench.problem(times, load, **start)
     history = RUNS[name](problem, seen := Recorder(len(times)))
     pushed, u = seen.of("contact")[:, 0], seen.of("u")[:, problem.numbering.index_of(top, "UY")]
     np.testing.assert_allclose(u, way, atol=1e-9)
@@ -239,14 +237,12 @@ def test_a_flat_fall_rebounds_as_one_stop_would():
     for side in CORNERS:
         bench.relate([(1.0, "UY", base), (side, "RZ", base)], sense=1)
     bench.spring(1e-6 * M, base, unknown="RZ")
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, np.arange(401) * 1e-3, bench.mass_matrix, None,
-            bench.load(bench.field((base, "FY", -M * G))),
-            displacement=bench.field((base, "UY", 0.2)),
-            contact_options=ContactOptions(correction="MASSE"),
-        )
-    )  # fmt: skip
+    problem = bench.problem(
+        np.arange(401) * 1e-3,
+        bench.load(bench.field((base, "FY", -M * G))),
+        displacement=bench.field((base, "UY", 0.2)),
+        contact_options=ContactOptions(correction="MASSE"),
+    )
     record = Recorder(401)
     energies = integrate(problem, [record]).energies[-1]
     assert energies[LOST] == 0.0

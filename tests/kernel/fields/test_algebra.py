@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from refusing import refusal
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields import cell_algebra as cells
@@ -97,9 +98,8 @@ def test_products_of_node_fields(table, seed):
                         (lambda: nodes.multiplied(s, a, divide=True), "field-field-not-defined"),
                         (lambda: nodes.multiplied(a, drawn(table, rng, ("UX", "RZ"))),
                          "field-field-not-defined")):  # fmt: skip
-        with pytest.raises(FieldError) as caught:
+        with refusal(FieldError, f"kernel.fields.{code}"):
             wrong()
-        assert caught.value.code == f"kernel.fields.{code}"
 
 
 @SEEDS
@@ -143,9 +143,8 @@ def test_parts_and_unions_of_node_fields(table, seed):
     met = {k for k in x if k in y}
     assert_is(nodes.united(a, b, check=False), y | x)
     if met:
-        with pytest.raises(FieldError) as caught:
+        with refusal(FieldError, "kernel.fields.component-field-node") as caught:
             nodes.united(a, b)
-        assert caught.value.code == "kernel.fields.component-field-node"
         key = min(met)
         assert (caught.value.data["values"], caught.value.data["values_2"]) == (x[key], y[key])
     close = nodes.applied(a, lambda v: v * (1 + 4e-7))
@@ -155,9 +154,8 @@ def test_parts_and_unions_of_node_fields(table, seed):
     assert list(nodes.united(apart, second).components) == ["UX", "RZ"]
     lumps = [NodeField(table, f.components, "DISCRET") for f in (a, b)]
     assert_is(nodes.united(*lumps), {k: x.get(k, 0.0) + y.get(k, 0.0) for k in x | y})
-    with pytest.raises(FieldError) as caught:
+    with refusal(FieldError, "kernel.fields.fields-natures-cannot-joined"):
         nodes.united(a, lumps[1])
-    assert caught.value.code == "kernel.fields.fields-natures-cannot-joined"
     at = rng.permutation(12)
     expected = [x.get((k, n), 0.0) for k in ("UY", "RZ", "UX") for n in at.tolist()]
     np.testing.assert_array_equal(nodes.values_in_order(a, ("UY", "RZ", "UX"), at), expected)
@@ -168,9 +166,8 @@ def test_parts_and_unions_of_node_fields(table, seed):
     np.testing.assert_array_equal(a.values_at("UX", at, 7.0), [x.get(("UX", n), 7.0) for n in at])
     np.testing.assert_array_equal(a.values_at("RX", at, 7.0), 7.0)
     assert nodes.component(a, "UY") is a.components["UY"]
-    with pytest.raises(FieldError) as caught:
+    with refusal(FieldError, "kernel.fields.field-no-component"):
         nodes.component(a, "RZ")
-    assert caught.value.code == "kernel.fields.field-no-component"
     order = rng.permutation(12)
     v = rng.standard_normal(12)
     mixed = NodeField.of(table, order, {"T": v})
@@ -256,9 +253,8 @@ def test_sums_of_cell_fields(table, zones, factor):
     apart = of_cells(rng, zones[:1], ("A",), constituent="STEEL")
     assert len(cells.added(a, apart).blocks) == 3  # the same cells, another body
     elsewhere = of_cells(rng, zones[:1], ("A",), points=3, support="MASSE")
-    with pytest.raises(FieldError) as caught:
+    with refusal(FieldError, "kernel.fields.component-stands-field") as caught:
         cells.added(a, elsewhere)
-    assert caught.value.code == "kernel.fields.component-stands-field"
     assert caught.value.data == {"name": "A", "support": "STRESSES", "support_2": "MASSE"}
     copy = CellBlock.make(table, "SEG2", zones[0].raw.copy())
     assert cells.same_cells(copy, zones[0])
@@ -290,9 +286,8 @@ def test_products_of_cell_fields(zones):
         (lambda: cells.multiplied(a, of_cells(rng, zones[:2], ("A", "C"))),
          "cells-field-by-field-not-defined"),
     ):  # fmt: skip
-        with pytest.raises(FieldError) as caught:
+        with refusal(FieldError, f"kernel.fields.{code}"):
             wrong()
-        assert caught.value.code == f"kernel.fields.{code}"
     names = (("A", "B", "A", "Z"), ("SCAL", "SCAL", "SCAL", "SCAL"), ("P", "Q", "P", "R"))
     for divide in (False, True):
         found = cells.multiplied_by_names(a, two, names, divide, (2.0, 3.0, 5.0, 7.0))
@@ -339,9 +334,8 @@ def test_parts_and_unions_of_cell_fields(zones):
     held = CellField((cells.rebuilt(a.blocks[0], {"O": np.array([["p"], ["q"], ["p"]], object)}),))
     assert cells.values_of(held) == []
     for wrong in (lambda: cells.applied(held, abs), lambda: cells.added(held, held)):
-        with pytest.raises(FieldError) as caught:
+        with refusal(FieldError, "kernel.fields.component-holds-objects-not"):
             wrong()
-        assert caught.value.code == "kernel.fields.component-holds-objects-not"
     with_numbers = cells.multiplied(held, CellField((cells.rebuilt(
         a.blocks[0], {"SCAL": np.array([[2.0], [3.0], [5.0]])}),)), True,
         lambda sign, p, q: f"{p}{sign}{q}")  # fmt: skip
@@ -382,6 +376,5 @@ def test_each_cell_has_the_curve_of_its_own_values(zones):
         ([0.0, 1.0], [fields[0], fewer], "fields.curves-of-other-cells"),
         ([0.0, 1.0], [fields[0], moved], "fields.curves-of-other-cells"),
     ):
-        with pytest.raises(FieldError) as caught:
+        with refusal(FieldError, f"kernel.{code}"):
             cells.through("T", at, given)
-        assert caught.value.code == f"kernel.{code}"

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from references.assembled import Bench
-from references.recorder import Recorder
+from references.recorder import recorded
 from scipy.optimize import brentq
 from together import together
 
@@ -33,8 +33,6 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
-from ssilang.kernel.stepping.run import integrate
 
 B, L, R, C = 4.0, 6.0, 2.0, 5e4
 STRIP = {"KN": 8e7, "KS": 4e7, "LARG": B}
@@ -63,10 +61,7 @@ class Footing:
         for node in (self.soil, self.base):
             for name in self.names:
                 bench.spring(1.0, node, unknown=name)
-        self.problem = make_problem(
-            Inputs(bench.stiffness, np.array([0.0, 1.0]), model=bench.model,
-                   characteristics=bench.characteristics)
-        )  # fmt: skip
+        self.problem = bench.problem(np.array([0.0, 1.0]))
         self.joints = self.problem.interface
         self.state = self.joints.initial_state()
 
@@ -346,17 +341,13 @@ def thrown(bench, base, times, weight, **velocity):
     settlement in the mean at its end, imbalance and largest sum of energies.
     """
     lift = "UZ" if "RX" in velocity else "UY"
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix,
-            load=bench.load(bench.field((base, lift.replace("U", "F"), -weight))),
-            displacement=bench.field((base, lift, -weight / 8e7)),
-            velocity=bench.field(*((base, name, v) for name, v in velocity.items())),
-            model=bench.model, characteristics=bench.characteristics,
-        )
-    )  # fmt: skip
-    recorder = Recorder(len(times))
-    history = integrate(problem, [recorder])
+    problem = bench.problem(
+        times,
+        bench.load(bench.field((base, lift.replace("U", "F"), -weight))),
+        displacement=bench.field((base, lift, -weight / 8e7)),
+        velocity=bench.field(*((base, name, v) for name, v in velocity.items())),
+    )
+    recorder, history = recorded(problem)
     places = [problem.numbering.index_of(base, name) for name in (*velocity, lift)]
     bed = problem.interface.beds[0]
     settled = -recorder.of("state")[-1, bed.points, 0] @ bed.areas / bed.areas.sum()
@@ -485,20 +476,14 @@ def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer(beside):
             bench.spring(1.0, node, unknown=unknown)
     x = interface_of(
         joint_zones(bench.model), bench.characteristics,
-        make_problem(
-            Inputs(bench.stiffness, np.array([0.0, 1.0]), model=bench.model,
-                   characteristics=bench.characteristics)
-        ).numbering,
+        bench.problem(np.array([0.0, 1.0])).numbering,
     )  # fmt: skip
     rng = np.random.default_rng(3)
     alone = made("strip", COHE=C)
     motion = np.array([0.01, -0.02, 6e-3])
     n = x.J.shape[1]
     u = rng.normal(size=n) * 1e-3
-    numbering = make_problem(
-        Inputs(bench.stiffness, np.array([0.0, 1.0]), model=bench.model,
-               characteristics=bench.characteristics)
-    ).numbering  # fmt: skip
+    numbering = bench.problem(np.array([0.0, 1.0])).numbering
     places = [numbering.index_of(base, name) for name in ("UX", "UY", "RZ")]
     u[places] = motion
     u[[numbering.index_of(soil, name) for name in ("UX", "UY", "RZ")]] = 0.0
@@ -556,10 +541,7 @@ def test_load_steps_beyond_what_the_ground_bears_are_refused(vertical, arm):
     turn = bench.field((base, "MZ", vertical * capacity * arm))
     loads = (bench.load(weight, [0.0, 1.0, 2.0], [0.0, 1.0, 1.0]),
              bench.load(turn, [0.0, 1.0, 2.0], [0.0, 0.0, 1.0]))  # fmt: skip
-    problem = make_problem(
-        Inputs(bench.stiffness, times, load=Load(tuple(p for x in loads for p in x.parts)),
-               model=bench.model, characteristics=bench.characteristics)
-    )  # fmt: skip
+    problem = bench.problem(times, Load(tuple(p for x in loads for p in x.parts)))
     with pytest.raises(ConvergenceError) as told:
         step_statics(problem)
     data = told.value.data

@@ -10,7 +10,7 @@ from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.run import integrate
 
 K = 2e7
@@ -22,12 +22,7 @@ def problem_of(bench: Bench) -> Problem:
     for node in range(len(bench.table.coordinates)):
         bench.mass(1.0, node, ("UX", "UY", "UZ")[: bench.mode.dimension])
         bench.spring(1.0, node)
-    return make_problem(
-        Inputs(
-            bench.stiffness, np.array([0.0, 1e-3]), bench.mass_matrix,
-            model=bench.model, characteristics=bench.characteristics,
-        )
-    )  # fmt: skip
+    return bench.problem(np.array([0.0, 1e-3]))
 
 
 def strip(
@@ -274,13 +269,7 @@ def test_loads_in_time_are_those_of_the_motion_that_is_seen(wanted: list[int]) -
         bench.spring(1e5, node)
         bench.spring(1e5, node, unknown="UX")
     times = 1e-3 * np.arange(5)
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix,
-            load=bench.load(bench.field(*forces), times, np.sin(2e3 * times)),
-            model=bench.model, characteristics=bench.characteristics,
-        )
-    )  # fmt: skip
+    problem = bench.problem(times, bench.load(bench.field(*forces), times, np.sin(2e3 * times)))
     seen, at = Recorder(5), np.isin(np.arange(5), wanted)
     followed = footing_histories(problem, at)
     assert followed is not None

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.assembled import Bench
+from refusing import refusal
 from scipy.spatial.transform import Rotation
 from together import together
 
@@ -193,9 +194,8 @@ def test_a_direction_that_turns_its_back_on_the_second_point_is_refused(angle, r
     turned = {"V1X": np.cos(np.radians(angle)), "V1Y": np.sin(np.radians(angle))}
     field = CellField((CellFieldBlock(block, {k: np.full((1, 1), v) for k, v in turned.items()}),))
     if refused:
-        with pytest.raises(MeshError) as error:
+        with refusal(MeshError, "kernel.interface.joint-joi1-normal-goes"):
             joint_cells(zone, zone_field(zone, field))
-        assert error.value.code == "kernel.interface.joint-joi1-normal-goes"
     else:
         (frame,) = joint_cells(zone, zone_field(zone, field)).frames[0]
         np.testing.assert_allclose(frame[-1], list(turned.values()), atol=1e-15)
@@ -208,8 +208,7 @@ def test_thickness_counts_against_the_length_of_a_cell(side):
     square = np.array([[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]])
     ends = [[bench.node(*p, z) for p in square] for z in (0.0, -1e-6 * side)]
     zone = bench.joint("LIA4", [*ends[1], *ends[0]], "JOI4", KN=1.0, KS=1.0)
-    with pytest.raises(MeshError) as error:
+    with refusal(MeshError, "kernel.interface.joint-normal-goes-first"):
         joint_cells(zone, None)
-    assert error.value.code == "kernel.interface.joint-normal-goes-first"
     right = bench.joint("LIA4", [*ends[0], *ends[1]], "JOI4", KN=1.0, KS=1.0)
     assert joint_cells(right, None).weights.sum() == pytest.approx(side**2)

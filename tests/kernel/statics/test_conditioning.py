@@ -12,7 +12,6 @@ from ssilang.kernel.statics.conditioning import (
     system_extremes,
 )
 from ssilang.kernel.statics.linear import linear_system
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 
 def chain(n, k):
@@ -58,12 +57,7 @@ def stack(kn, times=(0.0, 1.0), mass=0.0):
     bench.spring(1e7, low)
     bench.spring(1e7, high, top)
     bench.joint("SEG2", [low, high], "JOI1", KN=kn, KS=0.0)
-    return make_problem(
-        Inputs(
-            bench.stiffness, np.array(times), bench.mass_matrix if mass else None,
-            model=bench.model, characteristics=bench.characteristics,
-        )
-    )  # fmt: skip
+    return bench.problem(np.array(times), mass=bench.mass_matrix if mass else None)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from refusing import refusal
 from scipy.sparse import csr_array
 
 from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularMatrixError
@@ -146,9 +147,8 @@ def test_several_second_members_use_one_factor():
 
 def test_loaded_free_body_is_refused_by_name():
     matrix = whole(chain(4))
-    with pytest.raises(SingularMatrixError) as caught:
+    with pytest.raises(SingularMatrixError, match="translation along X") as caught:
         solve(matrix, [load(matrix, [0, 0, 0, 1.0])])
-    assert "translation along X" in str(caught.value)
     assert "UX at node" in caught.value.hint
 
 
@@ -285,9 +285,8 @@ def test_rows_whose_force_is_their_own_are_eliminated_beside_others():
 
 def test_of_loads_that_are_not_finite_one_is_named():
     matrix = whole(np.eye(3))
-    with pytest.raises(KernelError) as refused:
+    with refusal(KernelError, "kernel.statics.load-not-finite") as refused:
         solve(matrix, [load(matrix, [1.0, np.inf, np.nan])])
-    assert refused.value.code == "kernel.statics.load-not-finite"
     (at,) = refused.value.data["at"]
     assert "UX" in str(at)
     assert "(1." in str(at)

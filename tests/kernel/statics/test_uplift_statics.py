@@ -12,7 +12,6 @@ from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.statics.stepping import step_statics
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.state import EXTERNAL
 
 STRIP = Strip(4.0, 1.0, 2e7, 6e5)
@@ -43,14 +42,11 @@ def strip_problem(times, rotation, cells=16, degree=1, rule="GAUSS"):
     weight = LoadPart("MECA", bench.field((top[half], "FY", -STRIP.normal)))
     imposed = NodeField.of(bench.table, np.array([turn]), {"FLX": np.array([1.0])})
     curve = Curve((CurvePart(np.asarray(times, float), np.asarray(rotation, float)),))
-    inputs = Inputs(
-        bench.stiffness,
-        np.asarray(times, float),
-        load=Load((weight, LoadPart("DIMP", imposed, curve))),
-        model=bench.model,
-        characteristics=bench.characteristics,
+    return (
+        bench.problem(np.asarray(times, float), Load((weight, LoadPart("DIMP", imposed, curve)))),
+        soil,
+        x,
     )
-    return make_problem(inputs), soil, x
 
 
 def moments(problem, soil, x):
@@ -98,16 +94,8 @@ def test_full_uplift_is_named():
     bench.fix(body, "UX")
     bench.joint("SEG2", [soil, body], "JOI1", KN=1e6, KS=0.0)
     load = bench.load(bench.field((body, "FY", 1.0)), [0.0, 1.0, 2.0], [-1.0, -1.0, 1.0])
-    inputs = Inputs(
-        bench.stiffness,
-        np.arange(3.0),
-        load=load,
-        model=bench.model,
-        characteristics=bench.characteristics,
-    )
-    with pytest.raises(ConvergenceError) as error:
-        step_statics(make_problem(inputs))
-    assert "full uplift" in str(error.value)
+    with pytest.raises(ConvergenceError, match="full uplift") as error:
+        step_statics(bench.problem(np.arange(3.0), load))
     assert "time 2" in str(error.value)
 
 
@@ -125,13 +113,7 @@ def held_by_relations(forces):
     bench.relate([(1.0, "UY", nodes[0]), (-2.0, "UY", nodes[1]), (1.0, "UY", nodes[2])])
     loads = [bench.field((nodes[0], "FY", f[0]), (nodes[2], "FY", f[1])) for f in forces]
     steps = tuple((float(i), field) for i, field in enumerate(loads))
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            np.arange(float(len(forces))),
-            load=Load((LoadPart("MECA", steps=steps),)),
-        )
-    )
+    problem = bench.problem(np.arange(float(len(forces))), Load((LoadPart("MECA", steps=steps),)))
     recorder = Recorder(len(forces))
     step_statics(problem, [recorder])
     where = [problem.numbering.index_of(n, "UY") for n in nodes]
@@ -164,15 +146,7 @@ def test_a_load_that_is_there_at_the_start_does_the_work_of_one_that_grows(facto
     else:
         bench.spring(5e5, top)
     times = np.arange(3.0)
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            times,
-            load=bench.load(bench.field((top, "FY", -3e3)), times, factors),
-            model=bench.model,
-            characteristics=bench.characteristics,
-        )
-    )
+    problem = bench.problem(times, bench.load(bench.field((top, "FY", -3e3)), times, factors))
     history = step_statics(problem, [Recorder(3)])
     force = 3e3 * np.array(factors[1:])
     np.testing.assert_allclose(history.energies[1:, EXTERNAL], force**2 / 1e6, rtol=1e-9)

@@ -12,7 +12,7 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.stepping import choose
 from ssilang.kernel.stepping.choose import RULES, Case, method_of, rule_of, table
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.run import Integration
 from ssilang.messages.message import find, sentence
 
@@ -36,12 +36,7 @@ def masses(count: int = 2, shear: float = 0.0, dashpot: bool = False, scheme: Sc
         tops.append(top)
     push = bench.field(*((t, "FX", -1e4) for t in tops))
     C: Matrix | None = bench.damping if dashpot else None
-    return make_problem(
-        Inputs(
-            bench.stiffness, DT * np.arange(4), bench.mass_matrix, C, bench.load(push),
-            model=bench.model, characteristics=bench.characteristics, scheme=scheme,
-        )
-    )  # fmt: skip
+    return bench.problem(DT * np.arange(4), damping=C, load=bench.load(push), scheme=scheme)
 
 
 def name_of(problem: Problem, full: bool = False, renewable: bool = False) -> str:

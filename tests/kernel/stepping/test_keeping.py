@@ -20,7 +20,7 @@ from ssilang.kernel.stepping import choose
 from ssilang.kernel.stepping.choose import only
 from ssilang.kernel.stepping.keeping import digest_of, leaves, put_back, rebuilt, stride_of
 from ssilang.kernel.stepping.newmark import Scheme, hht
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.run import integrate
 from tests.kernel.contact.test_modal import feet
 from tests.kernel.stepping.test_choose import masses
@@ -41,14 +41,12 @@ def oscillator(scheme=None, joint=None, steps=200, push=0.0):
         bench.fix(soil)
         bench.joint("SEG2", [soil, top], "JOI1", KS=0.0, **joint)
     t = 1.3e-3 * np.arange(steps + 1)
-    return make_problem(
-        Inputs(
-            bench.stiffness, t, bench.mass_matrix, None,
-            bench.load(bench.field((top, "FX", push)), t, np.sin(31.0 * t)) if push else None,
-            bench.field((top, "UX", 0.01)), model=bench.model,
-            characteristics=bench.characteristics, scheme=scheme or Scheme(),
-        )
-    )  # fmt: skip
+    return bench.problem(
+        t,
+        bench.load(bench.field((top, "FX", push)), t, np.sin(31.0 * t)) if push else None,
+        displacement=bench.field((top, "UX", 0.01)),
+        scheme=scheme or Scheme(),
+    )
 
 
 def longer(problem: Problem, steps: int, kinds: int = 1) -> Problem:

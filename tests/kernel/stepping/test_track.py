@@ -19,7 +19,6 @@ from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
 from ssilang.kernel.stepping.problem.loading import Loading
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import Room
@@ -69,12 +68,9 @@ def bouncing(shear=0.0, moving=False, dashpot=False, scheme=None, feet=3, more=0
         imposed = NodeField.of(bench.table, np.array([grounds[0]]), {"FLX": np.array([1.0])})
         parts += bench.load(imposed, t, 2e-3 * np.sin(40.0 * t)).parts
     fall = bench.field(*((n, "UY", 2e-3 * (i + 1)) for i, n in enumerate(tops)))
-    return make_problem(
-        Inputs(
-            bench.stiffness, t, bench.mass_matrix, bench.damping, Load(parts), fall, velocity,
-            model=bench.model, characteristics=bench.characteristics, scheme=scheme or Scheme(),
-        )
-    )  # fmt: skip
+    return bench.problem(
+        t, Load(parts), displacement=fall, velocity=velocity, scheme=scheme or Scheme()
+    )
 
 
 def stopped(dashpot=False, **options):
@@ -93,12 +89,7 @@ def stopped(dashpot=False, **options):
     t = 2e-3 * np.arange(STEPS + 1)
     weight = bench.field(*((n, "FY", -1200.0) for n in nodes))
     fall = bench.field(*((n, "UY", 0.002 * (i + 1)) for i, n in enumerate(nodes)))
-    return make_problem(
-        Inputs(
-            bench.stiffness, t, bench.mass_matrix, bench.damping, bench.load(weight),
-            displacement=fall, **options,
-        )
-    )  # fmt: skip
+    return bench.problem(t, bench.load(weight), displacement=fall, **options)
 
 
 def shaken_from_below(problem):
@@ -371,7 +362,7 @@ def test_extremes_of_reactions_that_act_elsewhere_than_their_condition():
     bench.relations[-1] = replace(rows, dual=dual)
     times = 5e-3 * np.arange(121)
     load = bench.load(bench.field((nodes[0], "FY", 100.0)), times.tolist(), np.sin(9 * times))
-    problem = make_problem(Inputs(bench.stiffness, times, bench.mass_matrix, load=load))
+    problem = bench.problem(times, load)
     recorder, extremes = Recorder(len(times)), Extremes(problem=problem)
     integrate(problem, [recorder, extremes])
     pushed = np.array([s.support_forces for s in recorder.snapshots])
@@ -417,7 +408,7 @@ def frame_with_ties():
     weight = bench.field(*((n, "FY", -1200.0) for n in nodes))
     push = bench.field((nodes[1], "FX", 900.0), (nodes[4], "FY", 2500.0))
     load = Load(bench.load(weight).parts + bench.load(push, t, np.sin(30.0 * t)).parts)
-    problem = make_problem(Inputs(bench.stiffness, t, bench.mass_matrix, None, load))
+    problem = bench.problem(t, load)
     return problem, np.sort(np.array(marks)), nodes
 
 
@@ -466,9 +457,7 @@ def test_sums_of_named_relations_are_their_forces_with_the_frictions_beside():
     weight = bench.field((a, "FY", -200.0), (b, "FY", -400.0), (c, "FY", -90.0))
     push = bench.field((a, "FX", 300.0), (c, "FX", 500.0), (b, "FY", 500.0))
     load = Load(bench.load(weight).parts + bench.load(push, t, np.sin(60.0 * t)).parts)
-    problem = make_problem(
-        Inputs(bench.stiffness, t, bench.mass_matrix, load=load, friction=(rubbing,))
-    )
+    problem = bench.problem(t, load, friction=(rubbing,))
     recorder, wanted = Recorder(len(t)), np.arange(len(t)) % 3 == 1
     named = {"all": np.array([*stops, tie, seat]), "left": np.array([stops[0], seat]),
              "right": np.array([stops[1]]), "tie": np.array([tie])}  # fmt: skip

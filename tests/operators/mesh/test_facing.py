@@ -1,6 +1,6 @@
 """VISA: pairs of nodes at one place."""
 
-from script_runs import failed, ran
+from script_runs import ran, refused
 
 LINES = "OPTI DIME 2 ELEM SEG2 ; A = DROI 4 (0. 0.) (1. 0.) ; B = DROI 2 (1. 1.E-7) (0. 1.E-7) ; "
 
@@ -13,5 +13,4 @@ def test_double_nodes_of_one_mesh_with_the_density() -> None:
 
 
 def test_a_distance_is_needed() -> None:
-    result = failed(LINES + "M N = VISA A B ;")
-    assert "a distance is needed" in result.message
+    assert "a distance is needed" in refused(LINES + "M N = VISA A B ;")

@@ -1,7 +1,7 @@
 """PART and CCON: zones of lines, surfaces and volumes; @ISOSURF."""
 
 import pytest
-from script_runs import failed, ran
+from script_runs import ran, refused
 
 from ssilang.cli.run import run_text
 
@@ -64,8 +64,7 @@ def test_sub_type_is_for_parallel_runs_only() -> None:
 
 
 def test_what_separates_must_be_said() -> None:
-    result = failed(STAR + "T = PART 'SEPA' L ;")
-    assert "nothing separates" in result.message
+    assert "nothing separates" in refused(STAR + "T = PART 'SEPA' L ;")
 
 
 def test_lines_of_several_values() -> None:
@@ -100,5 +99,4 @@ def test_union_of_a_table_of_numbers_and_of_no_parts() -> None:
     )
     assert result.session.root.find("X").values.tolist() == [1.0, 2.0, 3.0]
     assert result.session.root.find("Y").values.tolist() == [1.0, 3.0]
-    refused = failed("T = TABL ; T . 1 = 2 ; X = ETG T ;")
-    assert "sub-type" in refused.message
+    assert "sub-type" in refused("T = TABL ; T . 1 = 2 ; X = ETG T ;")

@@ -38,6 +38,15 @@ def _clamped(zone, mat, load, clamped=0):
     return vector_to_field(u, numbering)
 
 
+def _free_parts(blocks, is_free):
+    """Dense matrices of element blocks on the unknowns (node, name) that are free."""
+    parts = [Matrix(block.table, (block,)) for block in blocks]
+    numbering = numbering_of(*parts)
+    names = [numbering.unknowns[c] for c in numbering.codes]
+    free = np.array([is_free(*at) for at in zip(numbering.nodes, names, strict=True)])
+    return [assemble(a, numbering).toarray()[np.ix_(free, free)] for a in parts]
+
+
 def _force(zone, node, **values):
     return NodeField.of(
         zone.cells.nodes, np.array([node]), {k: np.array([v]) for k, v in values.items()}, "DISCRET"
@@ -130,11 +139,8 @@ def test_beam_mass_gives_the_cantilever_frequency():
     zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
     slender = SECTION | {"SECT": 1e4 * A}  # no rotary inertia to speak of
     mat = material(zone, **slender)
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
-    M = Matrix(zone.cells.nodes, (families.mass(zone, mat),))
-    numbering = numbering_of(K, M)
-    free = numbering.nodes != 0
-    k, m = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, M))
+    blocks = families.stiffness(zone, mat), families.mass(zone, mat)
+    k, m = _free_parts(blocks, lambda node, name: node != 0)
     omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
     beta = np.array([1.875104, 4.694091])
     np.testing.assert_allclose(omega, (beta / L) ** 2 * np.sqrt(E * IZ / (7800e4 * A)), rtol=5e-4)
@@ -146,13 +152,8 @@ def test_sections_of_a_beam_turn_with_its_slope():
     zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
     thick = SECTION | {"INRZ": A * (L / 20) ** 2}
     mat = material(zone, **thick)
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
-    M = Matrix(zone.cells.nodes, (families.mass(zone, mat),))
-    numbering = numbering_of(K, M)
-    names = np.array([numbering.unknowns[c] for c in numbering.codes])
-    ends = np.isin(numbering.nodes, (0, n))
-    free = (names != "UX") & ~(ends & (names == "UY"))
-    k, m = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, M))
+    blocks = families.stiffness(zone, mat), families.mass(zone, mat)
+    k, m = _free_parts(blocks, lambda node, u: u == "RZ" or (u == "UY" and node not in (0, n)))
     omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
     wave = np.array([1.0, 2.0]) * np.pi / L
     rayleigh = E * (L / 20) ** 2 * wave**4 / (7800 * (1 + (L / 20) ** 2 * wave**2))
@@ -174,11 +175,8 @@ def test_euler_buckling_load_from_the_geometric_stiffness():
     zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
     mat = material(zone, **SECTION)
     compression = CellField((material(zone, EFFX=-1.0).blocks[0],), "CONTRAINTES")
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
-    G = Matrix(zone.cells.nodes, (families.geometric_stiffness(zone, compression, mat),))
-    numbering = numbering_of(K, G)
-    free = numbering.nodes != 0
-    k, g = (assemble(a, numbering).toarray()[np.ix_(free, free)] for a in (K, G))
+    blocks = families.stiffness(zone, mat), families.geometric_stiffness(zone, compression, mat)
+    k, g = _free_parts(blocks, lambda node, name: node != 0)
     factors = 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
     assert factors == pytest.approx(np.pi**2 * E * IZ / (4 * L**2), rel=1e-4)
 

@@ -7,7 +7,7 @@ import pytest
 from references import law_points
 from references.assembled import Bench
 from references.footing import Disc, Strip
-from references.recorder import Recorder
+from references.recorder import Recorder, recorded
 from references.rocking import macro_element_period
 
 from ssilang.kernel.base.errors import MaterialError
@@ -19,8 +19,6 @@ from ssilang.kernel.interface.laws.macro_law import outline_of
 from ssilang.kernel.interface.laws.point_laws import point_energies
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
-from ssilang.kernel.stepping.run import integrate
 
 STRIP, DISC, SPRINGS = 3, 4, 5
 KN = 1e6
@@ -132,15 +130,8 @@ def pushed(mode, law, turn, normal, theta, **p):
     weight = LoadPart("MECA", bench.field((base, "F" + vertical[1], -normal)))
     one = NodeField.of(bench.table, np.array([row]), {"FLX": np.array([1.0])})
     curve = Curve((CurvePart(times, np.asarray(theta)),))
-    inputs = Inputs(
-        bench.stiffness,
-        times,
-        load=Load((weight, LoadPart("DIMP", one, curve))),
-        model=bench.model,
-        characteristics=bench.characteristics,
-    )
     recorder = Recorder(len(times))
-    step_statics(make_problem(inputs), [recorder])
+    step_statics(bench.problem(times, Load((weight, LoadPart("DIMP", one, curve)))), [recorder])
     name = "M" + turn[1]
     return np.array([s.reactions.values_at(name, np.array([base]))[0] for s in recorder.snapshots])
 
@@ -190,19 +181,12 @@ def test_free_rocking_period():
     exact = macro_element_period(strip, inertia, amplitude)
     lift = float(strip.lift(np.array(amplitude)))
     times = np.linspace(0.0, 3 * exact, 6001)
-    problem = make_problem(
-        Inputs(
-            bench.stiffness,
-            times,
-            bench.mass_matrix,
-            load=bench.load(bench.field((base, "FY", -strip.normal))),
-            displacement=bench.field((base, "RZ", amplitude), (base, "UY", lift)),
-            model=bench.model,
-            characteristics=bench.characteristics,
-        )
+    problem = bench.problem(
+        times,
+        bench.load(bench.field((base, "FY", -strip.normal))),
+        displacement=bench.field((base, "RZ", amplitude), (base, "UY", lift)),
     )
-    recorder = Recorder(len(times))
-    integrate(problem, [recorder])
+    recorder, _ = recorded(problem)
     theta = recorder.of("u")[:, problem.numbering.index_of(base, "RZ")]
     down = np.flatnonzero((theta[:-1] > 0) & (theta[1:] <= 0))
     assert (times[down[2]] - times[down[0]]) / 2 == pytest.approx(exact, rel=1e-3)

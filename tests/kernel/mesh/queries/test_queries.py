@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from refusing import refusal
 from together import together
 
 from ssilang.kernel.base.errors import MeshError
@@ -288,9 +289,8 @@ def test_cells_and_nodes_are_picked():
     assert cells_of(around) == [c for c in cells_of(mesh) if at[1, 1] in c[1]]
     assert cells_of(select.containing(mesh, middle)) == cells_of(around)[:1]
     assert select.nearest_node(mesh, x[at[2, 1]] + [0.3, 0.2, 0.1]) == at[2, 1]
-    with pytest.raises(MeshError) as caught:
+    with refusal(MeshError, "kernel.mesh.mesh-empty-no-nearest"):
         select.nearest_node(Mesh(mesh.nodes, ()), middle)
-    assert caught.value.code == "kernel.mesh.mesh-empty-no-nearest"
     row = [at[i, 0] for i in range(4)] + [at[3, 1], at[2, 1]]
     line = Mesh.of(mesh.nodes, "SEG2", np.array(list(itertools.pairwise(row))), np.arange(5))
 
@@ -305,9 +305,8 @@ def test_cells_and_nodes_are_picked():
     wrapped = [[row[4], row[5]], [row[5], row[0]], [row[0], row[1]]]
     assert told(row[4], row[1], ring)[0] == wrapped
     for end, code in ((row[1], "two-points-line-part"), (at[0, 1], "node-no-end-cell")):
-        with pytest.raises(MeshError) as caught:
+        with refusal(MeshError, f"kernel.mesh.{code}"):
             select.stretch(line, row[1], end)
-        assert caught.value.code == f"kernel.mesh.{code}"
 
 
 def star(n=7):
@@ -388,9 +387,8 @@ def test_points_in_volumes_and_before_their_skins(cut):
     gap = np.array([np.linalg.norm(np.concatenate(many) - q, axis=1).min() for q in p])
     np.testing.assert_allclose(np.abs(found), gap, atol=0.03)
     assert (np.abs(found) <= gap + 1e-12).all()
-    with pytest.raises(MeshError) as caught:
+    with refusal(MeshError, "kernel.mesh.mesh-volume-cells-needed"):
         select.inside_volume(p, skin, 0.0)
-    assert caught.value.code == "kernel.mesh.mesh-volume-cells-needed"
 
 
 def test_distances_beyond_tips_and_fronts():
@@ -475,9 +473,8 @@ def test_maps_move_what_they_say_and_keep_what_they_hold():
     np.testing.assert_allclose(part(old[:1] + across), new[:1] + across)
     for given, code in ((old[[0, 0, 1]], "points-define-map-line"),
                         (old[:0], "map-takes-many-points")):  # fmt: skip
-        with pytest.raises(MeshError) as caught:
+        with refusal(MeshError, f"kernel.mesh.{code}"):
             transform.affine_through(given, new[: len(given)], 3)
-        assert caught.value.code == f"kernel.mesh.{code}"
     with pytest.raises(MeshError) as caught:
         transform.affine_through(old, new, 2)
     assert caught.value.data == {"dimension": 3, "n_old": 4}
@@ -497,9 +494,8 @@ def test_maps_move_what_they_say_and_keep_what_they_hold():
     assert pairs.of_nodes(np.array([[at[2, 0], at[0, 1]]])).tolist() == [
         [copier.copies[at[2, 0]], copier.copies[at[0, 1]]]
     ]
-    with pytest.raises(MeshError) as caught:
+    with refusal(MeshError, "kernel.mesh.node-not-belong-mesh"):
         pairs.of_nodes(np.array([0]))
-    assert caught.value.code == "kernel.mesh.node-not-belong-mesh"
     transform.move(mesh.nodes, np.array([at[0, 0], at[0, 0], at[3, 1]]), transform.shift(b))
     moved = np.flatnonzero((mesh.nodes.coordinates[: len(before)] != before).any(axis=1))
     assert moved.tolist() == sorted([at[0, 0], at[3, 1]])
@@ -545,9 +541,8 @@ def test_lines_that_bend_that_continue_and_that_repeat():
         area += 4 / 3 * 0.5 * (np.cross(np.append(m - a, 0), np.append(b - a, 0))[2])
     assert measure.signed_area(bent) == pytest.approx(area)
     assert measure.signed_area(orientation.reversed_line(bent)) == pytest.approx(-area)
-    with pytest.raises(MeshError) as caught:
+    with refusal(MeshError, "kernel.mesh.area-inside-line-asked"):
         measure.signed_area(combine.poi1(table, ids))
-    assert caught.value.code == "kernel.mesh.area-inside-line-asked"
     first, second, third = (
         Mesh.of(table, "SEG2", ids[list(p)][None]) for p in ((2, 4), (0, 2), (4, 5))
     )

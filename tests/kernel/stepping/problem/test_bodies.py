@@ -5,7 +5,6 @@ import pytest
 from references.assembled import Bench
 
 from ssilang.kernel.stepping.problem.bodies import full_uplift, loose_bodies
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 
 @pytest.mark.parametrize("first", [0, 1])
@@ -28,12 +27,7 @@ def test_each_body_at_a_joint_counts_the_points_that_touch_it(first):
     heavy = above[:1] if first == 0 else above[1:]
     for node in heavy:
         bench.mass(7.0, node)
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, np.array([0.0, 1e-3]), bench.mass_matrix,
-            model=bench.model, characteristics=bench.characteristics,
-        )
-    )  # fmt: skip
+    problem = bench.problem(np.array([0.0, 1e-3]))
     joints = problem.interface
     tractions = np.zeros((joints.n_points, 2))
     tractions[:, -1] = -1.0

@@ -17,7 +17,6 @@ from ssilang.kernel.stepping.problem.initial import (
     joint_state,
     with_contact,
 )
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 COUNT, ROWS = 5, 4
 
@@ -38,9 +37,7 @@ def test_what_touches_is_pushed_apart_or_opens(seed):
     for row, sense in zip(rows, senses, strict=True):
         bench.relate([(c, "UX", n) for c, n in zip(row, nodes, strict=True) if c], int(sense))
     load = bench.load(bench.field(*((n, "FX", f) for n, f in zip(nodes, loads, strict=True))))
-    problem = make_problem(
-        Inputs(bench.stiffness, np.array([0.0, 0.1]), bench.mass_matrix, load=load)
-    )
+    problem = bench.problem(np.array([0.0, 0.1]), load)
     at = [problem.numbering.index_of(n, "UX") for n in nodes]
     free = np.zeros(len(problem.u))
     free[at] = loads / masses
@@ -71,7 +68,7 @@ def test_the_least_motion_is_taken_where_a_mass_is_singular(monkeypatch):
     bench = Bench()
     for i in range(6):
         bench.spring(1.0, bench.node(float(i), 0.0), unknown="UX")
-    problem = make_problem(Inputs(bench.stiffness, np.array([0.0, 0.1]), bench.mass_matrix))
+    problem = bench.problem(np.array([0.0, 0.1]))
     M = np.diag([0.0, 0.0, 5.0, 0.0, 0.0, 0.0])
     M[np.ix_([0, 3], [0, 3])], M[np.ix_([1, 4], [1, 4])] = 4.0, [[1, -2], [-2, 4]]
     problem = replace(problem, M=sp.csr_array(M))

@@ -8,7 +8,6 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
 from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.stepping.problem.loading import loading_of
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 
 
@@ -65,8 +64,5 @@ def test_a_joint_that_stays_closed_takes_one_iteration():
     t = 1e-3 * np.arange(30)
     load = Load(b.load(b.field((top, "FY", -100.0)), t, 1 + 0.1 * np.sin(50 * t)).parts)
     start = b.field((top, "UY", -100.0 / 1.01e5))
-    problem = make_problem(
-        Inputs(b.stiffness, t, b.mass_matrix, load=load, displacement=start, model=b.model,
-               characteristics=b.characteristics)
-    )  # fmt: skip
+    problem = b.problem(t, load, displacement=start)
     assert integrate(problem, []).iterations == 1

@@ -5,13 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.assembled import Bench
-from references.recorder import Recorder
+from references.recorder import Recorder, recorded
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.stepping.newmark import Scheme, hht
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import integrate
 
 KN, K1, K2, M1, M2 = 5e4, 2e4, 3e4, 2.0, 3.0
@@ -39,18 +38,7 @@ def lever():
 
 
 def problem_of(bench, times, load, scheme=None, start=None):
-    return make_problem(
-        Inputs(
-            bench.stiffness,
-            times,
-            bench.mass_matrix,
-            load=load,
-            displacement=start,
-            model=bench.model,
-            characteristics=bench.characteristics,
-            scheme=scheme or Scheme(),
-        )
-    )
+    return bench.problem(times, load, displacement=start, scheme=scheme or Scheme())
 
 
 def where(problem, *nodes):
@@ -104,8 +92,7 @@ def test_motion_is_that_of_the_saddle_point():
     load = bench.load(bench.field((one, "FY", -40.0)))
     field = bench.field((one, "UY", start[0]), (two, "UY", start[1]))
     problem = problem_of(bench, times, load, start=field)
-    recorder = Recorder(len(times))
-    history = integrate(problem, [recorder])
+    recorder, history = recorded(problem)
     u = recorder.of("u")[:, where(problem, one, two)]
     exact = newmark(times, start, np.array([-40.0, 0.0]))
     assert (exact[:, 0] < 0).any()
@@ -120,8 +107,7 @@ def test_every_scheme_keeps_the_relation(scheme):
     times = np.arange(201) * 1e-3
     field = bench.field((one, "UY", 1e-2), (two, "UY", 2e-2))
     problem = problem_of(bench, times, None, scheme, field)
-    recorder = Recorder(len(times))
-    history = integrate(problem, [recorder])
+    recorder, history = recorded(problem)
     u = recorder.of("u")[:, where(problem, one, two)]
     assert np.abs(u @ C).max() <= 1e-14
     assert np.abs(u - newmark(times, u[0], np.zeros(2))).max() <= 0.2 * 2e-2
@@ -144,8 +130,7 @@ def test_unilateral_relation_with_a_dual_holds_and_lets_go():
     field = bench.field((one, "UY", 1e-2), (two, "UY", 2e-2))
     load = bench.load(bench.field((one, "FY", -40.0)))
     problem = problem_of(bench, times, load, start=field)
-    recorder = Recorder(len(times))
-    integrate(problem, [recorder])
+    recorder, _ = recorded(problem)
     gap = recorder.of("u")[:, where(problem, one, two)] @ C
     push = recorder.of("contact")[:, 0]
     assert gap.min() >= -1e-15

@@ -14,7 +14,6 @@ from ssilang.kernel.stepping.problem.plausibility import (
     stiffness_contrast,
     swings,
 )
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 
 T = 1e-3 * np.arange(41)
 
@@ -46,10 +45,7 @@ def block(**change):
         ).parts
     if given["push"]:
         parts += b.load(b.field((two, "FX", given["push"])), T, np.sin(100 * T)).parts
-    return b, make_problem(
-        Inputs(b.stiffness, T, b.mass_matrix, load=Load(parts) if parts else None, model=b.model,
-               characteristics=b.characteristics)
-    )  # fmt: skip
+    return b, b.problem(T, Load(parts) if parts else None)
 
 
 @pytest.mark.parametrize(
@@ -99,8 +95,7 @@ def masses(*loads, c=0.0, v=None, free=False):
     for first, second, factors in loads:
         parts += b.load(b.field((n[0], "FY", first), (n[1], "FY", second)), T, factors).parts
     velocity = None if v is None else b.field((n[0], "UY", v), (n[1], "UY", 2 * v))
-    return make_problem(Inputs(b.stiffness, T, b.mass_matrix, b.damping, Load(parts),
-                               velocity=velocity))  # fmt: skip
+    return b.problem(T, Load(parts), velocity=velocity)
 
 
 SINE, STEP = np.sin(30 * T), (T > 0.01) * 1.0
@@ -123,8 +118,7 @@ def test_periods_are_rayleighs_of_the_static_shape():
         b.spring(k, n[i], n[i + 1])
     base = b.relate([(1.0, "UY", n[0])])
     pull = NodeField.of(b.table, np.array([base]), {"FLX": np.array([0.4])})
-    shaken = Inputs(b.stiffness, T, b.mass_matrix, load=b.load(pull, T, SINE))
-    (carried,) = swings(make_problem(shaken))
+    (carried,) = swings(b.problem(T, b.load(pull, T, SINE)))
     assert carried.period == pytest.approx(2 * np.pi * np.sqrt(7.0 / 3e4))  # both go along with it
     for second in (1.0, 0.0, -0.3):
         (loose,) = swings(masses((1.0, second, SINE), free=True))
@@ -137,7 +131,7 @@ def test_periods_are_rayleighs_of_the_static_shape():
             b.mass(2.0, node, ("UY",))
             b.spring(k, node)
         push = b.load(b.field((node, "FY", 3.0)), T, SINE)
-        (one,) = swings(make_problem(Inputs(b.stiffness, T, b.mass_matrix, load=push)))
+        (one,) = swings(b.problem(T, push))
         assert np.isfinite(one.period) == held
     assert swings(masses((1.0, 2.0, np.ones(41)))) == []
 
@@ -154,12 +148,12 @@ def test_masses_alone_and_starts_against_supports():
     start = b.field((n[1], "UY", 0.2), (n[0], "UY", 0.1))
     fast = b.field((n[3], "UY", 0.4), (n[1], "UY", 0.0))
     load = b.load(b.field((n[4], "FY", 1.0)))
-    problem = make_problem(Inputs(b.stiffness, T, b.mass_matrix, b.damping, load, start, fast))
+    problem = b.problem(T, load, displacement=start, velocity=fast)
     assert masses_alone(problem).tolist() == [n[2], n[5]]
     found = against_supports(problem)
     assert (found["DEPL"].tolist(), found["VITE"].tolist()) == ([0], [])
     fast = b.field((n[1], "UY", 0.5))
-    problem = make_problem(Inputs(b.stiffness, T, b.mass_matrix, b.damping, load, None, fast))
+    problem = b.problem(T, load, velocity=fast)
     found = against_supports(problem)
     assert (found["DEPL"].tolist(), found["VITE"].tolist()) == ([], [0])
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.assembled import Bench
-from references.recorder import Recorder
+from references.recorder import assert_alike, recorded
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.matrices.matrix import Matrix
@@ -63,21 +63,15 @@ def problem_of(
 
 def compared(problem, monkeypatch, light: bool, tolerance: float = 1e-11):
     """Run both loops, check which small one ran, compare all that instants hold."""
-    few, history = Recorder(len(problem.times)), Integration(problem)
-    choice = choose(Case(problem, history.motion, 1e-3))
+    choice = choose(Case(problem, Integration(problem).motion, 1e-3))
     assert isinstance(choice.loop, SmallLoop)
     assert choice.rule.light == light
-    found = integrate(problem, [few])
+    few, found = recorded(problem)
     monkeypatch.setattr("ssilang.kernel.stepping.choose.RULES", only("condensed"))
-    other = Recorder(len(problem.times))
-    truth = integrate(problem, [other])
+    other, truth = recorded(problem)
     assert (found.loop, truth.loop) == ("compiled", "condensed")
-    for name in ("u", "v", "a", "reaction", "w", "t", "state"):
-        a, b = few.of(name), other.of(name)
-        size = np.abs(b).max(initial=0.0)
-        assert np.abs(a - b).max(initial=0.0) <= tolerance * size, name
+    assert_alike((few, found), (other, truth), tolerance=tolerance)
     size = np.abs(truth.energies).max()
-    np.testing.assert_allclose(found.energies, truth.energies, atol=1e-10 * size)
     assert found.worst_imbalance == pytest.approx(truth.worst_imbalance, abs=1e-9 * size)
 
 

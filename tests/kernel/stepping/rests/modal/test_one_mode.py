@@ -7,7 +7,6 @@ from references.recorder import Recorder
 
 from ssilang.kernel.stepping.choose import Case, choose, only
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark, newmark_of
-from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.rests.modal.one_mode import (
     Mode,
     Spring,
@@ -164,12 +163,7 @@ def test_motions_without_mass_keep_their_velocity_and_acceleration(monkeypatch):
     bench.mass(1000.0, top)
     bench.joint("SEG2", [ground, top], "JOI1", KN=7e6, KS=0.0)
     start = bench.field((top, "UX", 0.01), (middle, "UX", 0.006))
-    problem = make_problem(
-        Inputs(
-            bench.stiffness, times, bench.mass_matrix, displacement=start,
-            model=bench.model, characteristics=bench.characteristics, scheme=newmark(0.3, 0.6),
-        )
-    )  # fmt: skip
+    problem = bench.problem(times, displacement=start, scheme=newmark(0.3, 0.6))
     line = choose(Case(problem, Integration(problem).motion, 1e-3)).loop.line
     assert len(line.idle) == 1
     few, other = Recorder(len(times)), Recorder(len(times))

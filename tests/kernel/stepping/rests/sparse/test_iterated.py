@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sparse
-from references.recorder import Recorder, assert_alike
+from references.recorder import assert_alike, recorded
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
@@ -26,17 +26,15 @@ def several_levels(monkeypatch):
 
 
 def run(problem, solver=FIRST_FIT):
-    kept = Recorder(len(problem.times), 5)
-    history = integrate(replace(problem, solver=solver), [kept])
-    return history, kept.snapshots
+    return recorded(replace(problem, solver=solver), every=5)
 
 
 def assert_same(problem, tolerance=1e-9):
-    (found, kept), (exact, expected) = run(problem, BY_MULTIGRID), run(problem)
-    assert (found.loop, found.solver) == ("multigrid", "multigrid")
-    assert exact.solver != "multigrid"
-    assert_alike((found, kept), (exact, expected), tolerance)
-    return kept
+    found, exact = run(problem, BY_MULTIGRID), run(problem)
+    assert (found[1].loop, found[1].solver) == ("multigrid", "multigrid")
+    assert exact[1].solver != "multigrid"
+    assert_alike(found, exact, ("u", "v", "reaction", "w", "t", "state"), tolerance)
+    return found[0].snapshots
 
 
 def test_steps_begin_where_the_last_ones_lead(monkeypatch):
@@ -50,8 +48,8 @@ def test_steps_begin_where_the_last_ones_lead(monkeypatch):
                 iterated.IteratedSolver, "__init__",
                 lambda self, *given: (begin(self, *given), made.append(self))[0],
             )  # fmt: skip
-            _, kept = run(problem, BY_MULTIGRID)
-        return made[0].turns, np.array([s.u for s in kept])
+            kept, _ = run(problem, BY_MULTIGRID)
+        return made[0].turns, kept.of("u")
 
     problem = soil_block(
         steps=30, size=(16, 8, 4), joint=FRICTION, damping=(0.5, 2e-3), moving=True
@@ -68,7 +66,7 @@ def test_without_joints_the_energy_of_each_step_is_in_balance():
     linear = replace(problem, interface=None, state=np.zeros((0, 0)))
     kept = assert_same(linear)
     assert len(kept) == 5
-    kinetic, elastic, stored, lost, _, external = run(linear, BY_MULTIGRID)[0].energies.T
+    kinetic, elastic, stored, lost, _, external = run(linear, BY_MULTIGRID)[1].energies.T
     balance = kinetic + elastic + stored + lost - external
     assert np.abs(balance - balance[0]).max() < 1e-9 * np.abs(external).max()
 
@@ -86,7 +84,7 @@ def test_a_coarser_tolerance_takes_fewer_turns_and_is_met(monkeypatch):
             return outcome
 
         monkeypatch.setattr(iterated.IteratedSolver, "solve", counted)
-        kept[tolerance] = run(problem, Solver("multigrid", tolerance=tolerance))[1]
+        kept[tolerance] = run(problem, Solver("multigrid", tolerance=tolerance))[0].snapshots
     assert turns[1e-6] < 0.7 * turns[1e-12]
     fine, coarse = (kept[t][-1].u for t in (1e-12, 1e-6))
     assert 0.0 < np.abs(coarse - fine).max() < 1e-4 * np.abs(fine).max()
