@@ -60,6 +60,12 @@ def test_rocking_block_follows_the_event_driven_motion(scheme):
     assert 1.5 < np.log2(errors[0] / errors[-1]) / 2 < 2.5
 
 
+def test_rocking_block_keeps_its_energy_with_the_conserving_step():
+    _, _, history = block_problem(1e-2, 3.0, Scheme(conserving=True))
+    reference = 0.5 * BLOCK.rocking_inertia * 0.5**2
+    assert np.abs(history.imbalance).max() < 1e-10 * reference
+
+
 BAR, PLAIN = Bar(), ContactOptions()
 
 

@@ -1,11 +1,12 @@
 """Motions that lift off, against the exact ones; the loops against each other."""
 
 import numpy as np
+import pytest
 from references.assembled import Bench
 from references.oscillators import MASS, SOIL_STIFFNESS, STRUCTURE_STIFFNESS, ClubB
 from references.recorder import recorded
 
-from ssilang.kernel.stepping.newmark import Scheme
+from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 
 AVERAGE = Scheme()
 
@@ -43,6 +44,35 @@ def test_bilinear_oscillator_is_of_second_order():
     assert errors[2] < 2e-3
     orders = np.log2(errors[:-1] / errors[1:])
     assert (np.abs(orders - 2.0) < 0.1).all()
+
+
+CONSERVING = Scheme(conserving=True)
+
+
+@pytest.mark.parametrize("scheme", [hht(0.05), generalised_alpha(0.9), CONSERVING])
+def test_other_schemes_are_of_second_order(scheme):
+    errors = [club_b_error(dt, scheme) for dt in (5e-4, 2.5e-4)]
+    low, high = (1.8, 2.2) if scheme.conserving else (1.7, 2.3)
+    assert low < np.log2(errors[0] / errors[1]) < high
+
+
+@pytest.mark.parametrize("scheme", [hht(0.3), generalised_alpha(0.0)])
+def test_damped_schemes_lose_energy(scheme):
+    _, history = run(club_b(1e-3, scheme=scheme)[0])
+    total = history.energies[:, :4].sum(axis=1)
+    assert total[-1] < 0.9999 * total[0]
+
+
+@pytest.mark.parametrize(
+    ("scheme", "dt", "stiffness", "most"),
+    [(AVERAGE, 2.5e-4, 1.0, 1e-4)]
+    + [(CONSERVING, dt, k, 1e-10) for dt in (1e-2, 3e-3, 1e-3) for k in (1.0, 1e4)],
+)
+def test_energy_is_kept(scheme, dt, stiffness, most):
+    """By average acceleration at fine steps, by the conserving one at any step and stiffness."""
+    problem, _ = club_b(dt, scheme=scheme, KN=stiffness * SOIL_STIFFNESS)
+    _, history = run(problem)
+    assert np.abs(history.imbalance).max() < most * ClubB().energy
 
 
 def test_adapted_steps_find_the_events_and_keep_the_step_elsewhere():

@@ -73,6 +73,15 @@ def test_size_of_the_branches_changes_nothing(branch, monkeypatch):
     assert np.abs(found.u - expected.u).max() <= 1e-11 * np.abs(expected.u).max()
 
 
+def test_energy_of_bonded_bodies_is_kept():
+    problem = soil_block(
+        steps=200, size=SIZE, damping=None, acceleration=0.1,
+        joint=BONDED, words=("CISAILLEMENT_ELASTIQUE",),
+    )  # fmt: skip
+    _, history = recorded(problem)
+    assert np.abs(history.imbalance).max() <= 1e-10 * np.abs(history.energies).max()
+
+
 def test_a_first_motion_that_the_supports_do_not_allow():
     problem = soil_block(steps=60, size=SIZE)
     rng = np.random.default_rng(3)
