@@ -202,7 +202,8 @@ def _stretch(
     if not dynamic or finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     moved = reached.values.get("DEPLACEMENTS")
-    for told in far(moved, NOT_SMALL) if moved is not None and not finite and not dynamic else ():
+    judged = not finite and not dynamic and not all(map(is_joint, zones))  # whose size is none
+    for told in far(moved, NOT_SMALL) if moved is not None and judged else ():
         entries.warn("operators.statics.moves-far", operator="PASAPAS", **told)
     added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
