@@ -40,9 +40,9 @@ class System(Protocol):
 class Lengths:
     """How far steps go."""
 
-    start: float  # lengths ds: the first
-    least: float  # the least
-    most: float  # the largest
+    start: float  # first length ds
+    least: float  # least length ds
+    most: float  # largest length ds
     ideal: float = 6.0  # iterations that keep the length
     turns: int = 24  # iterations at most
     u_ref: float = 1.0  # unit of u in the lengths

@@ -31,7 +31,7 @@ class InterfaceState(NamedTuple):
     delta: FloatArray  # (q,) jumps of the pairs
     f: FloatArray  # (q,) forces on them
     w: FloatArray  # (n_points, d) local jumps, normal last
-    t: FloatArray  # (n_points, d) tractions
+    t: FloatArray  # (n_points, d) tractions, normal last
     state: FloatArray  # (n_points, N_STATE) internal variables of the laws
 
 
@@ -39,7 +39,7 @@ class Trial(NamedTuple):
     """The end of a step while it is iterated on: jumps that are tried, and what the laws give."""
 
     y0: FloatArray  # (q,) increments of the jumps under the forces of the start
-    y: FloatArray  # (q,) those that are tried
+    y: FloatArray  # (q,) increments that are tried
     delta: FloatArray  # (q,) jumps tried
     f: FloatArray  # (q,) forces
     w: FloatArray  # (n_points, d)

@@ -50,8 +50,8 @@ class ModalProblem:
     M: FloatArray  # (n, n)
     C: FloatArray  # (n, n)
     K: FloatArray  # (n, n)
-    spaces: FloatArray  # (p, n) and (p, 2 steps + 1) forces and their values at each half step
-    amplitudes: FloatArray
+    spaces: FloatArray  # (p, n) forces
+    amplitudes: FloatArray  # (p, 2 steps + 1) their values at each half step
     links: LinkArrays
 
 
