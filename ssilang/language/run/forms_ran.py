@@ -1,7 +1,5 @@
 """Which forms of operators ran, and which words chose what they read: are they all tried?"""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 

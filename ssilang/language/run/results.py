@@ -1,7 +1,5 @@
 """What an operator gives, before it runs: types of results by form."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from functools import cache
