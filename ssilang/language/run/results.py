@@ -46,7 +46,7 @@ def annotated(function: Callable[..., Any]) -> Results | None:
     note = function.__annotations__.get("return", "")
     if note is None:
         return ()
-    text = note if isinstance(note, str) else getattr(note, "__name__", str(note))
+    text = note.__name__ if isinstance(note, type) else str(note)
     found = re.fullmatch(r"tuple\[(.+)\]", text)
     parts = [p.strip() for p in found.group(1).split(",")] if found else [text]
     if "..." in parts:
