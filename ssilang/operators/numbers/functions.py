@@ -114,12 +114,24 @@ def _run(name: str, function: Function, value: Any) -> Any:
     return mapped(function, value)
 
 
+_CURVE = arg("curve", "EVOLUTIO", en="curve", range=CARRIED)
+_AXIS = choice("axis", ("ABSC", "ORDO"), optional=False, en="of abscissas, or of ordinates")
+
+
+def _along(function: Function, curve: Curve, axis: str) -> Curve:
+    if axis == "ORDO":
+        return mapped(function, curve)
+    parts = (replace(p, abscissas=function(p.abscissas)) for p in curve.parts)
+    return replace(curve, parts=tuple(parts))
+
+
 for _name, _function in _FUNCTIONS.items():
-    operator(
-        _name,
+    _made = operator(_name, _CURVE, _AXIS, gives="EVOLUTIO", family="functions")(
+        partial(_along, _function)
+    )
+    _made.form(
         _ANGLE if _name in ("SIN", "COS", "TAN") else _VALUE,
         gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
-        family="functions",
     )(partial(_run, _name, _function))
 
 
@@ -136,7 +148,12 @@ def ifre(
     return float(cosine), float(sine)
 
 
-@operator("ATG", gives=_REALS, family="functions")
+_ATG = operator("ATG", _CURVE, _AXIS, gives="EVOLUTIO", family="functions")(
+    partial(_along, _degrees(np.arctan))
+)
+
+
+@_ATG.form(gives=_REALS)
 def atg(
     call: Call,
     first: Any = Arg(*OPERANDS, en="tangent, or numerator", range=CARRIED),
