@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import logm
 
 CUBE = (
     "OPTI DIME 3 MODE TRID ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; "
@@ -47,6 +48,37 @@ def test_polar_decomposition_is_a_rotation_times_a_symmetric_stretch(found):
     np.testing.assert_allclose(U, U.T, atol=1e-12)
     assert (np.linalg.eigvalsh(U) > 0).all()
     np.testing.assert_allclose(gradients(s)[..., 0], U, atol=1e-12)  # F itself, rotation one
+
+
+def test_strains_of_gradients_are_logarithms_that_a_rotation_leaves(found):
+    e, of_u = found(
+        CUBE + displacement(H) + "R1 U1 = POLA M (GRAD M U) 'DEPL' ; D = EPSI M (GRAD M U) 'DEPL' ;"
+        " E = EPSI M U1 ;",
+        "E", "D",
+    )  # fmt: skip
+    expected = logm(F.T @ F) / 2
+    for field in (e, of_u):
+        np.testing.assert_allclose(tensor(field, "EP", "GA", 0.5), expected, atol=1e-12)
+
+
+@pytest.mark.parametrize(("mode", "last"), [("PLAN DEFO", ()), ("AXIS", ("EPTT",))])
+def test_logarithms_of_a_plane_gradient_leave_the_third_axis(found, mode, last):
+    script = (
+        f"OPTI DIME 2 MODE {mode} ELEM QUA4 ; L = DROI 1 (1 0) (2 0) ; S = TRAN 1 L (0. 1.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE ; X Y = COOR S ; "
+        "U = (NOMC 'UR' (0.3 * X)) ET (NOMC 'UZ' ((0.5 * X) - (0.2 * Y))) ; "
+    )
+    plane = script.replace("UR", "UX").replace("UZ", "UY") if not last else script
+    asked = "E = EPSI M (GRAD M U) 'DEPL' ; R V = POLA M (GRAD M U) 'DEPL' ; D = EPSI M V ;"
+    e, of_stretch = (f.blocks[0].components for f in found(plane + asked, "E", "D"))
+    G = np.array([[1.3, 0.0], [0.5, 0.8]])
+    E = logm(G.T @ G) / 2
+    a, b = ("X", "Y") if not last else ("R", "Z")
+    for name, value in ((f"EP{a}{a}", E[0, 0]), (f"EP{b}{b}", E[1, 1]), (f"GA{a}{b}", 2 * E[0, 1])):
+        np.testing.assert_allclose(e[name], value, atol=1e-12)
+        np.testing.assert_allclose(of_stretch[name], value, atol=1e-12)
+    for name in last:
+        np.testing.assert_allclose([e[name], of_stretch[name]], np.log(1.3), atol=1e-12)
 
 
 def test_plane_rotation_leaves_the_third_axis(found):

@@ -239,14 +239,19 @@ def test_user_procedure_takes_a_part_of_the_model_away(tmp_path):
     assert find("N") == 4
 
 
-def test_user_procedure_gives_other_times(tmp_path):
+@pytest.mark.parametrize(
+    ("saved", "kept"),
+    [("", [0.25, 0.5, 0.6, 0.8]), ("0.25 0.8", [0.25, 0.8]), ("0.5 0.6 1.", [0.5, 0.6])],
+)
+def test_user_procedure_gives_other_times(tmp_path, saved, kept):
     text = """
     DEBP PERSO1 T*TABLE ;
       SI ((T . 'ESTIMATION' . 'TEMPS') EGA 0.5) ; T . 'A_CALCULER' = PROG 0.6 0.8 ; FINS ;
     FINP ;
     """
-    T = finder(text + BAR + "T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;", tmp_path)("T")
-    assert [v for _, v in T.get("TEMPS").items()] == [0.0, 0.25, 0.5, 0.6, 0.8]
+    wish = f"T . 'TEMPS_SAUVES' = PROG {saved} ; " if saved else ""
+    T = finder(text + BAR + wish + "T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ;", tmp_path)("T")
+    assert [v for _, v in T.get("TEMPS").items()] == [0.0, *kept]
 
 
 def test_table_is_saved_during_the_calculation(tmp_path):

@@ -360,7 +360,7 @@ class PhraseReader:
             span = numbers[0].span.to(numbers[-1].span)
             if scope.dimension is None:
                 return [Operand(UNKNOWN, span, result=True)]
-            if len(numbers) < scope.dimension and scope.dimension:
+            if len(numbers) < scope.dimension:
                 raise SsiError("third-coordinate", span)
             if len(numbers) == scope.dimension:
                 return [Operand(typed("POINT"), span, result=True)]
