@@ -17,8 +17,6 @@ Cells whose forces no stiffness gives: those of a plastic law, or of a joint tha
 And those of a free field that have yielded: no linear ground moves as they did.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any

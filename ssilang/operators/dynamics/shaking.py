@@ -4,8 +4,6 @@ A load shakes where it is the mass times an acceleration of the whole; supports 
 their imposed values are those of a translation.
 """
 
-from __future__ import annotations
-
 from itertools import chain
 
 from ssilang.io.ground_motions.record import G

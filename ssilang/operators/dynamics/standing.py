@@ -4,13 +4,12 @@ A body that no-tension joints bear is in balance where the resultant of what pre
 them: the levers of all points about an axis have its own between them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
@@ -19,11 +18,8 @@ from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Bodies
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
-
-if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import BoolArray, FloatArray
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 

@@ -1,7 +1,5 @@
 """RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
