@@ -1,5 +1,6 @@
 """Settings of all tests."""
 
+import contextlib
 import ctypes
 import gc
 import importlib.util
@@ -11,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from _pytest.pathlib import import_path
 from hypothesis import HealthCheck, settings
 from not_tested import pytest_terminal_summary  # noqa: F401
 
@@ -65,6 +67,12 @@ def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     keep_factors(0)
 
 
+@pytest.fixture
+def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures are composed; placing their texts and writing them is most of a short script."""
+    monkeypatch.setattr(figure, "figure_bytes", lambda *_: b"")
+
+
 class _Nothing(set[str]):
     """What processes of tests may start: the other processors have tests of their own."""
 
@@ -90,6 +98,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         return item.get_closest_marker("long") is None, COMPILE.isdisjoint(folders)
 
     items.sort(key=order)
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    """One process begins with the last file: of a new checkout each makes half of the byte code."""
+    tests, root = Path(__file__).parent, session.config.rootpath
+    whole = [Path(root, a) for a in session.config.args] == [tests]
+    if whole and os.environ.get("PYTEST_XDIST_WORKER") == "gw1":
+        for path in sorted(tests.rglob("test_*.py"), reverse=True):
+            with contextlib.suppress(Exception):  # who collects it tells of it
+                import_path(path, mode="importlib", root=root, consider_namespace_packages=False)
 
 
 def pytest_collection_finish() -> None:

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from ssilang.io.plots import figure
 from ssilang.language.run.session import Check
 from ssilang.operators.drawing import scenes
 from ssilang.operators.files import writing
@@ -149,9 +148,8 @@ def test_deck_runs_within_its_tolerances_and_agrees_with_the_reference(deck: Pat
 
 
 @pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+def undrawn(unsaved: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures cost some decks half of their time; the deck as it is draws them."""
-    monkeypatch.setattr(figure, "figure_bytes", lambda *_: b"")
     monkeypatch.setattr(scenes, "_draw_files", lambda *_: None)
 
 

@@ -34,6 +34,7 @@ def same(printed: str, expected: str) -> bool:
         return printed == expected
 
 
+@pytest.mark.usefixtures("unsaved")
 @together("name, script, expected", forms(), by=lambda f: f[0].partition("-")[0])
 def test_a_form_does_what_its_notice_says(
     name: str, script: str, expected: str, tmp_path: Path

@@ -209,7 +209,7 @@ E = EVOL 'TEMP' R 'VITE' 'UX' P1 ; D = EVOL 'TEMP' R 'DEPL' 'UX' P1 ;
 def moved(folder: Path, system: str, more: str) -> RunResult:
     option = f"OPTI 'UNIT' '{system}' ;" if system else ""
     options = RunOptions(output_directory=folder, summary=True)
-    return ran(MOTION.replace("{option}", option) + more, options=options)
+    return ran(MOTION.replace("{option}", f"{option} OPTI TRAC SVG ;") + more, options=options)
 
 
 def texts(folder: Path, number: int = 1) -> set[str]:

@@ -20,7 +20,7 @@ T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ; O = TABL ; O . 'EVOL' = TABL 
 
 
 @pytest.fixture
-def drawn(monkeypatch, tmp_path):
+def drawn(unsaved, monkeypatch, tmp_path):
     """Runs statements after BAR; what goes to DESS and TRAC."""
 
     def explore(text):

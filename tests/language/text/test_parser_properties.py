@@ -2,6 +2,7 @@
 
 import time
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from script_printer import print_script, same_tree
@@ -38,22 +39,18 @@ def parse_or_explain(text: str) -> None:
     assert time.process_time() - start < _SECONDS
 
 
-@_QUICK
-@given(st.lists(_PIECES, max_size=40).map("".join))
-def test_any_sequence_of_pieces_parses_or_is_explained(text):
-    parse_or_explain(text)
+_TEXTS = {
+    "pieces": st.lists(_PIECES, max_size=40).map("".join),
+    "words": st.lists(_PIECES, max_size=40).map(" ".join),
+    "letters": st.text(max_size=120),
+}
 
 
 @_QUICK
-@given(st.lists(_PIECES, max_size=40).map(" ".join))
-def test_any_sequence_of_words_parses_or_is_explained(text):
-    parse_or_explain(text)
-
-
-@_QUICK
-@given(st.text(max_size=120))
-def test_any_text_parses_or_is_explained(text):
-    parse_or_explain(text)
+@pytest.mark.parametrize("kind", _TEXTS)
+@given(data=st.data())
+def test_any_text_parses_or_is_explained(kind, data):
+    parse_or_explain(data.draw(_TEXTS[kind]))
 
 
 @_QUICK
