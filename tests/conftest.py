@@ -85,6 +85,8 @@ compiled.ALLOWED = _Nothing()
 
 COMPILE = {"kernel", "decks", "docs", "diagnostics", "api"}
 """Folders whose tests need most of what is compiled."""
+LATE = {"operators", "stdlib"}
+"""Folders whose tests need much of it: the second process comes to them when it is there."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -93,9 +95,9 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     Then those that compile, so that they are one process's: two would compile the same at a time.
     """
 
-    def order(item: pytest.Item) -> tuple[bool, bool]:
-        folders = item.nodeid.split("/")
-        return item.get_closest_marker("long") is None, COMPILE.isdisjoint(folders)
+    def order(item: pytest.Item) -> tuple[bool, bool, bool]:
+        folders, short = item.nodeid.split("/"), item.get_closest_marker("long") is None
+        return short, COMPILE.isdisjoint(folders), not LATE.isdisjoint(folders)
 
     items.sort(key=order)
 
