@@ -6,7 +6,7 @@ them: the levers of all points about an axis have its own between them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of
 from ssilang.kernel.stepping.problem.initial import joint_state
@@ -22,12 +23,15 @@ from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import BoolArray, FloatArray
+    from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+    from ssilang.kernel.materials.model import Zone
+    from ssilang.kernel.matrices.matrix import Matrix
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
 OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
+WEIGHT_TWICE = "operators.dynamics.weight-twice"
 OFF = 1e-3  # of a load's factor: less is no other one
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
@@ -75,8 +79,8 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
                 yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
-        if mass > 0.0 and any(abs(weight / mass / g - 2.0) < AGAIN for g in GRAVITIES):
-            yield "operators.dynamics.weight-twice", {"mass": mass, "weight": weight, "node": node}
+        if _is_twice(weight, mass):
+            yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "node": node}
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
             times = mass * GRAVITIES[0] / weight
             if times > TIMES and (accelerations(problem) * changing(problem)).any():
@@ -85,6 +89,35 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
             if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
                 for code, told in _beside_its_base(bodies, own, up, force):
                     yield code, {**told, "node": node}
+
+
+def _is_twice(weight: float, mass: float) -> bool:
+    return mass > 0.0 and any(abs(weight / mass / g - 2.0) < AGAIN for g in GRAVITIES)
+
+
+def weights_twice(
+    masses: Iterable[tuple[IntArray, FloatArray]],
+    matrix: Matrix,
+    zones: Iterable[Zone],
+    nodes: IntArray,
+    pressing: FloatArray,
+) -> Told:
+    """Bodies of statics that forces (m,) press down at nodes (m,) by twice the weight of masses.
+
+    Cells of the matrix and of zones beside it make bodies, joints do not.
+    """
+    if "bodies" not in matrix.cache:
+        held = [b.nodes for b in matrix.blocks if b.zone is None or not is_joint(b.zone)]
+        held += [matrix.table.resolve(z.cells.raw) for z in zones if not is_joint(z)]
+        matrix.cache["bodies"] = bodies_of_nodes(matrix, held)
+    label, mass = matrix.cache["bodies"], np.zeros(len(matrix.table))
+    for at, values in masses:
+        np.add.at(mass, matrix.table.resolve(at), values)
+    own, weights = np.bincount(label, mass[: len(label)]), np.bincount(label[nodes], pressing)
+    for body in np.flatnonzero(own[: len(weights)] > 0.0):
+        if _is_twice(weights[body], own[body]):
+            node = matrix.table.told(int((label == body).argmax()))
+            yield WEIGHT_TWICE, {"mass": own[body], "weight": weights[body], "node": node}
 
 
 def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
