@@ -169,11 +169,10 @@ def _held_on_the_other_side(problem: Problem) -> bool:
         return False
     nodes, still = problem.numbering.nodes, held(problem)
     free = nodes[~still & (problem.K.diagonal() == 0.0)]
-    sides = [[j.zone.cells.nodes.resolve(s).ravel() for s in (j.lower, j.upper)] for j in joints.joints]
-    return any(
-        np.isin(one, nodes[still]).all() and np.isin(other, free).all()
-        for pair in sides for one, other in (pair, pair[::-1])
-    )  # fmt: skip
+    resolve = problem.numbering.table.resolve
+    sides = [[resolve(s).ravel() for s in (j.lower, j.upper)] for j in joints.joints]
+    ways = [way for pair in sides for way in (pair, pair[::-1])]
+    return any(np.isin(a, nodes[still]).all() and np.isin(b, free).all() for a, b in ways)
 
 
 def _motions(problem: Problem, _: Inputs) -> Told:
