@@ -101,6 +101,8 @@ def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
     factors = loading.at(problem.times[:1])[0] * ~changing(problem)
     force = loading.forces @ factors
     drops = changing(problem).any() and not (problem.contact or problem.u.any() or problem.v.any())
+    left = np.abs(problem.constraints.T.T @ force)  # by supports
+    drops = drops and bool(left.max(initial=0.0) > OFF * np.abs(force).max(initial=0.0))
     for body in bodies.moving if axes else ():
         own = bodies.label == body
         node = problem.numbering.table.told(int(problem.numbering.nodes[own.argmax()]))
