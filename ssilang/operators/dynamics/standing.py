@@ -7,7 +7,7 @@ them: the levers of all points about an axis have its own between them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -100,7 +100,8 @@ def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
     bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
     factors = loading.at(problem.times[:1])[0] * ~changing(problem)
     force = loading.forces @ factors
-    drops = changing(problem).any() and not (problem.contact or problem.u.any() or problem.v.any())
+    drops = bool(loading.forces[:, changing(problem)].any())
+    drops = drops and not (problem.contact or problem.u.any() or problem.v.any())
     left = np.abs(problem.constraints.T.T @ force)  # by supports
     drops = drops and bool(left.max(initial=0.0) > OFF * np.abs(force).max(initial=0.0))
     for body in bodies.moving if axes else ():
@@ -154,7 +155,8 @@ def weights_twice(
         held = [b.nodes for b in matrix.blocks if b.zone is None or not is_joint(b.zone)]
         held += [matrix.table.resolve(z.cells.raw) for z in zones if not is_joint(z)]
         matrix.cache["bodies"] = bodies_of_nodes(matrix, held)
-    label, mass = matrix.cache["bodies"], np.zeros(len(matrix.table))
+    label = cast("IntArray", matrix.cache["bodies"])
+    mass = np.zeros(len(matrix.table))
     for at, values in masses:
         np.add.at(mass, matrix.table.resolve(at), values)
     own, weights = np.bincount(label, mass[: len(label)]), np.bincount(label[nodes], pressing)
