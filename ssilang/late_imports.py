@@ -8,8 +8,6 @@ asked for.
 What is loaded stays: `lasting` keeps the search for garbage from walking through it.
 """
 
-from __future__ import annotations
-
 import gc
 import sys
 from collections.abc import Iterator, Sequence

@@ -8,8 +8,6 @@ change an entry on the way to it: each parent belongs to the user or to the syst
 to by others only under a sticky bit, as /tmp is.
 """
 
-from __future__ import annotations
-
 import os
 import stat
 from contextlib import suppress

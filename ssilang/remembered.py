@@ -1,7 +1,5 @@
 """What takes long to find out and is the same at each start, kept in a private folder."""
 
-from __future__ import annotations
-
 import json
 import os
 import sys

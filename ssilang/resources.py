@@ -1,7 +1,5 @@
 """Where the files that come with the program are: in the wheel or in the source tree."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 _PACKAGE = Path(__file__).resolve().parent

@@ -3,8 +3,6 @@
 `python -m ssilang...` puts that folder first; `python -P -m ssilang...` and the command do not.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 

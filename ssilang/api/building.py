@@ -4,8 +4,6 @@ Blocks are rectangles or boxes along the axes. All that they do is done by funct
 `ssilang.kernel`: grids of nodes, zones, matrices, a problem, its integration in time.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -332,7 +330,7 @@ class Builder:
             Model(tuple(joints)) if joints else None, CellField(blocks) if blocks else None,
         )  # fmt: skip
 
-    def run(self, times: ArrayLike, start: str = "rest") -> Motion:
+    def run(self, times: ArrayLike, start: str = "rest") -> "Motion":
         """Integrate in time.
 
         Parameters

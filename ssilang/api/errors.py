@@ -1,7 +1,5 @@
 """What goes wrong, for Python: one exception with code, place and message."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -39,7 +37,7 @@ class Notice:
     message: str
 
     @classmethod
-    def of(cls, error: SsiError, language: str = "en", names: Iterable[str] = ()) -> Notice:
+    def of(cls, error: SsiError, language: str = "en", names: Iterable[str] = ()) -> "Notice":
         """The notice of a script's error; `names` are those that it may have meant."""
         text, hint = sentence(error, language, names)
         file, line, column = "", 0, 0

@@ -1,7 +1,5 @@
 """Objects of scripts as HTML, for notebooks: tables, lists, curves, fields; long ones in short."""
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Callable, Sequence, Sized
 from html import escape

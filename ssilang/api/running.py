@@ -1,7 +1,5 @@
 """Runs and checks scripts from Python."""
 
-from __future__ import annotations
-
 import io
 import os
 import sys

@@ -1,7 +1,5 @@
 """What all views of the language's objects have."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, Generic, TypeVar

@@ -1,7 +1,5 @@
 """`ssilang check`: what can be said about a script without running it."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Iterator
 from typing import TextIO

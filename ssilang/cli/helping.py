@@ -1,7 +1,5 @@
 """`ssilang help`: the same pages as INFO and the manual."""
 
-from __future__ import annotations
-
 from typing import TextIO
 
 from ssilang.cli.terminal.screen import show

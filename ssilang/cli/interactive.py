@@ -1,7 +1,5 @@
 """Statements that somebody gives one after the other to one session: the prompt, notebooks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

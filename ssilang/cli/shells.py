@@ -1,7 +1,5 @@
 """`ssilang completion`: what shells need to complete commands, options, words of help, scripts."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from typing import TextIO

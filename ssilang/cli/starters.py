@@ -1,7 +1,5 @@
 """`ssilang new`: a commented deck to begin with."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import TextIO

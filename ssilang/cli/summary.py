@@ -11,8 +11,6 @@ it solved, its `command`, versions, `ranks` and `hosts`, a list of {`host`, `ran
 `peak_memory_mb`, `free_memory_mb`}).
 """
 
-from __future__ import annotations
-
 import json
 import math
 import time

@@ -3,8 +3,6 @@
 Helps are codes of the catalogue, which is loaded only where one is told.
 """
 
-from __future__ import annotations
-
 import argparse
 import re
 import sys

@@ -1,7 +1,5 @@
 """Files that appear whole or not at all, under names that every system takes, below one folder."""
 
-from __future__ import annotations
-
 import os
 import re
 import tempfile

@@ -8,8 +8,6 @@ what lies behind them (of a run that was killed while it wrote) is written over.
 ever executed.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -7,8 +7,6 @@ there is `calculation_N.csv`, energies and footings in time, and `scene_N.vtkhdf
 all that moves. All of it is of use without the report.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field

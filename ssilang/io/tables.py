@@ -3,8 +3,6 @@
 Columns of numbers as a Parquet file (extra `sweep`: pyarrow).
 """
 
-from __future__ import annotations
-
 import importlib.util
 import math
 from collections.abc import Mapping, Sequence

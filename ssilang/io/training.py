@@ -1,7 +1,5 @@
 """The file of a basis that whole runs train: a zip of arrays (NPY), whole or not at all."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Iterator

@@ -3,8 +3,6 @@
 VTK's files are read by VTK, meshes of other programs by the door that scripts have.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import sys

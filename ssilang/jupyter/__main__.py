@@ -1,7 +1,5 @@
 """`python -P -m ssilang.jupyter install` tells Jupyter of the kernel; without a word: be it."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

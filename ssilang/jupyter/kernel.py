@@ -4,8 +4,6 @@ Protocol: https://jupyter-client.readthedocs.io/en/stable/messaging.html. ipyker
 stands what is ours.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 import os

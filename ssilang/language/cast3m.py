@@ -1,7 +1,5 @@
 """The words of Cast3M and their subjects, to say of a word that is not built what it is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path

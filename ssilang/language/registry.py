@@ -5,8 +5,6 @@ Operators register themselves with the decorator `operator`; everything that nee
 looked for.
 """
 
-from __future__ import annotations
-
 import sys
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
@@ -96,7 +94,7 @@ class Select(Translated):
     """
 
     name: str
-    cases: Mapping[str, tuple[Entry, ...]]
+    cases: "Mapping[str, tuple[Entry, ...]]"
     optional: bool = True
     repeated: bool = False
     default: Any = None
@@ -120,7 +118,7 @@ class Group(Translated):
     """
 
     name: str
-    entries: tuple[Entry, ...]
+    entries: "tuple[Entry, ...]"
     optional: bool = False
     repeated: bool = False
     at_least: int = 0
@@ -267,7 +265,7 @@ Choice = _of_parameter(choice)
 
 def select(
     name: str,
-    cases: Mapping[str, Sequence[Entry]],
+    cases: "Mapping[str, Sequence[Entry]]",
     optional: bool = True,
     repeated: bool = False,
     length: int = 4,
@@ -279,12 +277,12 @@ def select(
     return Select(name, made, optional, repeated, None, length, en, unless)
 
 
-def group(name: str, *entries: Entry, en: str = "") -> Group:
+def group(name: str, *entries: "Entry", en: str = "") -> Group:
     """Entries read one after the other."""
     return Group(name, entries, en=en)
 
 
-def each(name: str, *entries: Entry, at_least: int = 0, times: str = "", en: str = "") -> Group:
+def each(name: str, *entries: "Entry", at_least: int = 0, times: str = "", en: str = "") -> Group:
     """A group read as often as it stands there: pairs of a word and its value ..."""
     return Group(name, entries, at_least == 0, True, at_least, en, times)
 
@@ -388,7 +386,7 @@ class Form:
     declares is for help and checks.
     """
 
-    entries: tuple[Entry, ...] | None  # None: nothing is declared
+    entries: "tuple[Entry, ...] | None"  # None: nothing is declared
     function: Function
     injected: tuple[str, ...] = ()  # parameters that get the session or the call
     gives: Gives = None
@@ -402,7 +400,7 @@ class Form:
     """The words of which one says that this form is meant: `said`, or a mandatory `select`."""
     main: Argument | None = field(init=False, repr=False, compare=False)
     """The operand that decides that this form runs."""
-    rest: tuple[Entry, ...] = field(init=False, repr=False, compare=False)
+    rest: "tuple[Entry, ...]" = field(init=False, repr=False, compare=False)
     """What is read besides it."""
     beside: frozenset[str] = field(init=False, repr=False, compare=False)
     """Its other keywords, four letters of each: they may stand before the word that says it."""
@@ -454,7 +452,7 @@ class Trial:
     keyed: bool = False
     wordless: bool = False
     keywords: int = sys.maxsize
-    said: Said | None = None
+    said: "Said | None" = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -530,7 +528,7 @@ class Operator:
 
     def form(
         self,
-        *entries: Entry,
+        *entries: "Entry",
         gives: str | Sequence[str] | Like | By | None = None,
         by_hand: str = "",
         when: When | None = None,
@@ -613,7 +611,7 @@ not fit. Registered by the operators that own the signs, used by the short way f
 
 def operator(
     name: str,
-    *entries: Entry,
+    *entries: "Entry",
     family: str,
     tables: Tables | None = None,
     aliases: Sequence[str] = (),
@@ -698,7 +696,7 @@ def _name_of(function: Function) -> str:
     return str(getattr(function, "__name__", ""))
 
 
-def _of_parameters(function: Function) -> tuple[Entry, ...]:
+def _of_parameters(function: Function) -> "tuple[Entry, ...]":
     """Entries that stand as defaults of a function's parameters, called as these."""
     if not isinstance(function, FunctionType) or function.__defaults__ is None:
         return ()
@@ -748,23 +746,23 @@ def keywords_of(found: Operator) -> list[str]:
     return sorted({w.strip() for form in found.forms for w in words_in(form.entries or ())})
 
 
-def words_in(entries: Iterable[Entry]) -> Iterator[str]:
+def words_in(entries: "Iterable[Entry]") -> Iterator[str]:
     """All words of keywords among entries, inner ones too."""
     for found in keywords_in(entries):
         yield from found.words
 
 
-def keywords_in(entries: Iterable[Entry]) -> Iterator[Keyword | Select]:
+def keywords_in(entries: "Iterable[Entry]") -> Iterator[Keyword | Select]:
     """All keywords among entries, inner ones too."""
     return (e for e in _with_inner(entries) if isinstance(e, Keyword | Select))
 
 
-def arguments_in(entries: Iterable[Entry]) -> Iterator[Argument]:
+def arguments_in(entries: "Iterable[Entry]") -> Iterator[Argument]:
     """All operands of entries, inner ones too."""
     return (e for e in _with_inner(entries) if isinstance(e, Argument))
 
 
-def _with_inner(entries: Iterable[Entry]) -> Iterator[Entry]:
+def _with_inner(entries: "Iterable[Entry]") -> "Iterator[Entry]":
     for entry in entries:
         yield entry
         match entry:

@@ -1,7 +1,5 @@
 """Search in what help knows, ranked, and the known name that a misspelt word means."""
 
-from __future__ import annotations
-
 import re
 import unicodedata
 from collections.abc import Iterable

@@ -4,18 +4,14 @@ ENTIER, FLOTTANT and LOGIQUE are Python's int, float and bool. Classes of the ke
 objects of the language by `name_types`, which needs their names alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ssilang.language.text.tree import Definition, Item
 from ssilang.messages.message import name_of_type
-
-if TYPE_CHECKING:
-    from ssilang.language.text.tree import Definition, Item
 
 
 class Mot(str):
@@ -57,7 +53,7 @@ class ListReel:
         self.values: NDArray[np.float64] = np.atleast_1d(np.array(values, dtype=float))
 
     @classmethod
-    def of(cls, values: NDArray[np.float64]) -> ListReel:
+    def of(cls, values: NDArray[np.float64]) -> "ListReel":
         """A list that is this array (n,), which nobody else holds."""
         made = cls.__new__(cls)
         made.values = values
@@ -87,7 +83,7 @@ class ListMots:
     def __init__(self, values: Iterator[str] | list[str] | tuple[str, ...] = ()) -> None:
         self.values = [Mot(v) for v in values]
 
-    def extended(self, words: list[Mot]) -> ListMots:
+    def extended(self, words: list[Mot]) -> "ListMots":
         """A new list with `words` behind those of this one."""
         made = ListMots()
         made.values = [*self.values, *words]
@@ -146,7 +142,7 @@ class Table:
             self.set(Mot("SOUSTYPE"), Mot(subtype))
 
     @classmethod
-    def of(cls, entries: Mapping[Any, object], subtype: str = "") -> Table:
+    def of(cls, entries: Mapping[Any, object], subtype: str = "") -> "Table":
         """A table of values by index, a string being a word."""
         table = cls(subtype)
         for index, value in entries.items():
@@ -154,7 +150,7 @@ class Table:
         return table
 
     @classmethod
-    def numbered(cls, values: Iterable[object], subtype: str = "") -> Table:
+    def numbered(cls, values: Iterable[object], subtype: str = "") -> "Table":
         """A table of values at 1, 2 ..."""
         return cls.of(dict(enumerate(values, start=1)), subtype)
 

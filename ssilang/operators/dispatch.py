@@ -3,8 +3,6 @@
 A family adds its forms with the decorator `form`; help texts add up.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from ssilang.language.filled import Filled

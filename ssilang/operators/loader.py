@@ -4,8 +4,6 @@ Which module brings which operator, form, sign or way of printing is found out b
 kept for later starts, with the times of change of all modules.
 """
 
-from __future__ import annotations
-
 import importlib
 import os
 import pkgutil

@@ -1,7 +1,5 @@
 """Curves of a report: which there are, with titles, axes and units."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Sequence

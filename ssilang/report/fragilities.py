@@ -3,8 +3,6 @@
 Floor spectra of all runs: the median, and what 16 and 84 % of the runs stay below.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections import Counter

@@ -1,7 +1,5 @@
 """Pieces of HTML that pages are made of."""
 
-from __future__ import annotations
-
 import html
 import json
 from collections.abc import Callable, Iterable, Sequence

@@ -4,8 +4,6 @@ What is text stands in the file as HTML, so that it prints and needs no script; 
 stand in it as data, drawn by uPlot and vtk.js, which are in the file too.
 """
 
-from __future__ import annotations
-
 import base64
 from pathlib import Path
 from string import Template

@@ -5,8 +5,6 @@ reads of them has these kinds of values, or the record is not read at all. A nam
 may miss. Numbers are finite: what is none is null.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Iterator, Mapping

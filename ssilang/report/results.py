@@ -4,8 +4,6 @@ A run with `--report` leaves a record beside what every run leaves (`io/recordin
 the report has the summary, the deck if it is still there, the deck's own series, tables, pictures.
 """
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass, field
 from pathlib import Path

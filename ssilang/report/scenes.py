@@ -5,8 +5,6 @@ few fields at some instants, in 16 bits of the largest value, as differences fro
 next, deflated. pyvista reads the series and finds the surface.
 """
 
-from __future__ import annotations
-
 import base64
 import zlib
 from collections.abc import Callable, Iterator

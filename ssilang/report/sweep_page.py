@@ -1,7 +1,5 @@
 """The page of a sweep: a table of runs that leads to theirs, figures over what was swept."""
 
-from __future__ import annotations
-
 from string import Template
 from urllib.parse import quote
 

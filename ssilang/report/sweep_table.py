@@ -1,7 +1,5 @@
 """The table of a sweep, as its folder has it."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

@@ -1,7 +1,5 @@
 """What a run did to its footings: the figures of @BILANSSI as a part of the page."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from typing import Any

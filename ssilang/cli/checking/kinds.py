@@ -1,7 +1,5 @@
 """What is known of a value before the script runs: its type, a word's content, a constant."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 

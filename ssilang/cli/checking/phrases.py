@@ -1,7 +1,5 @@
 """Reading a phrase with types in place of values, as the evaluator reads it with values."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any

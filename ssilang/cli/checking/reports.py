@@ -1,7 +1,5 @@
 """Problems of scripts for programs: as JSON, and as notes beside the lines of a change."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from typing import Any, TextIO

@@ -1,7 +1,5 @@
 """Names that a script has given values to, at a point of its text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
@@ -28,11 +26,11 @@ class Scope:
     dimension: int | None = 0
     inside: tuple[str, ...] = ()  # open loops and procedures, for QUIT and ITER
 
-    def copy(self) -> Scope:
+    def copy(self) -> "Scope":
         """The same knowledge, to go on with in a branch."""
         return Scope(dict(self.values), self.open, self.dimension, self.inside)
 
-    def join(self, other: Scope) -> None:
+    def join(self, other: "Scope") -> None:
         """Keep what holds whichever of two branches was taken."""
         for name, value in other.values.items():
             mine = self.values.setdefault(name, UNKNOWN)

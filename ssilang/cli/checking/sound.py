@@ -7,8 +7,6 @@ remembered, so that no place and no sentence of an older text can come back; and
 last check met, so that what is remembered never grows beyond a text.
 """
 
-from __future__ import annotations
-
 from collections.abc import Hashable, Iterable, Iterator
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Entries that a script puts into a table for a procedure: unknown ones, and wrong values."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Names that get a value which nothing reads."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 

@@ -1,7 +1,5 @@
 """Walks a script, statement after statement, and collects what is certainly wrong or doubtful."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any

@@ -1,7 +1,5 @@
 """Words behind an operator that are nearly one of its keywords, or of the words that it takes."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache

@@ -4,8 +4,6 @@ One source for editors, the interactive session and notebooks: these two hand ov
 whose names and tables are known beside those of the text.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache

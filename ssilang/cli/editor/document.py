@@ -1,7 +1,5 @@
 """A script as an editor sees it: its text, cut once into tokens, phrases and names."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -56,8 +54,8 @@ class Document:
         text: str,
         path: Path | None = None,
         procedures: frozenset[str] = frozenset(),
-        before: Document | None = None,
-    ) -> Document:
+        before: "Document | None" = None,
+    ) -> "Document":
         """The document of a text with any kind of line ends; `before`: it as it was."""
         plain = text.replace("\r\n", "\n").replace("\r", "\n")
         source = Source(str(path) if path else "script", plain, path)

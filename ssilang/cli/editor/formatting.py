@@ -1,7 +1,5 @@
 """`ssilang format`: the layout of a script; what it means and its comments stay as they are."""
 
-from __future__ import annotations
-
 import difflib
 import sys
 from collections.abc import Iterable, Iterator

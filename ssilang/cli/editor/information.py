@@ -1,7 +1,5 @@
 """What stands under the cursor, as Markdown: operator, keyword, entry, word, name of the script."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 

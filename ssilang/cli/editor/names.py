@@ -1,7 +1,5 @@
 """Names of a script: where they get values, where they are read, what is defined in what."""
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass

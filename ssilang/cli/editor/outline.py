@@ -1,7 +1,5 @@
 """The shape of a script: its outline, what can be folded, what each word is (for colours)."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -36,7 +34,7 @@ class Part:
     end: int
     name_start: int
     name_end: int
-    inner: list[Part] = field(default_factory=list)
+    inner: "list[Part]" = field(default_factory=list)
 
 
 def outline(document: Document) -> list[Part]:

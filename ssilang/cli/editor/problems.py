@@ -1,7 +1,5 @@
 """What `ssilang check` says of a text, with what would mend it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

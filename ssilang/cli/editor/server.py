@@ -5,8 +5,6 @@ Protocol: https://microsoft.github.io/language-server-protocol. The text is cut 
 of one text at a time, and statements that stay as they are are not read again.
 """
 
-from __future__ import annotations
-
 import asyncio
 import contextlib
 import gc

@@ -1,7 +1,5 @@
 """Which procedure's declaration holds for a table of the script, told by its calls and entries."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from ssilang.cli.editor.document import Document

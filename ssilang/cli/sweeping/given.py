@@ -1,7 +1,5 @@
 """Values given on the command line: `--set NAME=VALUES`, `--motions DIR`."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import math

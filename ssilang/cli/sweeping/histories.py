@@ -4,8 +4,6 @@ A row of a run's CSV or Parquet table is a row of the joined one, behind the num
 the values that it was given. Units stay where they are: in the titles, or in the metadata.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Where the runs of a sweep go: the cores of this machine, or a Dask cluster."""
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import sys

@@ -1,7 +1,5 @@
 """The command: plan the runs, skip those that are done, run the rest, write the table."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections import Counter

@@ -1,7 +1,5 @@
 """The table of a sweep, CSV and Parquet, and a picture of each figure against what was swept."""
 
-from __future__ import annotations
-
 import importlib.util
 from collections.abc import Sequence
 from pathlib import Path

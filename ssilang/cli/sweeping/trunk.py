@@ -5,8 +5,6 @@ modules, compiled code and the factors of the model's matrices, which are found 
 The other runs are made in forks of it, that share this memory until they write to it.
 """
 
-from __future__ import annotations
-
 import gc
 import os
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,5 @@
 """Where a long REPE loop is, on the last line of a terminal; nothing elsewhere."""
 
-from __future__ import annotations
-
 import io
 import os
 import shutil

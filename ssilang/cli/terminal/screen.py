@@ -1,7 +1,5 @@
 """Colours of messages on a terminal, and a pager for long texts; files and pipes get neither."""
 
-from __future__ import annotations
-
 import os
 import pydoc
 import re

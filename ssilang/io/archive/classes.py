@@ -1,7 +1,5 @@
 """Which classes a save file may hold, and which of their fields number nodes."""
 
-from __future__ import annotations
-
 import importlib
 import importlib.util
 from collections.abc import Callable

@@ -3,8 +3,6 @@
 Objects turned into JSON and arrays.
 """
 
-from __future__ import annotations
-
 import io
 import json
 import zipfile

@@ -1,7 +1,5 @@
 """Objects made again from a save file."""
 
-from __future__ import annotations
-
 import types
 from collections.abc import Callable, Iterable, Mapping
 from enum import Enum

@@ -5,8 +5,6 @@ Strong Motion Programs Board, COSMOS Strong Motion Data Format, 2001: a text hea
 columns. The 34th real is the step in seconds.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from pathlib import Path

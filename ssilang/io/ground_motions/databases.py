@@ -3,8 +3,6 @@
 Ground motions in the text format of the ESM and ITACA databases (files .ASC).
 """
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

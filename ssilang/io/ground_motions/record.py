@@ -1,7 +1,5 @@
 """A ground motion as a file has it: values, step or times, quantity, and the unit it names."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass

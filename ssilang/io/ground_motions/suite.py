@@ -1,7 +1,5 @@
 """What the motions of a suite do not have in common: their units, the size of their numbers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from contextlib import suppress

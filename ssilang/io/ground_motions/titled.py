@@ -1,7 +1,5 @@
 """Ground motions as a table: a column of times, further columns of values, titles with units."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

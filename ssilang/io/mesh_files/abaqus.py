@@ -5,8 +5,6 @@ not by meshio, whose reader (5.3) knows one plane element, keeps the last *NODE 
 gives the sets of *ELEMENT lines to wrong elements as soon as one of these lines names no set.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field

@@ -6,8 +6,6 @@ then for each set of values the sizes of its components, a line `label, unit` ea
 Comment lines (#) may stand before the counts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path

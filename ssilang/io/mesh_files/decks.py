@@ -5,8 +5,6 @@ CTRIA3 ... CHEXA of the Nastran Quick Reference Guide. Nodes are numbered from 1
 the mesh's nodes, cells from 1 block by block; a block is an ELSET, or has a property number.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

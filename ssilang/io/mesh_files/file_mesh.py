@@ -1,7 +1,5 @@
 """What a file of another program's mesh holds: points, cells by type, named parts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
@@ -68,7 +66,7 @@ class FileMesh:
     left_out: dict[str, int] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
 
-    def sound(self, name: str, kind: str) -> FileMesh:
+    def sound(self, name: str, kind: str) -> "FileMesh":
         """The mesh itself, if its cells and parts name points and cells that are there.
 
         Raises

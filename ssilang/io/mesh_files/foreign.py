@@ -5,8 +5,6 @@ whose files come back whole in the tests; what they print is kept as remarks, wh
 becomes a refusal.
 """
 
-from __future__ import annotations
-
 import io
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Gmsh's own scripts (.geo), meshed by Gmsh in a guarded process of its own (`gmsh_alone`)."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

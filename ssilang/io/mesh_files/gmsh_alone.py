@@ -12,8 +12,6 @@ computes: none that starts a process, reaches a network or another one, or the r
 This file knows nothing of ssilang: it runs before anything else is imported.
 """
 
-from __future__ import annotations
-
 import ctypes
 import os
 import sys

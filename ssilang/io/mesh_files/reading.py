@@ -1,7 +1,5 @@
 """One door to meshes of other programs, by what tells their format: scripts and pictures use it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Surfaces of triangles in STL files, text and binary."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

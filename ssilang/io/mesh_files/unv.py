@@ -3,8 +3,6 @@
 Source: SDRC universal file datasets. A dataset stands between two lines that hold -1 alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

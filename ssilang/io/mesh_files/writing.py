@@ -1,7 +1,5 @@
 """Meshes with their named parts as files of other programs: Gmsh, MED, Abaqus."""
 
-from __future__ import annotations
-
 import io
 import shutil
 import tempfile

@@ -1,7 +1,5 @@
 """Successive deformed shapes as an animated GIF."""
 
-from __future__ import annotations
-
 import io
 from collections.abc import Sequence
 from dataclasses import replace

@@ -3,8 +3,6 @@
 Levels of iso-values, and their colours.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

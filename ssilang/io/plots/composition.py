@@ -1,7 +1,5 @@
 """What TRAC is given, turned into the layers of a picture."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Meshes cut by a plane: what lies behind it (COUP), what it crosses (SECT)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.io.plots.patches import Faces

@@ -1,7 +1,5 @@
 """What a picture shows and how: its layers and the options of TRAC."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

@@ -3,8 +3,6 @@ r"""Titles with indices, exponents and Greek letters: `_{i}`, `^{2}`, `\a`.
 The letter after the backslash is that of the Symbol font: `\a` alpha, `\W` capital omega.
 """
 
-from __future__ import annotations
-
 import re
 
 _LATIN = "abgdezhqiklmnxoprstufcyw"

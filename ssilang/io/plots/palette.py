@@ -4,8 +4,6 @@ A mesh or a curve holds the index into `NAMES` (0 = DEFA, black on white here). 
 colours are toned so that lines and words stay readable in print; the hue is the name's.
 """
 
-from __future__ import annotations
-
 from ssilang.io.errors import OutputError
 
 _SHADES: dict[str, str] = {

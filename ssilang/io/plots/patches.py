@@ -1,7 +1,5 @@
 """Faces of cells that a picture shows, and the pieces into which a face is cut for colouring."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache

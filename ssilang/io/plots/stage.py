@@ -4,8 +4,6 @@ What is drawn lives on the sheet: to the right, upwards and towards the eye, wit
 height as unit, so that coordinates of any size are drawn alike.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Values that colour the faces of a picture: from nodal fields and fields in cells."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

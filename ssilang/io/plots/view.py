@@ -1,7 +1,5 @@
 """Where the eye stands: from space to the sheet."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +19,7 @@ class Plane:
     normal: FloatArray
 
     @classmethod
-    def through(cls, a: FloatArray, b: FloatArray, c: FloatArray) -> Plane:
+    def through(cls, a: FloatArray, b: FloatArray, c: FloatArray) -> "Plane":
         """The plane through three points.
 
         Raises

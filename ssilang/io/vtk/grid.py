@@ -1,7 +1,5 @@
 """Meshes and fields as the arrays that an unstructured VTK grid holds."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 

@@ -11,8 +11,6 @@ HDF5's own library promises neither: it writes several structures anew at each f
 of its writes leave a file that cannot be read, and it locks the file for readers.
 """
 
-from __future__ import annotations
-
 import os
 import tempfile
 import zlib

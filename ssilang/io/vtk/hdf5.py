@@ -5,8 +5,6 @@ headers version 1, links stored in their group's header, chunks indexed by a ver
 None of these carries a checksum, so that single numbers of them can be changed in place.
 """
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 

@@ -4,8 +4,6 @@ Readers other than VTK's know no texts in fields, so that the names stand in the
 with its number: `group_SOIL` = 2 says what the 2 of the cells' array `group` is.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -60,7 +58,7 @@ def labels_of(mesh: Mesh, told: Mapping[str, Named], part: tuple[int, str] | Non
     return Labels(numbers, names)
 
 
-def _numbers(keys: Sequence[_Keys], sets: Sequence[Sequence[CellBlock]]) -> IntArray:
+def _numbers(keys: "Sequence[_Keys]", sets: Sequence[Sequence[CellBlock]]) -> IntArray:
     """Number from 1 of the smallest set that has a cell, 0 where none has (n_cells,)."""
     sizes = [sum(len(block) for block in blocks) for blocks in sets]
     found = [np.zeros(len(k.block), dtype=np.int64) for k in keys]

@@ -3,8 +3,6 @@
 Files are called as Cast3M's SORT 'VTK ' calls them: NAME.xxxx.yyyy.vtu, step number and part.
 """
 
-from __future__ import annotations
-
 import re
 import time as clock
 from abc import ABC, abstractmethod
@@ -245,7 +243,7 @@ class SeriesWriter(Series):
         if self._entries and self.listed:
             self._list()
 
-    def _write_part(self, time: float, number: int, name: str, part: Part) -> Entry:
+    def _write_part(self, time: float, number: int, name: str, part: Part) -> "Entry":
         tag = re.sub(r"[^\w\-]+", "_", name)
         suffix = f".{number:04d}.{tag}" if tag else f".{number:04d}"
         path = self.base.with_name(f"{self.base.name}{suffix}.vtu")
@@ -261,7 +259,7 @@ class SeriesWriter(Series):
     def _told(self, part: Part) -> dict[str, float]:
         return {**self.constants, **part.labels.names}
 
-    def _check(self, entries: list[Entry]) -> None:
+    def _check(self, entries: "list[Entry]") -> None:
         """Check that files of the series are still there."""
         gone = [e.file for e in entries if not (self.base.parent / e.file).is_file()]
         if gone:

@@ -7,8 +7,6 @@ A step counts as soon as `NSteps` says so, and VTK's reader trusts that `Steps/V
 Both change in one commit, behind everything else that the step has.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -225,7 +223,7 @@ class _OneGrid:
         repeated: Mapping[str, Repeated],
         grid: Grid,
         labels: Labels,
-        told: _Told,
+        told: "_Told",
     ) -> None:
         self._file, self._repeated, self._grid, self._told = file, repeated, grid, told
         self._points = _Fields(file)

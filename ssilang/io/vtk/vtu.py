@@ -4,8 +4,6 @@ Source: "VTK XML file formats", docs.vtk.org. A compressed array is one header (
 block size, size of the last block, compressed sizes) and the deflated blocks, each in base64.
 """
 
-from __future__ import annotations
-
 import base64
 import zlib
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Errors raised by the kernel: a code and data; `ssilang.messages` has the sentences."""
 
-from __future__ import annotations
-
 from ssilang.messages.message import Refusal
 
 
@@ -27,7 +25,7 @@ class MaterialError(KernelError):
     names: tuple[str, ...] = ()
     """Parameters that it is about, where its data do not name one."""
 
-    def about(self, *names: str) -> MaterialError:
+    def about(self, *names: str) -> "MaterialError":
         """The same error, about these parameters."""
         self.names = names
         return self

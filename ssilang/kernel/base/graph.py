@@ -3,8 +3,6 @@
 scipy's function imports all of scipy.linalg with it, 0.04 s of each run.
 """
 
-from __future__ import annotations
-
 from typing import cast
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How much memory a process may still take."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 SHARE = 0.8  # of what is free: the rest of the run needs some

@@ -1,7 +1,5 @@
 """Powers of real numbers, roots of odd order of negative ones included."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

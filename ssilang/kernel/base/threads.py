@@ -3,8 +3,6 @@
 Each part is calculated as if it were alone, so that the number of threads changes no number.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor

@@ -5,8 +5,6 @@ node between two straight bars it is taken of their mean tension, with the angle
 half of their lengths; across the cable the nodes follow the body.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -12,8 +12,6 @@ On the unknowns of the interface, with h = f* - f_0 - R y,
     dg = dg_0 - S_GJ h + S_GG p*
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

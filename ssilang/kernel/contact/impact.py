@@ -9,8 +9,6 @@ relations impose. Where friction holds, slips have no velocity. A body that othe
 row strikes it does not rebound, see `struck`.
 """
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small problems with unilateral relations, set up for `run_contact`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -53,7 +51,7 @@ def takes(problem: Problem) -> bool:
 
 def contact_loop(
     problem: Problem, motion: Motion, effective: Effective, closed: BoolArray
-) -> ContactLoop | None:
+) -> "ContactLoop | None":
     """The compiled loop; None where the damping is not diagonal or rows depend on one another."""
     if effective.inverse.singular:
         return None

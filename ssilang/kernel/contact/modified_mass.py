@@ -1,7 +1,5 @@
 """Mass taken off contact nodes (Khenous, Laborde and Renard 2008), by static condensation."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.errors import SingularMatrixError

@@ -11,8 +11,6 @@ constant` of the unilateral row it belongs to while that is closed, or the value
 `watched` (a tension times a coefficient) where it belongs to none.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -39,7 +37,7 @@ class ContactRows:
     # (m, n) rows that the reactions push by, times the sense; None: those of G
     dual: sp.csr_array | None = None
     # places that rub; forces are then the reactions p (m,) and the frictions
-    friction: FrictionRows | None = None
+    friction: "FrictionRows | None" = None
 
     def __len__(self) -> int:
         return len(self.sense)
@@ -140,7 +138,9 @@ def split_rows(
     return equalities, imposed[keep], contact
 
 
-def with_friction(contact: ContactRows | None, friction: FrictionRows | None) -> ContactRows | None:
+def with_friction(
+    contact: ContactRows | None, friction: "FrictionRows | None"
+) -> ContactRows | None:
     """The rows with friction beside them; rows of no relation where only friction is."""
     if friction is None:
         return contact

@@ -10,8 +10,6 @@ the joints' law is linearised at each turn and eliminated; the problem that is l
 solved by active sets, with friction by Newton's method on projections (Josephy and Newton).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

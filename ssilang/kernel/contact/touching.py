@@ -11,8 +11,6 @@ functions at the foot of the slave's node, n the outer normal there: of the segm
 projectile's nose.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -10,8 +10,6 @@ The formulations differ by the points and weights: nodes one by one (MESC), both
 Slips, along which friction pushes, are the same sums across n.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -195,7 +193,7 @@ def contact_relations(
 def _friction(
     table: NodeTable,
     unknowns: tuple[str, ...],
-    parts: list[Rows],
+    parts: "list[Rows]",
     relations: Relations,
     rubbing: Rubbing,
 ) -> Friction:

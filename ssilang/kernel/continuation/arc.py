@@ -4,8 +4,6 @@ Lengths are `ds^2 = dt^2/t_ref^2 + |du|^2/u_ref^2`. A step goes ds along the tan
 method comes back to the branch in the plane across it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol

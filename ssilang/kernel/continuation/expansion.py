@@ -6,8 +6,6 @@ sin k; forces F and G. `Z(w) = K + w C + w^2 M` of the expanded matrices.
 The problem of harmonic balance on expanded matrices, nonlinear forces given by samples.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 

@@ -1,7 +1,5 @@
 """Stability of periodic motions: Floquet exponents, and what becomes of a branch."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

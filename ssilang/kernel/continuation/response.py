@@ -1,7 +1,5 @@
 """Forced response and normal modes of oscillators: branches, stability, bifurcations."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

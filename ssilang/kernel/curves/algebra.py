@@ -1,7 +1,5 @@
 """Sums, products, integrals and interpolation of curves; complex curves are pairs of parts."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Clouds (NUAGE): rows of named values, and functions that pass through them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +23,7 @@ class Cloud:
     def __len__(self) -> int:
         return max((len(c) for c in self.columns.values()), default=0)
 
-    def joined(self, other: Cloud) -> Cloud:
+    def joined(self, other: "Cloud") -> "Cloud":
         """The rows of this one, then those of a cloud of the same columns.
 
         Raises
@@ -55,7 +53,7 @@ class Cloud:
             raise FieldError("kernel.curves.component-cloud-holds-objects", name=name)
         return np.asarray(held, dtype=float)
 
-    def rows(self, places: list[int]) -> Cloud:
+    def rows(self, places: list[int]) -> "Cloud":
         """The cloud of some rows (0-based)."""
         return Cloud({k: tuple(v[i] for i in places) for k, v in self.columns.items()})
 

@@ -1,7 +1,5 @@
 """Curves and loads: functions of one abscissa (EVOLUTION), fields in time (CHARGEMENT)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -29,14 +27,14 @@ class CurvePart:
     # accelerations relative to a ground that shakes, until something else is made of them
     relative: bool = field(default=False, init=False)
 
-    def measured(self, abscissa: str, ordinate: str = "", relative: bool = False) -> CurvePart:
+    def measured(self, abscissa: str, ordinate: str = "", relative: bool = False) -> "CurvePart":
         """The same curve with the SI units of its axes ('s', 'm/s'), '' where that is unknown."""
         made = replace(self)
         object.__setattr__(made, "units", (abscissa, ordinate))
         object.__setattr__(made, "relative", relative)
         return made
 
-    def coloured(self, colour: int) -> CurvePart:
+    def coloured(self, colour: int) -> "CurvePart":
         """The same curve in another colour; it measures what it did."""
         return replace(self, colour=colour).measured(*self.units, self.relative)
 

@@ -1,7 +1,5 @@
 """Viscous boundaries that absorb normally incident waves (Lysmer and Kuhlemeyer 1969)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

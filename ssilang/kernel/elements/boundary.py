@@ -1,7 +1,5 @@
 """Faces of a model: the cell that each lies on, its outward area vectors at quadrature points."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

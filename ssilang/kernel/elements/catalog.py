@@ -4,8 +4,6 @@ Families give the element its behaviour (see `ssilang.kernel.elements.family`); 
 (joints) add their own elements with `register_element`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The families of elements by name, and the quantities of a zone computed through them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -7,8 +7,6 @@ strain, stress, internal forces are then the same few lines for all. Arrays are
 What the shells share: nodes that move and turn, strains and stresses with fixed names.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import ClassVar

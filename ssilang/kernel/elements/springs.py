@@ -15,8 +15,6 @@ lies between the first point and that node, the dashpot between it and the secon
 ground). The node has no mass; its motion is that of Maxwell's internal variable.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

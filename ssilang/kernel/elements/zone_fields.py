@@ -1,7 +1,5 @@
 """What a field in cells says on the cells of one zone of a model."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -108,7 +106,7 @@ class ZoneField:
     def __contains__(self, name: str) -> bool:
         return any(name in block.components for block, _ in self.parts)
 
-    def own(self) -> ZoneField:
+    def own(self) -> "ZoneField":
         """Without what models of other elements on the same cells were given."""
         parts = tuple(p for p in self.parts if p[0].element in ("", self.zone.element))
         return ZoneField(self.zone, parts)

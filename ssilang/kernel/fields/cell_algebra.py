@@ -1,7 +1,5 @@
 """Sums, products and functions of fields in cells, block by block; fields of curves."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 

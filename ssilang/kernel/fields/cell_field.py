@@ -1,7 +1,5 @@
 """Fields given in cells (MCHAML): values at nodes or integration points of each cell."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal

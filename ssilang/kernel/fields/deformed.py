@@ -3,8 +3,6 @@
 Arrows made from fields: at nodes, in cells, principal values.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

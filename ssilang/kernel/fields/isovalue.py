@@ -1,7 +1,5 @@
 """Where a field of cells takes a value, or lies on one side of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

@@ -1,7 +1,5 @@
 """Sums, products and functions of fields at nodes. A field counts as zero where it is absent."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 

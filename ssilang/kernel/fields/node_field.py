@@ -1,7 +1,5 @@
 """Fields given at nodes (CHPOINT): one sparse vector per component."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -60,7 +58,7 @@ class NodeField:
         nodes: IntArray,
         values: Mapping[str, FloatArray],
         nature: Nature = "",
-    ) -> NodeField:
+    ) -> "NodeField":
         """A field whose components all live on `nodes` (n,), unique, in any order."""
         order = np.argsort(nodes, kind="stable")
         ids = np.asarray(nodes, dtype=np.int64)[order]
@@ -81,7 +79,7 @@ class NodeField:
         part = self.components.get(name)
         return np.full(len(nodes), default) if part is None else part.at(nodes, default)
 
-    def after_merges(self) -> NodeField:
+    def after_merges(self) -> "NodeField":
         """The field on the nodes that survive merges (ELIM); itself if none of its nodes is gone.
 
         Of two values on nodes that became one, discrete ones add up; of others the one of the

@@ -5,8 +5,6 @@ eigenvectors of the (m, m) correlation, or combinations of the fields by the eig
 (n, n) one, which is smaller when fields are few. The eigenvalues are the same.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -6,8 +6,6 @@ element's own pair and, on a second pair, the motions along the base: `u_t` in 2
 stays empty), `u_t1, u_t2` and the twist about n in 3D.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

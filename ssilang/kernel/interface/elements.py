@@ -5,8 +5,6 @@ its second half on the lower side L (soil); a joint of two points has L first, t
 its normal goes from the first node to the second. The jump is always u_U - u_L.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ The strain is the jump in local axes, the stress the traction. JOI1 has relative
 with springs QS (2D) or QN, QS1, QS2 (3D), unless its law is JOINT_SDM or a bearing's.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -5,8 +5,6 @@ and `f(delta) = sum_points weight B^T t(B delta)`. Everything that depends on th
 delta, whose size is that of the interface and not of the model.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property

@@ -7,8 +7,6 @@ joint of two points n goes from the first to the second node, and t is n turned 
 Traction is positive in tension; the force on the nodes is `B^T t`, on the left of equilibrium.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Axes of orthotropy (and of joints) from directions, as parameters V1X V1Y V1Z V2X V2Y V2Z."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

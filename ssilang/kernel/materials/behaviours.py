@@ -1,7 +1,5 @@
 """The laws that a model may name, as data: words, families of elements that have them."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from ssilang.kernel.base.errors import MaterialError

@@ -3,8 +3,6 @@
 Component order is XX YY ZZ XY (XZ YZ), shear strains are engineering strains.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Models: which element and which law stand on which cells (MMODEL)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from enum import Enum
 

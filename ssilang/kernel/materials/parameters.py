@@ -1,7 +1,5 @@
 """Names of the parameters that elements and laws take, as data."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES

@@ -1,7 +1,5 @@
 """Matrices of no element: values at nodes, diagonals, outer products, cables, filters."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

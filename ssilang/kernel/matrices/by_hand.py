@@ -1,7 +1,5 @@
 """Matrices written term by term: triangles of numbers, columns and rows given by fields."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

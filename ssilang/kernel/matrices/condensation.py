@@ -1,7 +1,5 @@
 """Matrices condensed on relations, by their multipliers or by the unknowns left free."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Matrices on real and imaginary parts of harmonic motions (IMPE): unknowns UX and IUX ..."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

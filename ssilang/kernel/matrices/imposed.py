@@ -1,7 +1,5 @@
 """Values of conditions: second members FLX at their multipliers (DEPI, JEU)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

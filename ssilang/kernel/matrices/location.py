@@ -1,7 +1,5 @@
 """Finding the cell of a mesh in which points lie, and the shape functions there."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Matrices by element blocks, with constraints kept apart (RIGIDITE)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -84,7 +82,7 @@ class Relations:
     coefficients: FloatArray
     raw_multipliers: IntArray
     sense: NDArray[np.int8]
-    dual: Relations | None = None
+    dual: "Relations | None" = None
 
     @property
     def nodes(self) -> IntArray:
@@ -124,7 +122,7 @@ class Matrix:
         blocks = any(b.kind.startswith("MASS") for b in self.blocks)
         return blocks and self.kind.startswith("MASS")
 
-    def scaled(self, factor: float) -> Matrix:
+    def scaled(self, factor: float) -> "Matrix":
         """The matrix times a number; relations are not scaled (they are conditions)."""
         blocks = tuple(replace(b, values=factor * b.values) for b in self.blocks)
         return Matrix(self.table, blocks, self.relations, self.kind)

@@ -4,8 +4,6 @@ All functions return `Relations` with multiplier nodes of their own, placed at t
 each row. Sense: 0 equality, +1 'MINI' (stays at or above), -1 'MAXI' (stays at or below).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Parts of a matrix: nodes, their mesh, unknowns, diagonal, halves, blocks by name or by mesh."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

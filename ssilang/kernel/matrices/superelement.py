@@ -6,8 +6,6 @@ the stiffness that the masters feel, `Phi^T (f - K u0)` their loads, `Phi^T M Ph
 (Guyan): the first two exact, the third an approximation that improves with the masters.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Relations that tie nodes together: rigid bodies, common values, meshes hooked onto others."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 

@@ -1,7 +1,5 @@
 """Boundaries: contours of surfaces, envelopes of volumes, sharp edges."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

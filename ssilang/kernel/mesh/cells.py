@@ -4,8 +4,6 @@ Quadratic cells number their nodes along the contour (corner, middle, corner, mi
 corners first as VTK does; `ssilang.io` converts.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

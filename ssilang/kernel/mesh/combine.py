@@ -1,7 +1,5 @@
 """Meshes as sets of cells: union, intersection, symmetric difference, duplicates."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np

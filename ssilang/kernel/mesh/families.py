@@ -1,7 +1,5 @@
 """Which line, surface and volume cells go with the element chosen by OPTI ELEM."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from ssilang.kernel.base.errors import MeshError

@@ -1,7 +1,5 @@
 """Meshes and points: blocks of cells over the table of nodes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -72,7 +70,7 @@ class CellBlock:
         cell_type: str,
         connectivity: IntArray,
         colours: NDArray[np.int8] | int = 0,
-    ) -> CellBlock:
+    ) -> "CellBlock":
         """A block from connectivity (n, k) and one colour for all or one a cell."""
         kind = CELL_TYPES[cell_type]
         table = np.ascontiguousarray(connectivity, dtype=np.int64).reshape(-1, kind.n_nodes)
@@ -121,7 +119,7 @@ class Mesh:
 
     nodes: NodeTable
     blocks: tuple[CellBlock, ...]
-    sides: tuple[Mesh, ...] = ()
+    sides: "tuple[Mesh, ...]" = ()
 
     @classmethod
     def of(
@@ -130,8 +128,8 @@ class Mesh:
         cell_type: str,
         connectivity: IntArray,
         colours: NDArray[np.int8] | int = 0,
-        sides: tuple[Mesh, ...] = (),
-    ) -> Mesh:
+        sides: "tuple[Mesh, ...]" = (),
+    ) -> "Mesh":
         """A mesh of one block."""
         return cls(nodes, (CellBlock.make(nodes, cell_type, connectivity, colours),), sides)
 

@@ -1,7 +1,5 @@
 """The table of nodes: every node lives here once; meshes and fields refer to it by number."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Sense of description of cells: reversing, orienting, checking."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray

@@ -3,8 +3,6 @@
 Stiffness, mass and damping on the motions that the conditions allow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -176,7 +174,7 @@ class ReducedProblem:
             rigid = rigid_motions(self.numbering)[own]
         return Ordering(points, np.zeros(0, np.int64), rigid)
 
-    def restricted(self, kept: IntArray) -> ReducedProblem:
+    def restricted(self, kept: IntArray) -> "ReducedProblem":
         """The problem with only the unknowns `kept` (k,), the others held at zero."""
         return replace(
             self,

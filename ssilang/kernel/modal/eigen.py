@@ -6,8 +6,6 @@ The spectrum is turned over about the shift: with `A = K - s M`, `A^-1 M x = the
 the nearest (ARPACK).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -4,8 +4,6 @@
 displacement since the last evaluation, as contact laws of this kind are defined.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ With mu = i w the problem is linear in (x, mu x); frequencies f are complex, a p
 part means decay. Real matrices give pairs (f, - conj f), both modes.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

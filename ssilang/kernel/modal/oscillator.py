@@ -4,8 +4,6 @@
 exact solution, so the time step only limits where maxima are looked at).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

@@ -5,8 +5,6 @@ BETA, that in a static shape. All shapes of a model make one matrix: the stiffne
 body on the motions that they span, couplings included.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ How they change with the displacement is found by small differences: unknowns wh
 meet in one row are moved together.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, cast

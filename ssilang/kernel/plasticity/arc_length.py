@@ -1,7 +1,5 @@
 """Load steps of a given length along the path of load and displacement (arc length)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """The two ways to follow a path: a load sought in its direction, or the time of the loads."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Strains of expansion in time that plastic bodies take without stress."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Beams with sections of fibres as plastic points: each beam has the points of its section."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -5,8 +5,6 @@ turn with their ends: force `N = N0 + ES (l/L - 1)` along the present direction.
 shown are Cauchy's (of bars: the present force).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, cast
@@ -78,7 +76,7 @@ class FinitePlaneShell:
         """Membrane forces and moments per length, in the axes of the present chord."""
         return np.asarray(self.initial + np.einsum("cspi,ci->csp", self.seen, self.chord.small(u)))
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FinitePlaneShell:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FinitePlaneShell":
         """Initial stresses from present ones."""
         start = given - np.einsum("cspi,ci->csp", self.seen, self.chord.small(u))
         pulled = np.einsum("cisp,csp->ci", self.held, start)
@@ -125,7 +123,7 @@ class FiniteZone(Protocol):
         """Cauchy stresses (n_cells, n_components, n_points)."""
         ...
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteZone:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteZone":
         """The zone whose Cauchy stresses at the displacement u are the given ones."""
         ...
 
@@ -202,7 +200,7 @@ class FiniteSolid:
         cauchy = F @ S @ np.swapaxes(F, -1, -2) / np.linalg.det(F)[..., None, None]
         return as_components(cauchy, self.moduli.shape[-1], False)
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteSolid:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteSolid":
         """Initial stresses from Cauchy stresses."""
         F = self._transformation(u)
         back = np.linalg.inv(F)
@@ -259,7 +257,7 @@ class FiniteBar:
         """Present forces."""
         return np.repeat(self._force(u)[:, None, None], self.points, axis=2)
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteBar:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteBar":
         """Initial forces from present ones."""
         zero = FiniteBar(self.zone, self.span, self.stiffness, 0.0 * self.initial, self.points)
         start = given[:, 0].mean(axis=1) - zero._force(u)

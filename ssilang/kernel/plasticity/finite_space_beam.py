@@ -12,8 +12,6 @@ of the ends against the chord, is small and meets the stiffness of small displac
 1991, chapter 7). Shears follow from the moments at the ends.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -129,7 +127,7 @@ class FiniteBeam:
             ends = ends.mean(axis=-1, keepdims=True)
         return np.moveaxis(ends, 1, 0)
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteBeam:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteBeam":
         """Initial forces from present ones."""
         half = 0.5 * given[:, 1].mean(axis=1) * np.linalg.norm(self.span, axis=1)
         moments = (-given[:, 2, 0], given[:, 2, -1])
@@ -344,7 +342,7 @@ class FiniteSpaceBeam:
         found = np.stack(ends, axis=-1)
         return found.mean(axis=-1, keepdims=True) if self.points == 1 else found
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FiniteSpaceBeam:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteSpaceBeam":
         """Initial forces from present ones."""
         first, second = -given[:, 3:6, 0], given[:, 3:6, -1]
         if self.points == 1:

@@ -5,8 +5,6 @@ splits the correction in two, `dI` (what is out of balance) and `dII` (one unit 
 control finds the x that makes `du + dI + x dII` as long as it asks (Batoz and Dhatt 1979).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Strains across follow the membrane strain and the curvature; each layer is in pl
 are the section's forces and moments, the layers' stresses stand among the internal variables.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Moments of a section of fibres that is bent under a normal force (MOCU)."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The integration points of a plastic zone: strain operator, parameters, law."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

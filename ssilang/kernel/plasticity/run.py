@@ -1,7 +1,5 @@
 """Load steps and time steps of problems with plastic bodies."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -285,7 +283,7 @@ def integrate_bulk(run: BulkRun) -> History:
 
 
 def _moving_step(
-    run: BulkRun, loop: _BulkLoop, history: History, k: int, factors: FloatArray
+    run: BulkRun, loop: "_BulkLoop", history: History, k: int, factors: FloatArray
 ) -> None:
     """The step that ends at time k."""
     times = run.problem.times

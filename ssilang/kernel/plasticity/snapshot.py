@@ -1,7 +1,5 @@
 """A saved instant with the state of the plastic bodies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

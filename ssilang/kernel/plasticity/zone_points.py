@@ -5,8 +5,6 @@ Plastic shells and beams by the forces of their sections: DKT, COQ2, POUT, TIMO,
 A section yields as a whole when its equivalent stress (VMIS) reaches the strength.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -4,8 +4,6 @@ Boore & Akkar, Bull. Seism. Soc. Am. 93 (2003) and Boore, 95 (2005): a filter th
 back needs zeros before and after the record, 1.5 n / f of its low corner.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Literal
 

@@ -6,8 +6,6 @@ answers to each frequency of the signal by an evolution in closed form; what fol
 `ssilang.kernel.records.modulated`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

@@ -15,8 +15,6 @@ not independent: where records are named, scores are summed by record first (the
 and Zeger, Biometrika 73 (1986)).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -6,8 +6,6 @@ are the solution of a linear system; the tapered cosine leaves neither velocity 
 The amplitudes are found by damped least squares here, and the step is halved where it does no good.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

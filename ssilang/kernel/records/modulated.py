@@ -13,8 +13,6 @@ Shinozuka & Deodatis, Applied Mechanics Reviews 44 (1991): with N sines of ampli
 sqrt(2 S df) the signal is Gaussian as N grows and has the spectrum in the mean.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise

@@ -4,8 +4,6 @@ The largest responses follow Vanmarcke (J. Appl. Mech. 42, 1975) and the Poisson
 crossings (Cramer & Leadbetter, Stationary and related stochastic processes, 1967).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

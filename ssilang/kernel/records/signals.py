@@ -3,8 +3,6 @@
 Broken lines that keep the energy of a signal, mean shocks, inverse Laplace transforms.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """Free field of a layered soil under vertically propagating waves, in frequency."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,8 +7,6 @@ and the multipliers are found as the greatest value of the dual function. `least
 tangents in place of the shares.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

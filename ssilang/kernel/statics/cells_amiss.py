@@ -6,8 +6,6 @@ across a plate, shear takes what bending should (R. D. Cook, Concepts and Applic
 Element Analysis, the four-node element in pure bending).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import chain, combinations, permutations
 from typing import cast

@@ -5,8 +5,6 @@ sizes compare; what is left is the contrast of stiffnesses that act on one anoth
 that of the 1-norm, its inverse part estimated from a few solutions (Hager and Higham).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

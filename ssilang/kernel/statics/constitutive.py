@@ -4,8 +4,6 @@ end of a step to stresses, internal variables and tangent moduli.
 One table of families of laws serves COMP, ECOU, KTAN, HOTA: elastic, plastic bodies, joints.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ A line made twice (once for the mesh, once more for its support) has nodes of it
 places; conditions on these leave the body free, and the solution is wrong without an error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ Forces and displacements are `Re(u exp(i w t))`, w = 2 pi f; their imaginary par
 of their own (IUX beside UX, IFX beside FX).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any

@@ -5,8 +5,6 @@ a saddle point. Unilateral conditions are found by active sets on the flexibilit
 from one factorisation. Reactions come from the residual.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """Names for motions that meet no stiffness: rigid-body motions, and what is free in them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray

@@ -7,8 +7,6 @@ round near the end: with h = f alpha + phi s, `T' = T(d)^2/T` up to the length d
 the steel takes `6 rho/100 (sigma/f_prg - mu_0) sigma` (rho at 1 000 hours, in per cent).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,7 +39,7 @@ class Cable:
     bars: IntArray  # (n,) rows of the cells
     nodes: IntArray  # (n + 1,)
 
-    def turned(self) -> Cable:
+    def turned(self) -> "Cable":
         """The same cable from its other end."""
         return Cable(self.bars[::-1], self.nodes[::-1])
 

@@ -3,8 +3,6 @@
 Number of negative eigenvalues of a sparse symmetric matrix, by Sylvester's law of inertia.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

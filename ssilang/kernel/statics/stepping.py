@@ -1,7 +1,5 @@
 """Load steps of a static problem with joints: Newton's method on the condensed interface."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from dataclasses import replace

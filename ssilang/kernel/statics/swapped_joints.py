@@ -10,8 +10,6 @@ turns about that node like on a hinge, and a tower that was to be clamped has a 
 bending of a mast hinged at its foot.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Free strains and pressures in a load, as nodal forces; the stresses to take off."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

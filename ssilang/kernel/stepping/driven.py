@@ -5,8 +5,6 @@ the step: forces, imposed values, stiffness, damping, relations. Matrices are fa
 only when they change.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import cast

@@ -9,8 +9,6 @@ on the motions `du = T q + particular(dd)` that the conditions leave. Where A al
 `interface.condensed` takes it back exactly.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -41,7 +39,7 @@ class Effective:
     right: sp.csc_array  # (r, q) `V^T J^T`, q interface unknowns
     S: FloatArray  # (q, q) compliance `J Y`, `Y = A^-1 J^T` on the admissible motions
     R: FloatArray  # (q, q) stiffness of the joints that A holds
-    root: RootResponse | None = None  # the interface as the root of a dissected factor, if so
+    root: "RootResponse | None" = None  # the interface as the root of a dissected factor, if so
 
     @cached_property
     def Y(self) -> FloatArray:  # noqa: N802

@@ -5,8 +5,6 @@ step; what conditions hold, and push by, is found of the rows at their unknowns.
 unknowns come as rows.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 

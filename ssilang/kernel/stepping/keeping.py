@@ -8,8 +8,6 @@ from some steps to the next beside the motion (tangents that are factorised, clo
 coordinates) goes with the state: a class names these attributes in `remembered`.
 """
 
-from __future__ import annotations
-
 import hashlib
 import time as clock
 from collections.abc import Callable, Iterable, Iterator, Sequence

@@ -5,8 +5,6 @@ Forces in time: sums of named supports and relations, found while a loop steps; 
 What footings carry is made of each instant that an observer is given.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """One saved instant of a motion, and who receives it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

@@ -1,7 +1,5 @@
 """When a calculation steps and what it keeps: runs of equal steps, saved steps."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

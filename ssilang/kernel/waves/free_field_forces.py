@@ -17,8 +17,6 @@ Cells whose forces no stiffness gives: those of a plastic law, or of a joint tha
 And those of a free field that have yielded: no linear ground moves as they did.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -37,6 +35,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble_blocks,
+    field_to_vector,
     numbering_of,
     vector_to_field,
 )
@@ -305,7 +304,11 @@ def load_of(share: Share, dampers: Matrix | None, motion: Motion, forces: FloatA
     the dampers where the motion is not nought (or not known), stand beside them.
     """
     numbering, speed = share.numbering, np.abs(motion.velocity).max(axis=1)
-    damping = assemble_blocks(dampers.blocks if dampers else (), numbering).diagonal()
+    damping = np.zeros(numbering.size)
+    if dampers:  # a matched layer has unknowns of its own
+        own = numbering_of(dampers)
+        found = vector_to_field(assemble_blocks(dampers.blocks, own).diagonal(), own)
+        damping = field_to_vector(found, numbering, dual=False)
     damping[speed <= STILL * np.nan_to_num(speed).max()] = 0.0
     beside = tuple(vector_to_field(of, numbering) for of in (share.mass.diagonal(), damping))
     rows = np.flatnonzero(np.abs(forces).max(axis=1, initial=0.0) > 0)

@@ -17,8 +17,6 @@ below the base. Over the distance s the double integrals become simple ones of w
 its copy moved by s have in common.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -8,8 +8,6 @@ thick the layer and however oblique the wave (Knopoff 1964; Kausel and Roesset 1
 Motion in time of a layered half-space under one plane wave, from the record of a point.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

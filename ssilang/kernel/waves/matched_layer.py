@@ -19,8 +19,6 @@ the mesh is seen at the box but the stretching. The second equation counts with 
 which makes matrices symmetric; the inertia of S is negative.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -262,7 +260,7 @@ class _Histories:
     factors: tuple[FloatArray, FloatArray, FloatArray]  # (n_cells, p) c, a, b
 
     @classmethod
-    def of(cls, zone: Zone, parameters: ZoneField, stretching: Stretching) -> _Histories:
+    def of(cls, zone: Zone, parameters: ZoneField, stretching: Stretching) -> "_Histories":
         """Of a zone, with new nodes."""
         shapes, gradients, volumes = _points_of(zone, "RIGIDITE")
         xyz = np.einsum("pa,cad->cpd", shapes, zone.cells.coordinates)

@@ -1,7 +1,5 @@
 """Whether a mesh carries the waves of a record, and which of its edges send them back."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From the unread operands of a phrase to the arguments of an operator, by its declared forms."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -112,7 +110,7 @@ class Binder:
                 raise missing_keyword(self.call, k.words)
         return values
 
-    def _leading(self, made: _Prepared, level: _Level) -> int:
+    def _leading(self, made: "_Prepared", level: _Level) -> int:
         """Read what leads, behind the word that chose the form; says how many entries that was."""
         after = -1
         if made.choice is not None:

@@ -4,21 +4,17 @@ A phrase keeps its unread operands in order. Reading by type walks them from the
 over operands of other types and never passes an unread word; results are put back in front.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ssilang.language.registry import ANY, Argument, When
+from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, Texte, is_of_noughts, like_radians, type_of
 from ssilang.language.vocabulary.unit_systems import usual_of
-
-if TYPE_CHECKING:
-    from ssilang.language.run.session import Session
-    from ssilang.language.text.source import Span
 
 
 @dataclass(slots=True)

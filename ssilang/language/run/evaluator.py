@@ -1,9 +1,7 @@
 """Runs statements and blocks: assignments, conditions, loops, definitions."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +18,7 @@ from ssilang.language.run.phrases import (
     tell_line_begun,
     tell_quoted_operator,
 )
+from ssilang.language.run.session import LoopObserver, Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
@@ -32,10 +31,6 @@ from ssilang.language.values import (
 )
 from ssilang.language.vocabulary.entries import is_declared_value
 from ssilang.messages.message import Sentence
-
-if TYPE_CHECKING:
-    from ssilang.language.run.session import LoopObserver, Session
-
 
 DIRECTIVES = frozenset(
     ["QUIT", "ITER", "MESS", "ERRE", "LIST", "TRAC", "DESS", "OPTI", "MENA", "SAUT", "RESP", "TITR"]

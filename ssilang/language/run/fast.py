@@ -5,8 +5,6 @@ or an operation fails, `Slow` is raised and the evaluator runs the phrase the ge
 also makes the error message; reading operands has no effects, so nothing is done twice.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

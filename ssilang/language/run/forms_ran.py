@@ -1,9 +1,7 @@
 """Which forms of operators ran, and which words chose what they read: are they all tried?"""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, NoReturn
 
 from ssilang.language.registry import Chosen, Either, Entry, Form, Group, Operator, Select
 
@@ -29,7 +27,7 @@ class FormsRan:
         left = []
         for number, form in enumerate(operator.forms, 1):
             function = getattr(form.function, "func", form.function)  # what a partial is made of
-            if function.__annotations__.get("return") == "NoReturn":
+            if function.__annotations__.get("return") in (NoReturn, "NoReturn"):
                 continue
             if (operator.name, number, "") not in self._seen:
                 left.append(str(number))

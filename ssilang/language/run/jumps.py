@@ -1,7 +1,5 @@
 """Jumps out of the running statement: FIN, QUIT and ITER of loops, QUIT of a procedure."""
 
-from __future__ import annotations
-
 
 class StopRun(Exception):
     """FIN: the run ends."""

@@ -1,7 +1,5 @@
 """What is wrong with a phrase that leaves operands which nothing reads."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 

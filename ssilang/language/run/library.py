@@ -1,7 +1,5 @@
 """Procedures that come from files: the deck's folder, then the standard library."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Names that an operator of Cast3M which is not built should have given a value."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any

@@ -1,22 +1,18 @@
 """From the items of a phrase to operands: names, parentheses, tables, attributes."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ssilang.language.run.call import Operand
 from ssilang.language.run.leftovers import is_call, is_named_object
 from ssilang.language.run.not_built import read
 from ssilang.language.run.procedures import method_of
+from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.language.values import ANNULE, Mot, Objet, Table, type_of
-
-if TYPE_CHECKING:
-    from ssilang.language.run.session import Session
 
 # methods that every object has: METHODE and HERITE, operators that also want the object
 _METHODS_OF_ALL = frozenset({"METH", "HERI"})

@@ -1,10 +1,8 @@
 """Phrases: operands in a pile, the first unread word tried as an operator; errors there."""
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ssilang.language.registry import OF_MODELS, Operator, find_operator, keywords_of
 from ssilang.language.run.binding import run_operator
@@ -13,6 +11,7 @@ from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, Stop
 from ssilang.language.run.operands import OperandReader
 from ssilang.language.run.procedures import call_procedure
 from ssilang.language.run.scopes import PREDEFINED
+from ssilang.language.run.session import Session
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.search import nearest
 from ssilang.language.text import tree
@@ -29,9 +28,6 @@ from ssilang.language.values import (
     type_of,
 )
 from ssilang.messages.message import Said, Sentence
-
-if TYPE_CHECKING:
-    from ssilang.language.run.session import Session
 
 
 def tell_held_word(error: SsiError, operand: Operand) -> None:

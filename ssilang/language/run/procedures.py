@@ -1,7 +1,5 @@
 """Calls of procedures and methods written in the language."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from ssilang.language.run.call import Call

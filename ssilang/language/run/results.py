@@ -1,7 +1,5 @@
 """What an operator gives, before it runs: types of results by form."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -48,7 +46,7 @@ def annotated(function: Callable[..., Any]) -> Results | None:
     note = function.__annotations__.get("return", "")
     if note is None:
         return ()
-    text = note if isinstance(note, str) else getattr(note, "__name__", str(note))
+    text = note.__name__ if isinstance(note, type) else str(note)
     found = re.fullmatch(r"tuple\[(.+)\]", text)
     parts = [p.strip() for p in found.group(1).split(",")] if found else [text]
     if "..." in parts:

@@ -1,7 +1,5 @@
 """Names and what they stand for, procedure by procedure."""
 
-from __future__ import annotations
-
 from typing import Any, Protocol
 
 from ssilang.language.run.not_built import NotBuilt
@@ -41,7 +39,7 @@ class Frame:
     __slots__ = ("caller", "depth", "object", "pending", "procedure", "results", "variables")
 
     def __init__(
-        self, caller: Frame | None = None, procedure: str = "", pending: Unread | None = None
+        self, caller: "Frame | None" = None, procedure: str = "", pending: Unread | None = None
     ) -> None:
         self.variables: dict[str, Any] = {}
         self.caller = caller

@@ -4,25 +4,21 @@ There is no other global state that a run changes, but for factors of matrices t
 keep from run to run (`kernel.solvers.backends.keep_factors`) and that change no answer.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TextIO
+from typing import Any, Protocol, TextIO
 
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted, visible
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
+from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.messages.message import sentence
-
-if TYPE_CHECKING:
-    from ssilang.language.vocabulary.unit_systems import UnitSystem
 
 
 @dataclass

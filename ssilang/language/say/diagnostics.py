@@ -1,7 +1,5 @@
 """From an error to the text that its reader sees: place, source line, caret, hint, calls."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, cast
 

@@ -3,16 +3,11 @@
 Control characters as text that is seen: a script or a file's name steers no terminal.
 """
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING
 
+from ssilang.language.text.source import Span
 from ssilang.messages.message import Said, Severity, find
 from ssilang.system import system_reason
-
-if TYPE_CHECKING:
-    from ssilang.language.text.source import Span
 
 
 class SsiError(Exception):
@@ -37,7 +32,7 @@ class SsiError(Exception):
         self.calls: list[tuple[str, Span]] = []  # procedures that led here, innermost first
 
     @classmethod
-    def of(cls, problem: Said, span: Span | None, **more: object) -> SsiError:
+    def of(cls, problem: Said, span: Span | None, **more: object) -> "SsiError":
         """The error of a script for what something below it refused."""
         return cls(problem.code, span, **{**more, **problem.data})
 

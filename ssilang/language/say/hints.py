@@ -1,7 +1,5 @@
 """What to do where a slip shows the habit of another language, or a usual misunderstanding."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 

@@ -1,7 +1,5 @@
 """The help of operators and procedures as text: what INFO, `ssilang help` and the manual show."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable, Mapping

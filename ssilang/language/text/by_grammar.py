@@ -1,7 +1,5 @@
 """Text to statements by the Lark grammar: all that is wrong in it, and sound texts slowly."""
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 from typing import Any

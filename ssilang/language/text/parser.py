@@ -1,7 +1,5 @@
 """Text to statements: sound scripts by the quick reader, all others by the grammar."""
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 

@@ -6,8 +6,6 @@ the reader gives up, and the general parser says what is wrong. A test holds the
 same tree for every deck.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator

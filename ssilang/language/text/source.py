@@ -1,7 +1,5 @@
 """Source texts and places in them."""
 
-from __future__ import annotations
-
 import codecs
 import re
 from bisect import bisect_right
@@ -25,7 +23,7 @@ class Source:
     path: Path | None = None
 
     @classmethod
-    def decode(cls, name: str, data: bytes, path: Path | None = None) -> Source:
+    def decode(cls, name: str, data: bytes, path: Path | None = None) -> "Source":
         """A source from bytes in any encoding that `encoding_of` knows, with any line ends."""
         text = data.decode(encoding_of(data))
         return cls(name, text.replace("\r\n", "\n").replace("\r", "\n"), path)
@@ -84,7 +82,7 @@ class Span:
     start: int
     end: int
 
-    def to(self, other: Span) -> Span:
+    def to(self, other: "Span") -> "Span":
         """From the start of this span to the end of another."""
         return Span(self.source, self.start, max(self.end, other.end))
 

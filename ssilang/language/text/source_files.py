@@ -1,7 +1,5 @@
 """Source texts from files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ssilang.language.say.errors import SsiError

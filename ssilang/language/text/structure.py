@@ -1,7 +1,5 @@
 """Nesting of statements into blocks, by their first word, as the language skips branches."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from ssilang.language.say.errors import SeveralErrors, SsiError

@@ -5,8 +5,6 @@ which cells it stands, is known by the kernel (`ssilang.operators.vocabulary.wor
 Each list is a file of TOML beside this one, read when a word of it is first asked for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache

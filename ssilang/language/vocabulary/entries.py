@@ -20,8 +20,6 @@ theirs, and no entry of this one that would be misspelt. `replaceable = true` ab
 script is meant to write its own procedure of that name.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property

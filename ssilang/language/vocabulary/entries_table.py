@@ -1,7 +1,5 @@
 """The entries of a procedure's tables by theme, and other tables of help, as text."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterator, Sequence
 from itertools import groupby, zip_longest

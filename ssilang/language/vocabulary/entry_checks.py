@@ -4,12 +4,14 @@ Values of another type, words that are not allowed, entries that are missing or 
 errors; an entry that nobody reads is a warning that names the one that was meant.
 """
 
-from __future__ import annotations
+from collections.abc import Mapping, Sequence
+from typing import Any
 
-from typing import TYPE_CHECKING, Any
-
+from ssilang.language.run.scopes import Frame
+from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.search import meant as near_word
+from ssilang.language.text.source import Span
 from ssilang.language.values import Annule, Mot, Procedure, Table, is_of_noughts, type_of
 from ssilang.language.vocabulary.entries import (
     NUMBER,
@@ -21,13 +23,6 @@ from ssilang.language.vocabulary.entries import (
 )
 from ssilang.language.vocabulary.unit_systems import SOIL, usual_of, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
-    from ssilang.language.run.scopes import Frame
-    from ssilang.language.run.session import Session
-    from ssilang.language.text.source import Span
 
 _TRUTH = "LOGIQUE"
 _TRUTH_WORDS = {"VRAI": True, "FAUX": False}

@@ -1,7 +1,5 @@
 """Examples that run, for laws, elements, components and options: by name, else by sort."""
 
-from __future__ import annotations
-
 from ssilang.language.vocabulary.terms import Word
 
 _LINE = "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;\nL = DROI 4 (0. 0.) (2. 0.) ;\n"

@@ -1,7 +1,5 @@
 """What is said of a word: meanings, units, ranges."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@ makes force = mass times acceleration (a tonne with N and mm). The powers of a q
 `terms.UNITS`, by its unit of the SI.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping

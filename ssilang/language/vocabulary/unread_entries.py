@@ -1,18 +1,13 @@
 """Entries of tables that nobody reads: which one was meant, or whose it is."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
+from ssilang.language.run.library import Library
 from ssilang.language.search import meant as near_word
 from ssilang.language.vocabulary.entries import BOTH, READ, REFUSED, WRITTEN, Declaration
-
-if TYPE_CHECKING:
-    from ssilang.language.run.library import Library
 
 _COUNTS = (READ, WRITTEN, BOTH)
 

@@ -1,7 +1,5 @@
 """INSI COSI CHSP DSPR PSRS: integrated and corrected records, spectra of power and of response."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.records.filters import brought_to_rest, integrated, without_trend
 from ssilang.kernel.records.power import power_density, response_spectrum

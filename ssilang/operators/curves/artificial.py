@@ -1,7 +1,5 @@
 """SIAR PERT PRNS: artificial signals, random perturbations, spectra of modulated signals."""
 
-from __future__ import annotations
-
 from ssilang.kernel.records.modulated import (
     Band,
     ModulatedSignal,

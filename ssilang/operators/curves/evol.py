@@ -1,7 +1,5 @@
 """EVOL: curves from lists, along lines of nodes, in time."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.language.filled import Filled

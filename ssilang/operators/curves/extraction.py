@@ -1,7 +1,5 @@
 """Curves in EXTR DIME CHAN ORDO MAXI MINI COPI ET and in signs."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex

@@ -1,7 +1,5 @@
 """ZFRA: a fragility from counts, or from a cloud of demands, for @FRAGILITE."""
 
-from __future__ import annotations
-
 from dataclasses import astuple
 
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances

@@ -1,7 +1,5 @@
 """IPOL INTG PRIM on curves: interpolation, integrals, primitives."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (
     crossings,

@@ -1,7 +1,5 @@
 """FILT of a record, TOUR of two components, ZOND for a spectrum, ONDE: its wavelets."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.arrays import ComplexArray
 from ssilang.kernel.records.filters import butterworth
 from ssilang.kernel.records.matching import matched

@@ -1,7 +1,5 @@
 """PROL CONC LSQF MAPP CMOY LAPL: curves made longer, joined, simplified, and read off others."""
 
-from __future__ import annotations
-
 from ssilang.kernel.records.signals import (
     constant_step,
     energy_envelope,

@@ -1,7 +1,5 @@
 """TFR TFRI FILT HANN COMT TOTE FDT: signals in time and frequency."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
 from ssilang.kernel.records.signals import (

@@ -1,7 +1,5 @@
 """Spectra of oscillators, linear and yielding (SPON), of floors (ZSPP), their envelopes; VALP."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.floors import Storey, floor_spectrum

@@ -1,7 +1,5 @@
 """What operators on curves read: one curve, colours, names of axes."""
 
-from __future__ import annotations
-
 import re
 
 from ssilang.io.plots.palette import NAMES, index_of

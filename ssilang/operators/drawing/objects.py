@@ -1,7 +1,5 @@
 """DEFO VECT ANNO: shapes, arrows and texts for TRAC; COUL of them and of curves; their unions."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.io.plots.palette import NAMES as COLOURS

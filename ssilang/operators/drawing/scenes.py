@@ -1,7 +1,5 @@
 """TRAC: meshes, deformed shapes, arrows and fields drawn to files."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """ZSEM: what the joints under a footing carry in time, behind the procedure @BILANSSI."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.family import ROTATIONS, displacement_names
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of

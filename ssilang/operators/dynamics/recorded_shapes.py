@@ -1,7 +1,5 @@
 """Modes and displacements by name that a script leaves: scenes of a report beside calculations."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.io.recording import Recording

@@ -1,7 +1,5 @@
 """Entries that choose the time scheme and the treatment of contact."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

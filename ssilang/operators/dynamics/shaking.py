@@ -4,8 +4,6 @@ A load shakes where it is the mass times an acceleration of the whole; supports 
 their imposed values are those of a translation.
 """
 
-from __future__ import annotations
-
 from itertools import chain
 
 from ssilang.io.ground_motions.record import G
@@ -224,8 +222,8 @@ def beside_free_field(problem: Problem, inputs: Inputs) -> Told:
     for mass, dampers in dict.fromkeys(part.beside for part in parts if part.beside):
         m, c = (field_to_vector(of, numbering, dual=False) for of in (mass, dampers))
         for code, lost in {
-            "operators.dynamics.dampers-left-out": problem.C.diagonal() < PRESENT * c,
-            "operators.dynamics.masses-left-out": problem.M.diagonal() < PRESENT * m,
+            "operators.dynamics.dampers-left-out": (c > 0.0) & (problem.C.diagonal() < PRESENT * c),
+            "operators.dynamics.masses-left-out": (m > 0.0) & (problem.M.diagonal() < PRESENT * m),
             "operators.dynamics.dampers-held": (c > 0.0) & held(problem),
         }.items():
             if lost.any():

@@ -4,17 +4,18 @@ A body that no-tension joints bear is in balance where the resultant of what pre
 them: the levers of all points about an axis have its own between them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of
@@ -22,13 +23,8 @@ from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
-
-if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-    from ssilang.kernel.materials.model import Zone
-    from ssilang.kernel.matrices.matrix import Matrix
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -155,7 +151,7 @@ def weights_twice(
         held = [b.nodes for b in matrix.blocks if b.zone is None or not is_joint(b.zone)]
         held += [matrix.table.resolve(z.cells.raw) for z in zones if not is_joint(z)]
         matrix.cache["bodies"] = bodies_of_nodes(matrix, held)
-    label = cast("IntArray", matrix.cache["bodies"])
+    label = cast(IntArray, matrix.cache["bodies"])
     mass = np.zeros(len(matrix.table))
     for at, values in masses:
         np.add.at(mass, matrix.table.resolve(at), values)

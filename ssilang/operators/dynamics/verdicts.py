@@ -1,7 +1,5 @@
 """ZBIL: what @BILANSSI found, for the summary and the report of a run."""
 
-from __future__ import annotations
-
 from ssilang.io.recording import thinned_drawing
 from ssilang.kernel.waves.shaken import is_shaken
 from ssilang.language.values import LazyRows

@@ -1,7 +1,5 @@
 """What is watched during a motion beside what is kept: largest values, bodies that leave."""
 
-from __future__ import annotations
-
 from dataclasses import field
 from typing import ClassVar
 
@@ -89,7 +87,7 @@ class UpliftWatch(Track):
     keeps: ClassVar[bool] = False
 
     @classmethod
-    def of(cls, problem: Problem) -> UpliftWatch | None:
+    def of(cls, problem: Problem) -> "UpliftWatch | None":
         """The watch of a problem with joints that can open; None without."""
         joints, n = problem.interface, len(problem.times)
         if joints is None or any(is_macro(j.zone) for j in joints.joints):

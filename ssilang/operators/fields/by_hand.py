@@ -1,7 +1,5 @@
 """MANU 'CHPO' and 'CHML': fields from values; ZERO: fields of zeros."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL

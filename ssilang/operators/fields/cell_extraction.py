@@ -1,7 +1,5 @@
 """EXTR, ET and LIST of fields in cells."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from ssilang.kernel.curves.cloud import Cloud

@@ -1,7 +1,5 @@
 """CHAN between supports of fields in cells, REDU and EXTR of models and fields in cells."""
 
-from __future__ import annotations
-
 from functools import reduce
 
 from ssilang.kernel.elements.results.supports import (

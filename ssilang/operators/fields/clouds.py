@@ -1,7 +1,5 @@
 """NUAG: clouds, clouds in EXTR DIME REDU LIST, and IPOL in them."""
 
-from __future__ import annotations
-
 from ssilang.kernel.curves.cloud import Cloud, inverse_distance, moving_plane, on_grid
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.language.registry import each

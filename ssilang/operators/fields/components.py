@@ -1,7 +1,5 @@
 """EXCO NOMC MANU CHAN EXTR REDU ENLE COPI on fields: components, supports, natures."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import CHAN, COPI, ENLE, EXTR, REDU

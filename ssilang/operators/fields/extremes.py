@@ -1,7 +1,5 @@
 """MAXI MINI on numbers, lists and fields, MAX1 (curves have theirs); PILE for strains."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.cell_algebra import component_names
 from ssilang.language.registry import Operator

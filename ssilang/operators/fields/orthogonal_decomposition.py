@@ -1,7 +1,5 @@
 """POD: proper orthogonal decomposition of fields."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.proper_orthogonal import as_fields, modes, stacked
 from ssilang.kernel.matrices.assembly import assemble, numbering_of

@@ -1,7 +1,5 @@
 """PROI: fields in cells projected on other supports."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from ssilang.kernel.elements.results.projection import Lost, by_least_squares, on_mesh, on_model

@@ -1,7 +1,5 @@
 """SENS: senses of contours, differences of fields."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields.cell_algebra import added, component_names
 from ssilang.kernel.mesh.queries.measure import signed_area
 from ssilang.operators.prelude import *

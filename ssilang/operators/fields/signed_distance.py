@@ -1,7 +1,5 @@
 """PSIP: signed distances to lines and surfaces."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
 from ssilang.operators.prelude import *
 

@@ -1,7 +1,5 @@
 """`+ - * / **`, ET, PSCA on fields at nodes and in cells."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from functools import reduce
 from typing import Any

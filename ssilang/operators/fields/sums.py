@@ -1,7 +1,5 @@
 """RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations; DFOU: a harmonic at an angle."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.fields.signs import paired_names
 from ssilang.operators.prelude import *

@@ -1,7 +1,5 @@
 """PRIN INVA VMIS TRES ENER GRAD INTG JACO: quantities derived from fields in cells."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule

@@ -1,7 +1,5 @@
 """Vectors and tensors of fields turned by a rotation."""
 
-from __future__ import annotations
-
 from ssilang.operators.prelude import *
 
 _VECTORS = (("UX", "UY", "UZ"), ("FX", "FY", "FZ"), ("RX", "RY", "RZ"), ("MX", "MY", "MZ"))

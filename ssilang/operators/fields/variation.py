@@ -1,7 +1,5 @@
 """VARI: fields that follow a law of variation, parameters that depend on a field."""
 
-from __future__ import annotations
-
 from ssilang.kernel.curves.algebra import beyond, interpolated
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved

@@ -1,7 +1,5 @@
 """ACQU: values read from a text file into names."""
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import field

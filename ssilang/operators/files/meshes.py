@@ -1,7 +1,5 @@
 """LIRE 'MESH' and SORT 'MESH': meshes of other programs, with their named parts."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part

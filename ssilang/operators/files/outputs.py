@@ -1,7 +1,5 @@
 """The files that operators read and write: where they may be, what the options call them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from ssilang.io.atomic import fault_on_windows, portable

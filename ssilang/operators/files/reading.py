@@ -1,7 +1,5 @@
 """LIRE: tables of numbers, procedures and meshes from files."""
 
-from __future__ import annotations
-
 from ssilang.io.mesh_files.avs import Structure, read_avs
 from ssilang.io.mesh_files.stl import read_stl
 from ssilang.io.tables import as_columns, read_csv

@@ -1,7 +1,5 @@
 """LIRE: ground motions as evolutions in time."""
 
-from __future__ import annotations
-
 from ssilang.io.ground_motions.cosmos import read_cosmos
 from ssilang.io.ground_motions.databases import read_esm, read_peer
 from ssilang.io.ground_motions.record import G, GroundMotion

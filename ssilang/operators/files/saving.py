@@ -1,7 +1,5 @@
 """SAUV and REST: objects kept in a file between two runs."""
 
-from __future__ import annotations
-
 from contextlib import closing
 from dataclasses import field
 

@@ -1,7 +1,5 @@
 """SORT: what it writes, by the word that follows; its text formats CSV and CHAI."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

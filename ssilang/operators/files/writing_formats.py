@@ -1,7 +1,5 @@
 """SORT of meshes, fields and matrices in others' formats; of named meshes in ssilang's own."""
 
-from __future__ import annotations
-
 from contextlib import closing
 
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive

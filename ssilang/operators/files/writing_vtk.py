@@ -1,7 +1,5 @@
 """SORT 'VTK ': meshes and fields to .vtu files and the .pvd that lists them."""
 
-from __future__ import annotations
-
 from dataclasses import field
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """MOCA LEVM GANE: parameters of functions by least squares."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.language.run.procedures import call_procedure
 from ssilang.operators.prelude import *

@@ -1,7 +1,5 @@
 """DANS SAUF INTE: what lists, meshes and words hold."""
 
-from __future__ import annotations
-
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.lists.places import taken
 from ssilang.operators.lists.search import equal_items

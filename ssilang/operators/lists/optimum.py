@@ -1,7 +1,5 @@
 """EXCE: a step towards the least value of a function under conditions."""
 
-from __future__ import annotations
-
 from ssilang.kernel.solvers.asymptotes import least, least_linear, shares
 from ssilang.operators.prelude import *
 

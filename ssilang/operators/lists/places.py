@@ -1,7 +1,5 @@
 """Items of lists by their places: EXTR ENLE INSE REMP SOMM DIME INVE COPI, ET."""
 
-from __future__ import annotations
-
 from itertools import accumulate
 
 from ssilang.operators.curves.instants import refused_place, tell_zero

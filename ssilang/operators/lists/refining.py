@@ -1,7 +1,5 @@
 """RAFF: lists with more values between those given, meshes with smaller cells."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.mesh.lines.subdivision import subdivide

@@ -1,7 +1,5 @@
 """DIAD LTL CVOL FONC ZLEG: lists of reals as samples, special functions, quadrature."""
 
-from __future__ import annotations
-
 from ssilang.operators.prelude import *
 
 

@@ -1,7 +1,5 @@
 """POSI ORDO UNIQ: places of items, sorting."""
 
-from __future__ import annotations
-
 from bisect import bisect_left, insort
 from itertools import takewhile
 

@@ -1,7 +1,5 @@
 """Signs, ET, EXTR, DIME, REDU, CHAN, LIST, XTMX, YTMX, DIMN on matrices (RIGIDITE)."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.condensation import dependence

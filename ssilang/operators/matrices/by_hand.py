@@ -1,7 +1,5 @@
 """Matrices of no model: MANU 'RIGI' by hand, MFIL, XXT and ZXXT, CABL."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.build import (
     cable_stiffness,
     field_diagonal,

@@ -1,7 +1,5 @@
 """Warnings of what is not joined as it looks: supports, joints and ends of beams."""
 
-from __future__ import annotations
-
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.cells_amiss import (

@@ -1,7 +1,5 @@
 """RIGI, MASS, LUMP, AMOR, HOOK, KSIG: matrices of the elements of a model."""
 
-from __future__ import annotations
-
 from functools import wraps
 
 from ssilang.kernel.elements import families

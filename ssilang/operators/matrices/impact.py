@@ -1,7 +1,5 @@
 """IMPO: possible links of lines and projectiles in the plane, relations of those that touch."""
 
-from __future__ import annotations
-
 from ssilang.kernel.contact import touching
 from ssilang.kernel.matrices.relations import in_space
 from ssilang.language.values import ANNULE, Annule

@@ -1,7 +1,5 @@
 """RELA: linear relations between unknowns of several nodes."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.relations import Term

@@ -1,7 +1,5 @@
 """KENT CORI GYRO: matrices of turning bodies."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.beams.rotating import cross_matrix, gyroscopic, inertia_coupling
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 from ssilang.operators.prelude import *

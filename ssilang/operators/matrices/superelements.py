@@ -1,7 +1,5 @@
 """SUPE CMCT: static condensation of a body, matrices without some unknowns."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.matrices.superelement import (

@@ -1,7 +1,5 @@
 """BLOQ DEPI SYMT ANTI APPU: conditions on single nodes, their values, planes, springs."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made

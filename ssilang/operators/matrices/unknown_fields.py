@@ -1,7 +1,5 @@
 """Fields for a matrix: CHPO on its unknowns, ORTH makes some orthogonal for it."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.matrices.assembly import numbering_of
 from ssilang.kernel.modal.basis import work

@@ -1,7 +1,5 @@
 """How near points count as being at one place."""
 
-from __future__ import annotations
-
 from ssilang.language.registry import When
 from ssilang.operators.prelude import *
 

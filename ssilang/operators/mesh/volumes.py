@@ -1,7 +1,5 @@
 """Volumes: VOLU by translation, rotation, along a line, between two surfaces, by thickness."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
     Path,

@@ -1,7 +1,5 @@
 """PJBA PSMO IDLI: projection on modes and static shapes, pseudo-modes."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.modal.basis import (

@@ -1,7 +1,5 @@
 """ZCON of harmonic balance along the arc (CONTINU, 'HBM' = VRAI), nonlinear forces by CHARMECA."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
 from ssilang.kernel.continuation.arc import Point as Solution

@@ -1,7 +1,5 @@
 """EVOL 'RECO' and 'PJBA': curves in time of modal contributions, and of what they recombine to."""
 
-from __future__ import annotations
-
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
 from ssilang.operators.curves.evol import (

@@ -1,7 +1,5 @@
 """DYNE: time stepping on modes, with shocks, friction, plastic links and couplings."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
 from ssilang.kernel.modal.explicit import (
     SCHEMES,

@@ -1,7 +1,5 @@
 """Tables LIAISON_ELEMENTAIRE of DYNE read as links of the kernel, and their results as tables."""
 
-from __future__ import annotations
-
 from dataclasses import field
 
 from ssilang.kernel.modal import links as law

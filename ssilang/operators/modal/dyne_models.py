@@ -1,7 +1,5 @@
 """Tables PASAPAS for DYNE: models MODAL and LIAISON with their parameters, read as its tables."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.modal.shape_models import is_shape, shape_points
 from ssilang.operators.prelude import *

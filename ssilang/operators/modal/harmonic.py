@@ -1,7 +1,5 @@
 """IMPE VIBC: matrices of harmonic motions, complex modes of small systems."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.impedance import factors, impedance
 from ssilang.kernel.modal.modes import ComplexMode, conjugate_modes
 from ssilang.operators.modal.basis import Shape, shapes_of

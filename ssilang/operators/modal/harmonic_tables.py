@@ -1,7 +1,5 @@
 """Tables of HBM, CONTINU and HBM_POST: results asked for, curves, entries by number."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries

@@ -1,7 +1,5 @@
 """ZHBM: matrices of harmonic balance (procedure HBM); ZHPO: results in time (HBM_POST)."""
 
-from __future__ import annotations
-
 from ssilang.kernel.continuation import expansion
 from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at

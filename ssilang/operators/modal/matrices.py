@@ -1,7 +1,5 @@
 """RIGI, MASS, AMOR of a modal basis: diagonal matrices on the modes' unknowns ALFA."""
 
-from __future__ import annotations
-
 from numpy.typing import ArrayLike
 
 from ssilang.kernel.matrices.build import nodal_diagonal

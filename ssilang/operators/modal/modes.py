@@ -1,7 +1,5 @@
 """VIBR: natural modes, as the language's table BASE_MODALE."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.assembly import (
     assemble,
     field_to_vector,
@@ -41,7 +39,7 @@ def _vibr(
     matrices: tuple[Matrix, ...],
     signed: bool,
     **_: bool,
-) -> Table | Solution:
+) -> "Table | Solution":
     made = _modes(call, method, lowest, highest, matrices, signed)
     if not solution:
         return made

@@ -1,7 +1,5 @@
 """RECO: fields on the body from the contributions of modes and static shapes."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.matrices.matrix import imaginary
 from ssilang.kernel.modal.basis import combined

@@ -1,7 +1,5 @@
 """NNOR, TABLE * RIGIDITE, JEU: shapes made of unit size, inertia of shapes, gaps of relations."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.imposed import geometric_gaps
 from ssilang.kernel.statics.linear import product

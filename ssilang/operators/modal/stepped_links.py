@@ -1,7 +1,5 @@
 """PASAPAS on modes with links: models MODAL and LIAISON, which DYNE steps."""
 
-from __future__ import annotations
-
 from ssilang.kernel.modal.explicit import ModalSteps
 from ssilang.kernel.modal.shape_models import is_shape
 from ssilang.operators.modal.dyne import results_of_models

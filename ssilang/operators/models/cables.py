@@ -1,7 +1,5 @@
 """PREC: tensions of prestressing cables. IMPF: kept for old scripts."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import n_points, zone_field

@@ -3,8 +3,6 @@
 `ssilang check` asks here, so that it refuses what a run would refuse, at the same place.
 """
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of

@@ -1,7 +1,5 @@
 """Frames of elements: RTEN VLOC CALP, FREN along lines, VSUR for normals and tangents."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block

@@ -1,7 +1,5 @@
 """MATE and CARA: fields of parameters of a model."""
 
-from __future__ import annotations
-
 from collections.abc import Collection
 
 from ssilang.kernel.base.errors import MaterialError

@@ -1,7 +1,5 @@
 """MODE: which element and which law stand on a mesh."""
 
-from __future__ import annotations
-
 from dataclasses import field
 
 import ssilang.kernel.interface.family  # noqa: F401  joints as a family of elements

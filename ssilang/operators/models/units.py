@@ -1,7 +1,5 @@
 """Numbers of materials that are unusual: by themselves, beside others, in the deck's units."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.language.vocabulary import Quantity
 from ssilang.language.vocabulary.unit_systems import MATTER, SYSTEMS, UnitSystem, likely_units

@@ -1,7 +1,5 @@
 """Zones and models: sets of them, sizes of elements (TAIL), ENLE CHAN 'CONS' EXTR LIST."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES

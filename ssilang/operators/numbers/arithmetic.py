@@ -1,7 +1,5 @@
 """`+ - * / **` on every type that has them: dispatch by pairs of types."""
 
-from __future__ import annotations
-
 import operator as python
 from typing import TypeVar
 

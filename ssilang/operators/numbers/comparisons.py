@@ -1,7 +1,5 @@
 """EGA NEG < > <EG >EG give a LOGIQUE, ET OU NON join them; MULT."""
 
-from __future__ import annotations
-
 import math
 import operator as python
 

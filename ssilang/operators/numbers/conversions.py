@@ -1,7 +1,5 @@
 """ENTI FLOT VERI: conversions between integers, reals and words."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields import node_algebra
 from ssilang.operators.prelude import *
 

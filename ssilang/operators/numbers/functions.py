@@ -1,7 +1,5 @@
 """Functions of one number on numbers, lists, curves and fields: ABS SIN EXP LOG ATG ..."""
 
-from __future__ import annotations
-
 from importlib import import_module
 
 from ssilang.kernel.fields import cell_algebra, node_algebra

@@ -1,7 +1,5 @@
 """BRUI: random values."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.operators.prelude import *

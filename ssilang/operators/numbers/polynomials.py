@@ -1,7 +1,5 @@
 """Roots of polynomials: RACP, DEG3 of the third degree."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.arrays import ComplexArray
 from ssilang.operators.prelude import *
 

@@ -1,7 +1,5 @@
 """TEMP DATE: time used, date and hour."""
 
-from __future__ import annotations
-
 import time
 from datetime import datetime
 

@@ -1,7 +1,5 @@
 """FORM: the coordinates of all nodes, moved by a field and brought back."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.results.frames import following_axes
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.operators.prelude import *
@@ -13,7 +11,7 @@ class Configuration:
 
     coordinates: FloatArray
 
-    def moved(self, field: NodeField) -> Configuration:
+    def moved(self, field: NodeField) -> "Configuration":
         """Where these nodes are once a field of displacements has moved them."""
         moves = displacements(field)[: len(self.coordinates)]
         return Configuration(self.coordinates + moves)

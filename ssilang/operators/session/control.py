@@ -1,7 +1,5 @@
 """QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on; INFO NOTI AIDE SOUC: what is told."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from ssilang.language.registry import OPERATORS

@@ -1,7 +1,5 @@
 """VIDE: empty objects, and whether an object is empty."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.labels import Annotation
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.fields.deformed import Arrows, Deformed

@@ -1,7 +1,5 @@
 """TYPE EXIS OUBL DETR MENA NOMM OBJE METH HERI: objects and their names."""
 
-from __future__ import annotations
-
 from ssilang.language.registry import find_operator
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.values import ANNULE, Objet

@@ -1,7 +1,5 @@
 """Options of OPTI that name files; reading another script in the middle of one (OPTI DONN)."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 from typing import TextIO

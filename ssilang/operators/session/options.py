@@ -1,7 +1,5 @@
 """OPTI, VALE, DENS: the settings of a calculation, several in one statement."""
 
-from __future__ import annotations
-
 import sys
 
 from ssilang.io.plots.palette import NAMES as COLOURS

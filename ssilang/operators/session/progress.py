@@ -1,7 +1,5 @@
 """A progress line for long loops: on terminals only, after two seconds."""
 
-from __future__ import annotations
-
 import sys
 import time
 from typing import TextIO

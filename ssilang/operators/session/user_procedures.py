@@ -1,7 +1,5 @@
 """Calls of the user's procedures from a calculation (PERSO1)."""
 
-from __future__ import annotations
-
 from ssilang.language.run.procedures import call_procedure
 from ssilang.operators.prelude import *
 

@@ -1,7 +1,5 @@
 """COMP ECOU PLAS KTAN HOTA CRIT MOTA: constitutive laws at integration points."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import cell_block, contract, element_matrices
 from ssilang.kernel.elements.shapes.geometry import chunks

@@ -1,7 +1,5 @@
 """POLA PICA CAPI WORK FOFI TAGR: gradients and configurations of finite motions."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import total

@@ -1,7 +1,5 @@
 """FORC MOME PRES FSUR CNEQ: nodal forces of loads."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from ssilang.kernel.elements.loads.loads import (

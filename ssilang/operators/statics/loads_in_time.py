@@ -1,7 +1,5 @@
 """CHAR TIRE, and loadings in EXTR DIME ENLE ET CHAN."""
 
-from __future__ import annotations
-
 from functools import reduce
 
 from ssilang.kernel.curves.algebra import check_increasing

@@ -1,7 +1,5 @@
 """Contact, friction and sliding cables of PASAPAS's model: conditions, least values, limits."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
 from ssilang.kernel.contact.rows import Friction

@@ -4,8 +4,6 @@ Each time has the characteristics of its own fields. Elastic strains stay while 
 stresses are D(T) (strain - thermal strain - plastic strain) at all times.
 """
 
-from __future__ import annotations
-
 from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.families import family_of, moduli_of
@@ -36,7 +34,7 @@ class Varying:
         The load without those that serve them alone: temperatures also strain.
     """
 
-    def __init__(self, model: Model | None, material: CellField | None, parts: Parts) -> None:
+    def __init__(self, model: Model | None, material: CellField | None, parts: "Parts") -> None:
         zones = () if model is None else model.zones
         self.model = Model(tuple(z for z in zones if z.formulation == "MECANIQUE"))
         self.material = material

@@ -1,7 +1,5 @@
 """RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -13,7 +11,6 @@ from ssilang.kernel.base.errors import SingularMatrixError
 from ssilang.kernel.matrices.assembly import imposed_outside
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
-from ssilang.operators.dynamics.standing import WEIGHT_TWICE, weights_twice
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
@@ -100,7 +97,9 @@ def warn_of_weight(
 ) -> None:
     """Warn of bodies that forces (m,) at nodes (m,) press down by twice the weight of MASS."""
     masses = workspace(call.session).masses.values()
-    if masses and not call.session.warned(WEIGHT_TWICE):
+    if masses and not call.session.warned("operators.dynamics.weight-twice"):
+        from ssilang.operators.dynamics.standing import weights_twice
+
         for code, told in weights_twice(masses, matrix, zones, nodes, pressing):
             call.warn(code, **told)
 

@@ -1,7 +1,5 @@
 """SIGM EPSI BSIG ELAS EPTH THET: strains, stresses and the forces that balance them."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.loads.loads import pressure_vectors, total

@@ -1,7 +1,5 @@
 """What temperatures of a load or of EPTH leave open: where there are none, from what they rise."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at

@@ -1,7 +1,5 @@
 """Reading the entries of a procedure's table by what is declared of them."""
 
-from __future__ import annotations
-
 from contextlib import contextmanager
 
 from ssilang.kernel.stepping.times import every, nearest
@@ -35,7 +33,7 @@ class Entries:
         assert declared is not None, f"{procedure} declares no entries"
         self.declared = declared
 
-    def inside(self, index: str | int) -> Entries | None:
+    def inside(self, index: str | int) -> "Entries | None":
         """The entries of the table at an index, None if there is none."""
         table = self.get(index)
         if not isinstance(table, Table):

@@ -1,8 +1,6 @@
 """Values that no calculation can use: numbers that are not finite, curves without content, fields
 that lie elsewhere than the model they are given with, stresses with those of a temperature."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

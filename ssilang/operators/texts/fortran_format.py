@@ -1,7 +1,5 @@
 """Numbers written by a Fortran format such as `(F6.2)` or `(SP,1PE10.3)`."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -1,7 +1,5 @@
 """LIST: what objects hold, in readable lines."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language.text.tree import print_items
 from ssilang.language.values import ANNULE, Objet, Texte

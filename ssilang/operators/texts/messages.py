@@ -1,7 +1,5 @@
 """MESS, ERRE, SAUT, TITR: what a script says to its reader."""
 
-from __future__ import annotations
-
 from ssilang.messages.message import Sentence, find
 from ssilang.operators.prelude import *
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written

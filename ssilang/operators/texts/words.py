@@ -1,7 +1,5 @@
 """MOT, CHAI, and what other operators do with words: CHAN 'MAJU', EXTR, DIME, ET."""
 
-from __future__ import annotations
-
 from ssilang.language.values import known_types
 from ssilang.messages.message import find, places
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, union

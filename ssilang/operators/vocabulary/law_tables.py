@@ -1,7 +1,5 @@
 """The parameters of all laws as tables, for the help of MATE: what is declared, and no prose."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ssilang.kernel.materials.model import Mode, Zone

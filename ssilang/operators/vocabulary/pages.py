@@ -1,7 +1,5 @@
 """What help says of a word: its page, all its meanings, or what a search finds."""
 
-from __future__ import annotations
-
 import re
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence

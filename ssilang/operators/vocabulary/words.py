@@ -5,8 +5,6 @@ unknowns are; the vocabulary (`ssilang.language.vocabulary`) knows what each nam
 MODE, MATE, OPTI and the checker ask here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from functools import cache
 

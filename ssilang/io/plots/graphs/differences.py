@@ -1,7 +1,5 @@
 """Curves that lie on each other: what still differs, for a frame of its own."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """How one curve is drawn, from the words of DESS's table ('TIRR MARQ S PLEIN ROND REGU')."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Bars, lines that resist only lengthening, and hoops, points that stand for rings (CERC)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,8 +4,6 @@ Section forces are those that the part of the beam beyond the section (along the
 applies on the part before it, in local axes: EFFX EFFY EFFZ MOMX MOMY MOMZ.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Local axes and section constants of beams."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

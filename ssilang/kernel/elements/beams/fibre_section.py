@@ -9,8 +9,6 @@ and its stresses SMXX SMXY SMXZ add up to the forces of the beam. ALPY and ALPZ 
 stresses, to make up for shear strains that are not constant over a real section.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

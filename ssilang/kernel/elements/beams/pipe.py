@@ -4,8 +4,6 @@ An elbow bends more easily than its ring because it turns oval: its inertia is d
 Karman's factor 1.65 / lambda, lambda = thickness x bend radius / (mean radius)^2, when above 1.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -6,8 +6,6 @@ adds the integral rho N^T dW/dt N (Euler); C is the integral 2 rho N^T W N (Cori
 by the translations of their middle surface.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

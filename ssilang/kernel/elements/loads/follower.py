@@ -4,8 +4,6 @@ The force on a side is p times its vector area; its derivative by the displaceme
 the interpolated geometry. In a Fourier series UR and UZ go with cos, UT with sin.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Nodal forces of pressures, tractions, body forces, and of what is spread along beams and bars."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Strains without stress: those that a change of temperature causes, or as they are given."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Equivalent stress of a section, a quadratic form of its forces: VMIS, criterion of flow."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

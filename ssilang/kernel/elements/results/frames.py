@@ -13,8 +13,6 @@ joint turn with the segment between its nodes: about it by the part along it of 
 shortest way to where the segment goes; where both nodes are at one place, by the mean.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 

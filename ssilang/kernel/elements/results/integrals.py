@@ -1,7 +1,5 @@
 """Integrals of fields, cell by cell; strains and stresses with terms of second order."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

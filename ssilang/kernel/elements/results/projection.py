@@ -1,7 +1,5 @@
 """Fields in cells interpolated on other meshes and models."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,7 +1,5 @@
 """Stresses in the section of beams and shells, from their section forces."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -7,8 +7,6 @@ shells. Of the stresses the forces that lie along the line or surface work on th
 N12).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Fields in cells carried to other supports and nodes, or restricted to a mesh or a model."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Literal

@@ -3,8 +3,6 @@
 Largest shear strain of solid cells over a motion (equivalent-linear soil).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Geometry of cells at quadrature points: gradients of shape functions, volumes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

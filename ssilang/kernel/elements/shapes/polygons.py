@@ -6,8 +6,6 @@ linear fields (Wachspress 1975; on regular polygons Sukumar and Tabarraei 2004).
 quadrangles in a mesh of polygons are TRI3 and QUA4, whose functions are the same.
 """
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Quadrature rules on the reference domains."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache

@@ -6,8 +6,6 @@ functions to their monomials (x y / (1 - z)), complete cells sums of monomials t
 other faces (bubbles).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cache
 

@@ -4,8 +4,6 @@ The own frame has z along the (mean) normal and x along the side from node 1 to 
 of four nodes is neglected. Translations follow the shapes of the cell.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 
 import numpy as np

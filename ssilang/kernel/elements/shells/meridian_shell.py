@@ -4,8 +4,6 @@ The own frame has s along the line from node 1 to node 2 and z along its normal,
 further. Lengthening is linear, deflection cubic (Kirchhoff).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -8,8 +8,6 @@ told by the ratio of its moduli. Batoz and Lardeur (1989) take one shear strain 
 each other such cells turn unlike, and thick irregular meshes miss a constant moment.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -6,8 +6,6 @@ deflection is cubic and Kirchhoff's condition holds at its ends and middle. COQ3
 incomplete cubic deflection (see `cubic_curvatures`).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

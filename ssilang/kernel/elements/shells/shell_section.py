@@ -1,7 +1,5 @@
 """Elastic law of a thin shell's section: forces N11 N22 N12 and moments M11 M22 M12."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -18,8 +18,6 @@ They see nothing of linear displacements, and are components of their own in str
 (GH.. and SH..): forces in balance with the stresses of a displacement are exactly its stiffness'.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

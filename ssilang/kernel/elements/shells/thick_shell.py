@@ -5,8 +5,6 @@ surface turn with the nodes; no stress acts across the thickness. Two points acr
 become too stiff when the thickness falls below some hundredth of the cells' size.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

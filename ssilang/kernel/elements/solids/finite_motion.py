@@ -5,8 +5,6 @@ F = dx/dX = R U. Stresses: S = J F^-1 sigma F^-T (second Piola-Kirchhoff of Cauc
 E = F^T e F (Green-Lagrange of Almansi).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Displacement gradients of continuous elements and what second-order strains take from them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,8 +4,6 @@ Orders are Cast3M's: in-plane XX YY ZZ XY, axisymmetric RR ZZ TT RZ, Fourier RR 
 space XX YY ZZ XY XZ YZ. Shear strains are engineering strains (GAXY = 2 EPXY).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

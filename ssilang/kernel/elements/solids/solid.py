@@ -1,7 +1,5 @@
 """Continuous elements: plane, axisymmetric, Fourier, three-dimensional."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

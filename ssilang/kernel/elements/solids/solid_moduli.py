@@ -1,7 +1,5 @@
 """Elastic moduli of continuous elements from material parameters; Hooke matrices as fields."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

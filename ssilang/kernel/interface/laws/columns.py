@@ -3,8 +3,6 @@
 Compiled code takes members of these enumerations for plain numbers.
 """
 
-from __future__ import annotations
-
 from enum import IntEnum
 
 

@@ -3,8 +3,6 @@
 Parameters of the joint laws: defaults, columns, refusals.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 

@@ -1,7 +1,5 @@
 """The laws of joints by name, gathered from their files."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """The table of parameters of joint points, from a field of characteristics."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Curves of a first loading: G/Gmax and the hyperbola in shear, hardening from a tension test."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -17,8 +17,6 @@ For each phi the first has one root (its slope in v is above 1). Below `LEAST` o
 modulus stays what it is there, so that a clay may begin without stress.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -54,7 +52,7 @@ class Clay:
     shear: FloatArray
     square: FloatArray
 
-    def at(self, rows: IntArray) -> Clay:
+    def at(self, rows: IntArray) -> "Clay":
         """The same for some of the points."""
         return Clay(*(getattr(self, n)[rows] for n in ("soft", "hard", "least", "shear", "square")))
 

@@ -1,7 +1,5 @@
 """Conditions between the parameters of a law, as data: what must hold, written as users read it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

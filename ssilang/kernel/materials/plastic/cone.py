@@ -8,8 +8,6 @@ return goes to the apex. (Simo and Hughes 1998; de Souza Neto, Peric and Owen 20
 Drucker and Prager's cone for soils: perfect and associated, or hardening with its own flow.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

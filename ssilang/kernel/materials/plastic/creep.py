@@ -5,8 +5,6 @@ the rate depends on stress and strain alone, the time being the one that the str
 taken. Over a step the stress at its end counts (implicit, exact under constant stress).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -3,8 +3,6 @@
 The strains across the held directions are found by Newton, and condensed out of the tangent.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

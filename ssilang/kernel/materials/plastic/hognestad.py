@@ -20,8 +20,6 @@ Notice and codes leave open, and it is so here:
 YOUN makes the elastic stiffness only (RIGI, shear): the curves have slopes of their own.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

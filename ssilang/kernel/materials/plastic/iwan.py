@@ -11,8 +11,6 @@ Where pressure counts, all strengths are in proportion to it: cones one inside t
 that keeps the volume; the modulus stays.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

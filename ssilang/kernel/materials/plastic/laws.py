@@ -1,7 +1,5 @@
 """The plastic laws by the words of MODE: parameters, internal variables, function."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -86,7 +84,7 @@ class PlasticLaw:
     timed: bool = False
     columns: Columns | None = None
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
-    shaped: Callable[[PlasticLaw, PointParameters], PlasticLaw] | None = None
+    shaped: "Callable[[PlasticLaw, PointParameters], PlasticLaw] | None" = None
     parts: Backbones | None = None
     slid: Callable[[PointParameters, FloatArray, FloatArray, FloatArray], FloatArray] | None = None
 

@@ -21,8 +21,6 @@ R5.03.09 takes (STSU - STSY) / (EPSU - STSY / YOUN) for the slope of the line of
 BFAC for the curve alone; here both are BFAC YOUN, so that the line is the curve's asymptote.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,8 +4,6 @@ Stresses are XX YY ZZ XY XZ YZ, strains the same with engineering shears (GAXY =
 `stress . strain` is the work.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -44,7 +42,7 @@ class PointParameters:
         """What `once` made."""
         return {}
 
-    def once(self, make: Callable[[PointParameters], FloatArray]) -> FloatArray:
+    def once(self, make: "Callable[[PointParameters], FloatArray]") -> FloatArray:
         """What a law makes of its parameters, made when it is first asked for."""
         if make not in self.kept:
             self.kept[make] = make(self)
@@ -80,7 +78,7 @@ class PointParameters:
         own: FloatArray = (square - trace**2 / 3) / (4 * self.shear) + trace**2 / (18 * self.bulk)
         return own
 
-    def at(self, points: IntArray) -> PointParameters:
+    def at(self, points: IntArray) -> "PointParameters":
         """The same for some of the points."""
         values = {name: v[points] for name, v in self.values.items()}
         curves = {name: (all_, which[points]) for name, (all_, which) in self.curves.items()}

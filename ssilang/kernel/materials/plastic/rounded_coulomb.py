@@ -8,8 +8,6 @@ hyperbola. The surface being smooth, the return is the closest point by Newton o
 multiplier together, and its tangent is exact.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -71,7 +69,7 @@ class _Return:
     trial: FloatArray
     tip: float = TIP
 
-    def at(self, rows: IntArray) -> _Return:
+    def at(self, rows: IntArray) -> "_Return":
         some = self.parameters.at(rows)
         return _Return(some, self.compliance[rows], self.trial[rows], self.tip)
 

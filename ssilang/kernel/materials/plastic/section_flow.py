@@ -1,7 +1,5 @@
 """Plasticity on the forces of sections: associated flow on their equivalent stress."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,7 +34,7 @@ class SectionParameters(PointParameters):
         found: FloatArray = 0.5 * np.einsum("mi,mij,mj->m", stress, self.softness, stress)
         return found
 
-    def at(self, points: IntArray) -> SectionParameters:
+    def at(self, points: IntArray) -> "SectionParameters":
         """The same for some of the points."""
         own = PointParameters(self.values, self.curves).at(points)
         parts = (self.rigidity, self.softness, self.form, self.size)

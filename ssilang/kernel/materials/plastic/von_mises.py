@@ -1,7 +1,5 @@
 """Von Mises' plasticity: perfect, with isotropic, saturating or linear kinematic hardening."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -3,8 +3,6 @@
 Complete quadratic cells (TRI7 QUA9 TE15 PY19 PR21 CU27) and the linear cells inside them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -4,8 +4,6 @@ Each division halves the edges of a cell (two, four or eight cells of the same k
 differ by one division at most, so that a node hangs in the middle of an edge or of a face.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache

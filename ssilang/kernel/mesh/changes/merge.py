@@ -3,8 +3,6 @@
 Nodes of a line doubled inside a surface, so that the surface opens along it (DEDO).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray

@@ -1,7 +1,5 @@
 """Cells cut into simpler ones: quadrangles into triangles, bricks into tetrahedra."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray

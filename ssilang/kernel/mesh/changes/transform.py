@@ -3,8 +3,6 @@
 Meshes that follow some of their nodes, and nodes put in the middle of their neighbours.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field

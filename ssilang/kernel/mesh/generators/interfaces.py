@@ -1,7 +1,5 @@
 """Joint meshes between facing meshes, segments (RACC) or facets (LIAI), and their pairing."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -28,7 +26,7 @@ class Simplices:
     cell: IntArray
 
     @classmethod
-    def of(cls, blocks: Iterable[tuple[CellBlock, IntArray]]) -> Simplices:
+    def of(cls, blocks: Iterable[tuple[CellBlock, IntArray]]) -> "Simplices":
         """Those of the given rows of blocks of lines, or of facets (quadrangles are halved)."""
         made = list(_straight(blocks))
         cells, before = [], 0

@@ -3,8 +3,6 @@
 Triangles between two lines, and cells joined to a point.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -243,7 +241,7 @@ class _Layers:
     half: IntArray
 
     @classmethod
-    def build(cls, base: Mesh, path: Path, cuts: Subdivision, quadratic: bool) -> _Layers:
+    def build(cls, base: Mesh, path: Path, cuts: Subdivision, quadratic: bool) -> "_Layers":
         nodes, ids = base.nodes, base.node_ids
         start = nodes.coordinates[ids].copy()
         n, m = cuts.count, len(ids)

@@ -1,7 +1,5 @@
 """The curve along which two simple surfaces cross, between two points of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Circular arcs that round the corner between two lines.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Tangents, normals and binormals along lines.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,7 +1,5 @@
 """How a length is cut into elements: equal sizes or a geometric progression."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

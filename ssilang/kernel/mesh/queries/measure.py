@@ -1,7 +1,5 @@
 """Lengths, areas, volumes and mesh sizes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

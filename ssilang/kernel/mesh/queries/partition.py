@@ -1,7 +1,5 @@
 """Meshes taken apart into zones of cells that hang together."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

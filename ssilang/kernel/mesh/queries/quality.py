@@ -3,8 +3,6 @@
 What is wrong with a mesh: repeated cells, neighbours of other degrees, faces that do not fit.
 """
 
-from __future__ import annotations
-
 import itertools
 from itertools import combinations
 from math import factorial

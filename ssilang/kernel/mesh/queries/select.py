@@ -1,7 +1,5 @@
 """Cells and nodes picked from a mesh by what they touch, hold, or lie near to."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray

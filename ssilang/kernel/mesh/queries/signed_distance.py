@@ -1,7 +1,5 @@
 """Signed distances of points to a line of segments (2D) or a surface of triangles (3D)."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

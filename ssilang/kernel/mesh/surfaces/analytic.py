@@ -3,8 +3,6 @@
 Surfaces `P(u, v) = sum P_ij u^i v^j` meshed over a rectangle of their parameters.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

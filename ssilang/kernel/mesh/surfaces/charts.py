@@ -1,7 +1,5 @@
 """Flat maps of simple surfaces, in which meshes are made before they are put in space."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

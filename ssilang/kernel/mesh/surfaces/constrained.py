@@ -1,7 +1,5 @@
 """Triangles refined, or inside plane lines of which some end inside or cut the domain in parts."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

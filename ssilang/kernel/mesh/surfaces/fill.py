@@ -1,7 +1,5 @@
 """A plane contour filled: points inside for a wanted size, and a cut in two where it is narrow."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray

@@ -1,7 +1,5 @@
 """Grids of quadrangles on four sides (transfinite interpolation)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -3,8 +3,6 @@
 A mesh as a surface (a line in the plane) of flat facets, for projections on it.
 """
 
-from __future__ import annotations
-
 from collections import deque
 
 import numpy as np

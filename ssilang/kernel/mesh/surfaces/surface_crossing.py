@@ -1,7 +1,5 @@
 """Two surfaces of triangles, in space, cut along the lines where they cross."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray

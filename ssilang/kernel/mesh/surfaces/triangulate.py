@@ -1,7 +1,5 @@
 """Constrained Delaunay triangulation of plane points inside closed contours."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

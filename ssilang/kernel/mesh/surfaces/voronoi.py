@@ -6,8 +6,6 @@ crosses are the lower envelope of straight lines, and an edge between two cells 
 their bisector on which no third germ has less.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import combinations
 

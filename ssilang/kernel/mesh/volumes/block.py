@@ -1,7 +1,5 @@
 """Bricks inside six faces meshed as grids (transfinite interpolation)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

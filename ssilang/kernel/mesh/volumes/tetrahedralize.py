@@ -1,7 +1,5 @@
 """Volumes inside closed surfaces, filled with tetrahedra by a weighted Delaunay triangulation."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -110,7 +108,7 @@ class _Frame:
     size: FloatArray
 
     @classmethod
-    def of(cls, points: FloatArray, triangles: IntArray) -> _Frame:
+    def of(cls, points: FloatArray, triangles: IntArray) -> "_Frame":
         x = points[triangles]
         edges = x[:, 1:] - x[:, :1]
         normal = np.cross(edges[:, 0], edges[:, 1])

@@ -1,7 +1,5 @@
 """Volumes inside closed surfaces: tetrahedra, with pyramids on the quadrangles of the skin."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

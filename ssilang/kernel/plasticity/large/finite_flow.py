@@ -14,8 +14,6 @@ strains): `sigma = exp(e/2) s exp(e/2) / exp(tr e/2)`. They differ by the elasti
 depends on the steps where the axes of stretch stay.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial

@@ -6,8 +6,6 @@ Rankin 1991). The rotations RX RY RZ of a node are the components of one rotatio
 mesh at rest, as those of beams in space.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -129,7 +127,7 @@ class FinitePlate:
         """Membrane forces and moments per length, in the axes of the present frame."""
         return np.asarray(self.initial + np.einsum("cspi,ci->csp", self.seen, self.small(u)))
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> FinitePlate:
+    def stressed(self, given: FloatArray, u: FloatArray) -> "FinitePlate":
         """Initial stresses from present ones."""
         elastic = np.einsum("cspi,ci->csp", self.seen, self.small(u))
         return replace(self, initial=given - elastic)

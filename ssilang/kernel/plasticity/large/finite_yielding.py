@@ -7,8 +7,6 @@ elastic one with the consistent tangent as moduli and an initial stress that giv
 and tangent are then those of `FiniteSolid`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast

@@ -12,8 +12,6 @@ the same as GMRES). Where it takes many turns the tangent of the state that it h
 factorised; where that does not help, Newton's method on all unknowns goes on.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import cast
 

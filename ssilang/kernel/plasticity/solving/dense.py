@@ -4,8 +4,6 @@ The same iteration as `BulkSolver`, on the motions that the conditions leave. Wh
 tangent go in their matrix is found once.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -3,8 +3,6 @@
 The terms of a tangent are found once: each turn adds numbers to places that do not change.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -38,7 +36,7 @@ class Pattern:
     slots: tuple[NDArray[np.int32], ...]
 
     @classmethod
-    def of(cls, like: sp.csr_array, places: Sequence[NDArray[np.int32]]) -> Pattern:
+    def of(cls, like: sp.csr_array, places: Sequence[NDArray[np.int32]]) -> "Pattern":
         """The pattern of an assembled matrix, for element matrices at places (n_cells, m)."""
         like.sort_indices()
         n = like.shape[0]

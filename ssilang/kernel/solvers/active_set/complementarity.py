@@ -1,7 +1,5 @@
 """Small dense contact problems: which unilateral conditions are active, and their reactions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

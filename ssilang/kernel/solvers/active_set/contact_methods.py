@@ -4,8 +4,6 @@ All solve `g = q + W p`. Lagrange (see `complementarity`), augmented Lagrangian 
 the exact conditions `g >= 0, p >= 0, p . g = 0`; penalty gives `p = c max(0, -g)`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -12,8 +12,6 @@ without a row, max(b_i, 0). s are slips of a step. Newton's method on the projec
 Curnier (1991); block Gauss-Seidel sweeps (Jean and Moreau 1992) where it does not end.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

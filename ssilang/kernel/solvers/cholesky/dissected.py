@@ -1,7 +1,5 @@
 """Sparse Cholesky of this house: nested dissection, fronts, panels; symmetric positive matrices."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -46,7 +44,7 @@ class DissectedFactor:
         self.tree, self.panels = tree, factorise_panels(A, tree, most)
         self.room = np.empty(longest(self.panels))
 
-    def another(self, A: sp.csr_array) -> DissectedFactor:
+    def another(self, A: sp.csr_array) -> "DissectedFactor":
         """Factor of a matrix with the same unknowns and terms, in the same order."""
         made = DissectedFactor.__new__(DissectedFactor)
         made._factorise(A, self.tree, np.inf)

@@ -12,8 +12,6 @@ first; the transposed walk, from the first to the last, gives the multipliers:
 3. rows of one unknown (supports), last because their unknowns are known outright.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

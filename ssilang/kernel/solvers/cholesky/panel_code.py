@@ -7,8 +7,6 @@ one end to the other: memory is read along few lines.
 
 # mypy: allow-untyped-calls
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -5,8 +5,6 @@ the rigid ones of the body, given at each unknown. The levels are of single prec
 of double; where single precision does not do, the levels are made again in double.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -6,8 +6,6 @@ without a name (memfd), whose descriptors the server gets through the socket. Th
 folder of this user's alone for as long as the server takes to start.
 """
 
-from __future__ import annotations
-
 import hmac
 import math
 import mmap
@@ -70,7 +68,7 @@ class PetscServer:
 
     def factorise(
         self, A: sp.csr_array, positive: bool, rigid: FloatArray | None = None
-    ) -> PetscFactor:
+    ) -> "PetscFactor":
         """Factorise A (n, n) by MUMPS; multigrid takes a positive one that memory does not hold.
 
         Parameters
@@ -134,7 +132,7 @@ class PetscServer:
             self._line.close()
             self._line = None
 
-    def _started(self) -> _Line:
+    def _started(self) -> "_Line":
         if self._line is None or self._line.ended:
             self._line = None
             self._line, greeting = _start(self.command, self.limit)
@@ -147,7 +145,9 @@ class PetscServer:
 class PetscFactor:
     """A factor, or a hierarchy of grids, that the server holds."""
 
-    def __init__(self, line: _Line, number: int, n: int, name: str, n_bytes: float | None) -> None:
+    def __init__(
+        self, line: "_Line", number: int, n: int, name: str, n_bytes: float | None
+    ) -> None:
         self.name, self.n_bytes = name, n_bytes
         self._line, self._number, self._n = line, number, n
         weakref.finalize(self, line.dropped.append, number)

@@ -12,8 +12,6 @@ Rank 0 hands rows out by MPI. The other ranks wait for it without taking a core.
 ends, so does the server, in the middle of a factorisation as well.
 """
 
-from __future__ import annotations
-
 import array
 import glob
 import json

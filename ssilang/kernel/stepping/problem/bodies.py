@@ -1,7 +1,5 @@
 """The bodies of a problem, and which of them joints alone hold."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 

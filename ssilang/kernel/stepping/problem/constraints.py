@@ -4,8 +4,6 @@ Non-associated relations (RELA ... 'DUAL') push by `D^T lambda` with rows D that
 equilibrium then holds on the motions V that D leaves, `V^T (K u - F) = 0`.
 """
 
-from __future__ import annotations
-
 from typing import Protocol
 
 import numpy as np

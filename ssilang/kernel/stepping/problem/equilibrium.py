@@ -1,7 +1,5 @@
 """Forces of the conditions at instants of a motion, from its balance; closed joints' stiffness."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Initial state of a motion: velocity that the supports allow, acceleration in equilibrium."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Loads in time as a few constant vectors times a few curves."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

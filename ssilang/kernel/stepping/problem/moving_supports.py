@@ -10,8 +10,6 @@ step. Energies of q alone are completed by products of the columns with the moti
 from the work of these loads.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

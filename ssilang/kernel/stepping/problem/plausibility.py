@@ -6,8 +6,6 @@ and one motion for each load, that of its forces on the structure at rest.
 What presses on ground that yields, against what the ground bears.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """A time-stepping problem: linear matrices, conditions, loads, joints, initial state, times."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """ZCOL: the soil column behind the procedures DECONV and DECONV3D."""
 
-from __future__ import annotations
-
 from ssilang.kernel.records.soil_column import FreeField, SoilColumn, free_field
 from ssilang.kernel.waves.resolution import highest_frequency
 from ssilang.operators.prelude import *

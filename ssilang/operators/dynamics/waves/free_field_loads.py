@@ -1,7 +1,5 @@
 """ZDRM, ZBOR: forces that bring a free field into a mesh, behind the procedures @DRM and @BORDS."""
 
-from __future__ import annotations
-
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.waves.free_field_forces import (
     Ground,

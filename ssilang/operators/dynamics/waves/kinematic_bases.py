@@ -1,7 +1,5 @@
 """ZBAS: a rigid base under waves that pass and differ, behind the procedure @PASSAGE."""
 
-from __future__ import annotations
-
 from ssilang.kernel.waves.incoherence import (
     Ground,
     RigidBase,

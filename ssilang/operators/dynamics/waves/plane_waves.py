@@ -1,7 +1,5 @@
 """ZOPL ZPML: plane waves and matched layers, behind the procedures @ONDE and @PML."""
 
-from __future__ import annotations
-
 from ssilang.kernel.waves.layered_half_space import (
     Given,
     HalfSpace,

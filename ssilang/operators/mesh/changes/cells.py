@@ -1,7 +1,5 @@
 """Cells of meshes: CHAN MANU, colours by COUL AFCO, and RAFF to sizes wanted."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.elements.families import family_of

@@ -1,7 +1,5 @@
 """Nodes that stand at one place: ELIM merges them, REGE clears cells of them, DEDO makes them."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.changes.merge import (
     cut_open,
     merge_between,

@@ -1,7 +1,5 @@
 """Joint cells between meshes: RACC LIAI GENJ; TASS."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.interfaces import joint_mesh, joints_inside
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of

@@ -1,7 +1,5 @@
 """How cells are described: INVE ORIE VERS ORDO."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.boundary import (
     chained,
 )

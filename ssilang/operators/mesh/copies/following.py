@@ -1,7 +1,5 @@
 """DEDU: copies that follow some nodes, or go through the map between two meshes."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 from ssilang.kernel.fields.deformed import displacements, moving_components

@@ -1,7 +1,5 @@
 """Moved copies of objects: PLUS MOIN TOUR SYME HOMO AFFI PROJ."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.mesh.changes.transform import (

@@ -1,7 +1,5 @@
 """Geometric maps as operators read them: rotation, symmetry, scaling, affinity, projection."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.changes.transform import PointMap, turn
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,

@@ -1,7 +1,5 @@
 """Nodes moved in place: DEPL."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.mesh.changes.transform import (
     PointMap,

@@ -1,7 +1,5 @@
 """Arcs of circle: CERC CER3 PARC, and CONG for rounded corners."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.mesh.combine import union

@@ -1,7 +1,5 @@
 """INTE: the line along which two simple surfaces cross."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
 from ssilang.kernel.mesh.surfaces.analytic import (
     Shape,

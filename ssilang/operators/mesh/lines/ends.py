@@ -1,7 +1,5 @@
 """What operators that draw lines read: ends, numbers of elements, mesh sizes."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.families import Family, family_of
 from ssilang.kernel.mesh.lines.curves import Arc, Polynomial

@@ -1,7 +1,5 @@
 """Polynomial curves: PARA CUBP CUBT COUR."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through, parabola
 from ssilang.kernel.mesh.lines.lines import line_ends
 from ssilang.operators.mesh.lines.ends import (

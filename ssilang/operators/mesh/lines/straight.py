@@ -1,7 +1,5 @@
 """Lines: DROI LIGN QUEL."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis

@@ -1,7 +1,5 @@
 """Points and coordinates: COOR NOEU CONF BARY."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines.lines import line_chain

@@ -1,7 +1,5 @@
 """POIN: points picked from meshes and fields, or made from coordinates."""
 
-from __future__ import annotations
-
 from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines.lines import line_ends

@@ -1,7 +1,5 @@
 """Points as vectors: + - * /, PSCA, PVEC, PMIX, NORM."""
 
-from __future__ import annotations
-
 from ssilang.operators.dispatch import PSCA, PVEC
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.numbers.arithmetic import rule

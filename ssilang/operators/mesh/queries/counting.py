@@ -1,7 +1,5 @@
 """What a mesh holds: NBEL NBNO MESU, REFE for its names; how points and meshes are listed."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.mesh.queries.measure import (
     enclosed_area,

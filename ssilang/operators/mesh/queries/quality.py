@@ -1,7 +1,5 @@
 """Shape of cells (INDI) and what is wrong with a mesh (VERM)."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.queries.quality import (
     aspect_ratio,

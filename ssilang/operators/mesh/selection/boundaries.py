@@ -1,7 +1,5 @@
 """Boundaries of meshes: CONT ENVE ARET, and the sides kept from their making: COTE FACE."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.boundary import (
     chained,
     contour,

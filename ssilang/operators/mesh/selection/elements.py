@@ -1,7 +1,5 @@
 """ELEM: cells picked from a mesh, or by the values of a field in cells."""
 
-from __future__ import annotations
-
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.cells import CELL_TYPES

@@ -1,7 +1,5 @@
 """What lies inside lines, surfaces and volumes: DEDA INCL."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume

@@ -1,7 +1,5 @@
 """PART and CCON: a mesh taken apart into a table of zones."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.queries.partition import balanced, connected, scattered, separated
 from ssilang.operators.prelude import *
 

@@ -1,7 +1,5 @@
 """Surfaces inside contours and cuts of them: SURF DALL COUP FUIT ISOV."""
 
-from __future__ import annotations
-
 from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.changes.degree import linear
 from ssilang.kernel.mesh.changes.split import split_quadrangles

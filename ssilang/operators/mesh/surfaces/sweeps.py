@@ -1,7 +1,5 @@
 """Surfaces swept by lines: TRAN, ROTA, REGL, GENE."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
     Path,

@@ -1,7 +1,5 @@
 """Triangles inside lines and between points (TRIA RAFT COUT), Voronoi's partition (VORO)."""
 
-from __future__ import annotations
-
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.sweep import cone, stitch
 from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume

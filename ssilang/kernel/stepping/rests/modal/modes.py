@@ -5,8 +5,6 @@ motions that nothing excites take no part; displacements, and reactions from equ
 back for the instants that are kept.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -152,7 +150,7 @@ class SmallLoop:
             self.springs = springs_of(self._step, k)
         self.using("modes")
 
-    def using(self, way: str) -> SmallLoop:
+    def using(self, way: str) -> "SmallLoop":
         """The loop with one of its ways to step: `modes`, `springs`, `one_mode`."""
         ways: dict[str, tuple[Steps, JointsOf]] = {
             "modes": (self._by_modes, self._of_modes),

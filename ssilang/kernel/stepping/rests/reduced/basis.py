@@ -10,8 +10,6 @@ References: A. Ruhe (1984), rational Krylov; R. W. Freund (2004), structure-pres
 block orthogonalisation by two passes of Gram-Schmidt.
 """
 
-from __future__ import annotations
-
 import math
 from copy import copy
 from dataclasses import dataclass
@@ -107,7 +105,7 @@ class ReducedModel:
         """Whole fields (n, k) of coordinates (r, k)."""
         return self.whole(self.X @ q)
 
-    def taken(self, poorer: ReducedModel, q: FloatArray) -> FloatArray:
+    def taken(self, poorer: "ReducedModel", q: FloatArray) -> FloatArray:
         """Coordinates (..., r) of those (..., s) on the first s vectors."""
         return (q @ poorer.X.T) @ self.X[: poorer.size]
 

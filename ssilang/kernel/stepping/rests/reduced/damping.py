@@ -14,8 +14,6 @@ References: Z. Bai, Y. Su (2005), SOAR, second-order Krylov spaces; D. Lu, Y. Su
 stability of the two-level orthogonal Arnoldi process.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

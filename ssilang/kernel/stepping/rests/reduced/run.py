@@ -8,8 +8,6 @@ the whole model (which is the assumption; it is no strict bound). Between the in
 the field's error may be somewhat larger (a factor of 2 has been seen).
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections import OrderedDict
@@ -331,7 +329,7 @@ class Expansion:
         """p, and coordinates and supports together."""
         return self.T.shape[0], len(self.X) + self.moved.shape[1]
 
-    def __getitem__(self, places: IntArray | slice) -> Expansion:
+    def __getitem__(self, places: IntArray | slice) -> "Expansion":
         T = self.T[places]
         at = np.unique(T.indices)
         return Expansion(sp.csr_array(T[:, at]), self.basis[:, at], self.X, self.moved[places])

@@ -10,11 +10,9 @@ tangent, is kept from turn to turn and step to step, and made again where a turn
 leads to the solution, and what is out of balance, in double precision, says where that is.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -61,10 +59,6 @@ from ssilang.kernel.stepping.state import (
     rows_of,
 )
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.rests.reduced.loop import Reduced
-
 
 MOST_TURNS = 60
 TOLERANCE = 1e-10  # of the forces of a step

@@ -6,8 +6,6 @@ joints (Sirovich 1987, method of snapshots); those of earlier records go into th
 decomposition with their weights, so that a basis learns from every record that was run whole.
 """
 
-from __future__ import annotations
-
 import math
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, replace

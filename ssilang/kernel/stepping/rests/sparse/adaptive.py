@@ -4,8 +4,6 @@ The event is located to dt/2^DEEPEST; elsewhere the step asked for is kept. Load
 within a step.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The step by Newton's method on all unknowns, refactorised at each iteration (comparison)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Large problems with supports at rest or in motion, set up for `run_interleaved`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -146,7 +144,7 @@ class InterleavedLoop:
         """Unknowns as they are: they are made block by block, supports move within one."""
         return whole_view(self.motion, unknowns, "reaction", "contact")
 
-    def seen(self, unknowns: IntArray) -> Seen:
+    def seen(self, unknowns: IntArray) -> "Seen":
         """How unknowns follow from those of the factor."""
         rows = self.T[unknowns]
         at = np.unique(rows.indices).astype(np.int64)
@@ -165,7 +163,7 @@ class InterleavedLoop:
         larger = own.joints > to.joints
         to.joints[larger], to.joints_when[larger] = own.joints[larger], own.joints_when[larger]
 
-    def block(self, factors: FloatArray) -> PreparedBlock:
+    def block(self, factors: FloatArray) -> "PreparedBlock":
         """The motion on the loop's unknowns, with the forces of equilibrium from scratch."""
         m = self.motion
         columns, course = self.supports.begin(m, factors)
@@ -192,7 +190,9 @@ class InterleavedLoop:
         start = Start(np.array([own @ u, own @ v, own @ a]), m.f.copy())
         return PreparedBlock(plan, few, products, columns, course, whole, start)
 
-    def finish(self, block: PreparedBlock, factors: FloatArray, kept: Recorder, done: int) -> None:
+    def finish(
+        self, block: "PreparedBlock", factors: FloatArray, kept: Recorder, done: int
+    ) -> None:
         """The motion and its energies after the steps that were done."""
         m, few, history = self.motion, block.motion, kept.energies[:done]
         works = kept.work[:, :done, self.forces.shape[0] :]
@@ -202,7 +202,7 @@ class InterleavedLoop:
         m.u[:], m.v[:], m.a[:] = self._unfolded(block, few.u, few.v, few.a, done)
 
     def _unfolded(
-        self, block: PreparedBlock, u: FloatArray, v: FloatArray, a: FloatArray, k: int
+        self, block: "PreparedBlock", u: FloatArray, v: FloatArray, a: FloatArray, k: int
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Displacement, velocity and acceleration (n,) after k steps."""
         X, c = block.columns.X, block.course
@@ -212,7 +212,7 @@ class InterleavedLoop:
             u, v, a = u + moved @ c.c[k], v + moved @ c.v[k], a + moved @ c.a[k]
         return u, v, a
 
-    def _columns(self, block: PreparedBlock) -> sp.csr_array:
+    def _columns(self, block: "PreparedBlock") -> sp.csr_array:
         """The columns of the supports, most of whose entries are zero."""
         X = block.columns.X
         if self._moved[0] is not X:
@@ -230,7 +230,7 @@ class InterleavedLoop:
             self._gram_factor = spla.splu(self._gram)
         return self._gram_factor.solve(b)
 
-    def room(self, block: PreparedBlock, to: Recorder, part: slice, seen: Seen) -> Recorder:
+    def room(self, block: "PreparedBlock", to: Recorder, part: slice, seen: "Seen") -> Recorder:
         """Room for the kept steps of a block, that is a part of all steps."""
         row, m = to.row[part], block.motion
         work = np.zeros((2, len(row), block.factors.shape[1]))
@@ -241,7 +241,13 @@ class InterleavedLoop:
         return recorder_of(m, rows_of(row >= 0), energies, KEPT, work=work, tap=tap)
 
     def put(
-        self, block: PreparedBlock, kept: Recorder, to: Recorder, first: int, done: int, seen: Seen
+        self,
+        block: "PreparedBlock",
+        kept: Recorder,
+        to: Recorder,
+        first: int,
+        done: int,
+        seen: "Seen",
     ) -> None:
         """Kept instants of a block that begins with step `first` as whole arrays, and the tap."""
         for k in np.flatnonzero(kept.row[:done] >= 0).tolist():
