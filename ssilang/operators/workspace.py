@@ -9,6 +9,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ssilang.io.run_output import RunOutput
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -18,6 +19,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 
 if TYPE_CHECKING:
+    from ssilang.kernel.matrices.matrix import Matrix
     from ssilang.kernel.solvers.petsc.client import PetscServer
 
 MULTIGRID_WORD = "MULTIGRILLE"
@@ -54,6 +56,8 @@ class Workspace:
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
+    masses : mapping of int to (nodes, masses)
+        What MASS gave cells and points along the vertical: what loads of statics are held to.
     """
 
     nodes: NodeTable = field(default_factory=NodeTable)
@@ -68,6 +72,7 @@ class Workspace:
     output: RunOutput | None = None
     petsc: PetscServer | None = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
+    masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
 
     @property
     def units(self) -> UnitSystem | None:
@@ -78,6 +83,17 @@ class Workspace:
     def in_frequency(self) -> bool:
         """Whether OPTI 'MODE' 'FREQ' is in force: PASAPAS sweeps frequencies."""
         return bool(self.options.get("FREQ"))
+
+    def weighed(self, made: Matrix, *constituents: str) -> Matrix:
+        """A matrix of MASS, its masses remembered: those made last of the same cells."""
+        for block in made.blocks:
+            axis = "UZ" if "UZ" in block.unknowns else "UY"
+            rows = np.flatnonzero(np.array(block.unknowns) == axis)
+            nodes = block.raw_nodes[:, block.local[rows]]
+            sums = block.values[:, rows][:, :, rows].sum(axis=2)
+            key = hash((block.raw_nodes.tobytes(), axis, *constituents))
+            self.masses[key] = nodes.ravel(), sums.ravel()
+        return made
 
     def point(self, coordinates: list[float]) -> Point:
         """A new point with the density in force."""

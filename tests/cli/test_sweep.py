@@ -294,8 +294,9 @@ def test_motions_of_other_units_are_told_by_their_peaks(deck, tmp_path, peaks, r
 def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     motions = tmp_path / "motions"
     motions.mkdir()
-    for name, unit in (("a.csv", "g"), ("b.csv", "g"), ("c_UP.csv", "cm/s^2")):
-        (motions / name).write_text(f"t (s);a ({unit})\n0;0\n1;1\n")
+    kinds = {"a.csv": ("g", ""), "b.csv": ("g", "2;0\n"), "c_UP.csv": ("cm/s^2", "")}
+    for name, (unit, more) in kinds.items():
+        (motions / name).write_text(f"t (s);a ({unit})\n0;0\n1;1\n{more}")
     deck.write_text(
         "AG = 1. ; MOTION = 'a.csv' ; MESS MOTION ; H = 1. ;\n"
         "H = H + 1. ; B = 1. ;\nB = 2. ; MESS B ;"

@@ -215,13 +215,14 @@ def _checked_cases(options: SweepOptions, err: TextIO) -> list[Case]:
 def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: TextIO) -> None:
     """Name motions whose files hold the same, and those whose numbers are in other units."""
     paths = dict.fromkeys(Path(str(c.values[MOTION])) for c in cases if MOTION in c.values)
-    known: dict[str, list[str]] = {}
-    for path in paths:
-        known.setdefault(digest_of_file(path), []).append(path.name)
+    read, known = {p: motion_in(p) for p in paths}, dict[object, list[str]]()
+    for path, m in read.items():
+        held = digest_of_file(path) if m is None else m.motion
+        known.setdefault(held, []).append(path.name)
     told: list[tuple[str, dict[str, object]]] = [
         ("cli.same-motions", {"names": names}) for names in known.values() if len(names) > 1
     ]
-    motions = {p.name: m for p in paths if (m := motion_in(p)) is not None}
+    motions = {p.name: m for p, m in read.items() if m is not None}
     if 0 < len(upward := vertical(motions)) < len(motions):
         told.append(("cli.motions-vertical", {"names": upward}))
     in_si = _IN_SI.search(source.code) is not None

@@ -43,6 +43,12 @@ class GroundMotion:
         return _IN_SI.get(plain_unit(self.unit), 1.0)
 
     @property
+    def motion(self) -> tuple[float, bytes]:
+        """What two files of the same motion have in common: zeros before and behind are nothing."""
+        step = float(np.diff(self.times[:2]).sum())
+        return step, (np.trim_zeros(self.values) * self.in_si).tobytes()
+
+    @property
     def has_unit(self) -> bool:
         """Whether the file names a unit that is known."""
         return plain_unit(self.unit) in _IN_SI

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
+from ssilang.kernel.curves.cloud import Cloud
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
@@ -140,6 +142,21 @@ class ZoneField:
             raise FieldError("kernel.elements.component-not-defined-cells", name=name)
         return result, support
 
+    def numbers(self, name: str) -> tuple[FloatArray, Support]:
+        """As `raw`, of a parameter that is no curve and no other object.
+
+        Raises
+        ------
+        MaterialError
+            For objects in place of numbers.
+        """
+        values, support = self.raw(name)
+        if values.dtype == object:
+            first = values.flat[0]
+            told = {"name": name, "found": first, "curve": isinstance(first, Curve | Cloud)}
+            raise MaterialError("kernel.elements.parameter-not-a-number", **told)
+        return values.astype(float, copy=False), support
+
     def at(self, name: str, support: Support, default: float | None = None) -> FloatArray:
         """Values at the points of a support, shape (n_cells or 1, n_points or 1).
 
@@ -152,10 +169,8 @@ class ZoneField:
             if default is None:
                 raise missing_parameter(self.zone, name, self.names)
             return np.full((1, 1), float(default))
-        values, source = self.raw(name)
-        if values.dtype == object:
-            raise MaterialError("kernel.elements.parameter-curve-depends-field", name=name)
-        found = carry(values.astype(float, copy=False), self.zone.element, source, support)
+        values, source = self.numbers(name)
+        found = carry(values, self.zone.element, source, support)
         uniform = len(found) > 1 and found.shape[1] == 1 and (found == found[0, 0]).all()
         return found[:1] if uniform else found
 

@@ -220,12 +220,9 @@ def point_values(
     """
     if given is None or name not in given:
         return None
-    values, support = given.raw(name)
-    if values.dtype == object:
-        told = {"name": name, "name_2": type(values.flat[0]).__name__}
-        raise MaterialError("kernel.interface.joint-parameter-must-number", **told)
+    values, support = given.numbers(name)
     g, m = shape.shape
-    values = np.broadcast_to(values.astype(float, copy=False), (n_cells, values.shape[1]))
+    values = np.broadcast_to(values, (n_cells, values.shape[1]))
     if values.shape[1] == 2 * m and support == "NOEUD":
         values = (values[:, :m] + values[:, m:]) / 2
     if values.shape[1] == m > 1 and support == "NOEUD":
@@ -244,7 +241,7 @@ def user_axis(given: ZoneField | None, name: str, n_cells: int, d: int) -> Float
     axis = np.zeros((n_cells, d))
     for i, c in enumerate("XYZ"[:d]):
         if name + c in given:
-            axis[:, i] = given.raw(name + c)[0].astype(float).mean(axis=1)
+            axis[:, i] = given.numbers(name + c)[0].mean(axis=1)
     if not (np.linalg.norm(axis, axis=1) > 0).all():
         raise MeshError("kernel.interface.direction-joint-zero-vector", name=name)
     return axis

@@ -98,7 +98,7 @@ def _shape_point(zone: Zone, given: ZoneField) -> ShapePoint:
         )
 
     def number(name: str) -> float:
-        return float(given.raw(name)[0][0, 0]) if name in given else 0.0
+        return float(given.numbers(name)[0][0, 0]) if name in given else 0.0
 
     def of(name: str) -> NodeField | None:
         return given.raw(name)[0][0, 0] if name in given else None

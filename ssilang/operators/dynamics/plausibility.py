@@ -44,7 +44,9 @@ from ssilang.operators.dynamics.standing import (
     footing_too_wide,
     ground_twice,
     out_of_balance,
+    turns_heavily,
     unequal_joints,
+    velocity_of_rest,
 )
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
@@ -162,7 +164,20 @@ def _on_supports(problem: Problem, inputs: Inputs) -> Told:
     parts = () if inputs.load is None else inputs.load.parts
     names = [part.name for part in parts for _ in nodal_terms(part)]
     for name in dict.fromkeys(names[k] for k in on_supports(problem)):
-        yield "operators.dynamics.load-on-supports", {"name": name}
+        told = {"name": name, "other_side": _held_on_the_other_side(problem)}
+        yield "operators.dynamics.load-on-supports", told
+
+
+def _held_on_the_other_side(problem: Problem) -> bool:
+    """Whether supports hold one side of joints whose other side stands on nothing."""
+    if (joints := problem.interface) is None:
+        return False
+    nodes, still = problem.numbering.nodes, held(problem)
+    free = nodes[~still & (problem.K.diagonal() == 0.0)]
+    resolve = problem.numbering.table.resolve
+    sides = [[resolve(s).ravel() for s in (j.lower, j.upper)] for j in joints.joints]
+    ways = [way for pair in sides for way in (pair, pair[::-1])]
+    return any(np.isin(a, nodes[still]).all() and np.isin(b, free).all() for a, b in ways)
 
 
 def _motions(problem: Problem, _: Inputs) -> Told:
@@ -221,7 +236,9 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
 IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
 )  # fmt: skip
-OF_STIFFNESS = (_masses_alone, _motions, out_of_balance, bodies_stand)
+OF_STIFFNESS = (
+    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+)  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 
@@ -353,6 +370,10 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     for node in idle_nodes(dashpots, inputs.stiffness)[:1].tolist():
         told = {"node": inputs.stiffness.table.told(node)}
         entries.warn("operators.dynamics.dashpots-on-supports", **told)
+    for node, unknown, value in _alike(dashpots, inputs.stiffness):
+        told = {"node": inputs.stiffness.table.told(node), "unknown": unknown, "value": value}
+        entries.warn("operators.dynamics.dashpot-of-spring", **told)
+        break
     for block in damping:
         diagonal = np.diagonal(block.values, axis1=1, axis2=2)
         drives = diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0)
@@ -360,6 +381,23 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
             node = block.table.told(int(block.nodes[0, 0]))
             entries.warn("operators.dynamics.damping-negative", node=node, kind=block.kind)
             break
+
+
+def _alike(dashpots: list[Any], stiffness: Matrix) -> Iterator[tuple[int, str, float]]:
+    """Nodes and unknowns whose dashpot has the very number of the spring, and no round one."""
+    springs, found = (
+        {
+            (node, unknown): value
+            for b in blocks
+            if b.raw_nodes.shape == (1, 1)
+            for node in b.nodes[:, 0].tolist()
+            for unknown, value in zip(b.unknowns, np.diagonal(b.values[0]).tolist(), strict=True)
+        }
+        for blocks in (stiffness.blocks, dashpots)
+    )
+    for (node, unknown), value in found.items():
+        if value == springs.get((node, unknown)) and float(f"{value:.3g}") != value:
+            yield node, unknown, value
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:

@@ -99,7 +99,6 @@ class _Entering:
         sizes = np.linalg.norm(self.loads, axis=0) * self.factors
         units = [s for s in sizes[~self.changing] if min(abs(s / g - 1) for g in GRAVITIES) < 0.01]
         g = G / system.length if system else units[0] if units else np.inf
-        begun = self.problem.contact or self.problem.u.any() or self.problem.v.any()
         for k, (part, _) in enumerate(terms):
             curve = part.time.parts[0] if part.time is not None else None
             kind = "" if curve is None else NAMES.get(curve.ordinate_name.strip().upper()[:4], "")
@@ -115,7 +114,6 @@ class _Entering:
                 "operators.dynamics.shaken-in-g": shakes and curve and curve.units[1] == "g",
                 "operators.dynamics.shaken-by-others": shakes and kind in ("VITE", "DEPL"),
                 "operators.dynamics.imposed-by-others": kind in ("VITE", "ACCE") and imposes,
-                "operators.dynamics.weight-dropped": pulls and not begun and self.shaken.any(),
                 "operators.dynamics.weight-unusual": pulls and odd,
             }.items():
                 if holds:

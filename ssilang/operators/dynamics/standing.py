@@ -4,19 +4,24 @@ A body that no-tension joints bear is in balance where the resultant of what pre
 them: the levers of all points about an axis have its own between them.
 """
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import Any, cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of
+from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
+from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
@@ -24,6 +29,8 @@ from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of
 Told = Iterator[tuple[str, dict[str, Any]]]
 
 OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
+WEIGHT_TWICE = "operators.dynamics.weight-twice"
+FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
 OFF = 1e-3  # of a load's factor: less is no other one
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
@@ -53,10 +60,46 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
             yield "operators.dynamics.out-of-balance", {"begins": begins[k], "held": share[k]}
 
 
-def bodies_stand(problem: Problem, _: Inputs) -> Told:
+def velocity_of_rest(problem: Problem, _: Inputs) -> Told:
+    """A velocity of the start that is the displacement which its loads hold at rest."""
+    loading, T = problem.loading, problem.constraints.T
+    if problem.v.any() and loading.forces.size < LARGE:
+        forces = T.T @ (loading.forces @ loading.at(problem.times[:1])[0])
+        off = np.abs(T.T @ closed_forces(problem, problem.v) - forces).max(initial=0.0)
+        if off < OFF * np.abs(forces).max(initial=0.0):
+            yield "operators.dynamics.velocity-of-rest", {}
+
+
+def turns_heavily(problem: Problem, _: Inputs) -> Told:
+    """Bodies whose rotary inertia is that of a mass many sizes of the model away."""
+    label, numbering, axes = bodies_of(problem), problem.numbering, axes_of(problem)
+    size = float(np.ptp(numbering.table.coordinates[numbering.nodes], axis=0).max(initial=0.0))
+    size = max(size, _width(problem))
+    if not axes or not size:
+        return
+    lifts = (numbering.codes == numbering.code(axes[-1])).astype(float)
+    mass = np.bincount(label, lifts * (problem.M @ lifts))
+    for axis in [a for a in ("RX", "RY", "RZ") if a in numbering.unknowns]:
+        turn = (numbering.codes == numbering.code(axis)).astype(float)
+        inertia = np.bincount(label, turn * (problem.M @ turn))
+        body = int((inertia - (FAR_MASS * size) ** 2 * mass).argmax())
+        way = float(np.sqrt(inertia[body] / (mass[body] or np.inf)))
+        if way > FAR_MASS * size:
+            node = numbering.table.told(int(numbering.nodes[(label == body).argmax()]))
+            told = {"node": node, "inertia": inertia[body], "mass": mass[body], "size": size}
+            yield "operators.dynamics.turns-heavily", {**told, "way": way}
+            return
+
+
+def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
     """Bodies that joints or stops alone bear: from which side, where; with what weight, all."""
     bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
-    force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
+    factors = loading.at(problem.times[:1])[0] * ~changing(problem)
+    force = loading.forces @ factors
+    drops = bool(loading.forces[:, changing(problem)].any())
+    drops = drops and not (problem.contact or problem.u.any() or problem.v.any())
+    left = np.abs(problem.constraints.T.T @ force)  # by supports
+    drops = drops and bool(left.max(initial=0.0) > OFF * np.abs(force).max(initial=0.0))
     for body in bodies.moving if axes else ():
         own = bodies.label == body
         node = problem.numbering.table.told(int(problem.numbering.nodes[own.argmax()]))
@@ -71,8 +114,13 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
                 yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
-        if mass > 0.0 and any(abs(weight / mass / g - 2.0) < AGAIN for g in GRAVITIES):
-            yield "operators.dynamics.weight-twice", {"mass": mass, "weight": weight, "node": node}
+        if drops and _are_weights(1.0, weight, mass):
+            parts, drops = () if inputs.load is None else inputs.load.parts, False
+            names = [part.name for part in parts for _ in nodal_terms(part)]
+            most = int((-(up @ loading.forces) * factors).argmax())
+            yield "operators.dynamics.weight-dropped", {"name": names[most]}
+        if _are_weights(2.0, weight, mass):
+            yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "node": node}
         if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
             times = mass * GRAVITIES[0] / weight
             if times > TIMES and (accelerations(problem) * changing(problem)).any():
@@ -81,6 +129,37 @@ def bodies_stand(problem: Problem, _: Inputs) -> Told:
             if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
                 for code, told in _beside_its_base(bodies, own, up, force):
                     yield code, {**told, "node": node}
+
+
+def _are_weights(count: float, force: float, mass: float) -> bool:
+    """Whether a force is so many times the weight of a mass."""
+    return mass > 0.0 and any(abs(force / mass / g - count) < AGAIN for g in GRAVITIES)
+
+
+def weights_twice(
+    masses: Iterable[tuple[IntArray, FloatArray]],
+    matrix: Matrix,
+    zones: Iterable[Zone],
+    nodes: IntArray,
+    pressing: FloatArray,
+) -> Told:
+    """Bodies of statics that forces (m,) press down at nodes (m,) by twice the weight of masses.
+
+    Cells of the matrix and of zones beside it make bodies, joints do not.
+    """
+    if "bodies" not in matrix.cache:
+        held = [b.nodes for b in matrix.blocks if b.zone is None or not is_joint(b.zone)]
+        held += [matrix.table.resolve(z.cells.raw) for z in zones if not is_joint(z)]
+        matrix.cache["bodies"] = bodies_of_nodes(matrix, held)
+    label = cast(IntArray, matrix.cache["bodies"])
+    mass = np.zeros(len(matrix.table))
+    for at, values in masses:
+        np.add.at(mass, matrix.table.resolve(at), values)
+    own, weights = np.bincount(label, mass[: len(label)]), np.bincount(label[nodes], pressing)
+    for body in np.flatnonzero(own[: len(weights)] > 0.0):
+        if _are_weights(2.0, weights[body], own[body]):
+            node = matrix.table.told(int((label == body).argmax()))
+            yield WEIGHT_TWICE, {"mass": own[body], "weight": weights[body], "node": node}
 
 
 def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
@@ -164,6 +243,12 @@ def footing_too_wide(problem: Problem, _: Inputs) -> Told:
     if (joints := problem.interface) is None or not any(is_macro(j.zone) for j in joints.joints):
         return
     size = float(np.ptp(problem.numbering.table.coordinates[problem.numbering.nodes], axis=0).max())
-    widths = joints.parameters[:, [Parameter.LARG, Parameter.LONG, Parameter.RAYO]]
-    if (wide := float(widths.max(initial=0.0))) > WIDE * size > 0.0:
+    if (wide := _width(problem)) > WIDE * size > 0.0:
         yield "operators.dynamics.footing-too-wide", {"width": wide, "size": size}
+
+
+def _width(problem: Problem) -> float:
+    """The largest width of macro-elements."""
+    joints = problem.interface
+    widths = [Parameter.LARG, Parameter.LONG, Parameter.RAYO]
+    return 0.0 if joints is None else float(joints.parameters[:, widths].max(initial=0.0))

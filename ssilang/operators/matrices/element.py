@@ -167,13 +167,14 @@ def mass(
     """Consistent mass of a model."""
     shown, material = present(call, model), joined(fields)
     blocks = [families.mass(z, material) for z in shown.zones if not is_shape(z)]
-    return _assembled(shown, [*blocks, *_shapes(shown, material, "MASSE")], "MASSE")
+    made = _assembled(shown, [*blocks, *_shapes(shown, material, "MASSE")], "MASSE")
+    return workspace(call.session).weighed(made, *(z.constituent for z in shown.zones))
 
 
 @mass.form(*_AT_NODES)
 def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> Matrix:
     """Masses at nodes."""
-    return _additional(call, "MASSE", names, amount, place)
+    return workspace(call.session).weighed(_additional(call, "MASSE", names, amount, place))
 
 
 @operator("LUMP", MODEL, PARAMETERS, *_IGNORED, family="matrix")

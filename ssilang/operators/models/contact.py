@@ -111,7 +111,7 @@ def uniform(zone: Zone, material: CellField | None, name: str, default: float | 
         if default is None:
             raise missing_parameter(zone, name, given.names)
         return default
-    values = given.raw(name)[0].astype(float)
+    values = given.numbers(name)[0]
     if float(values.max() - values.min()) > 1e-12 * abs(float(values.max())):
         raise MaterialError("operators.models.contact-parameter-varies", name=name)
     return float(values.flat[0])

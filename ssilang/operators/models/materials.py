@@ -233,7 +233,7 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if zone.formulation == "LIAISON" and not isinstance(value, float | CellField):
         return _one_object(value, n)
     if isinstance(value, Mesh | Table | str):
-        raise call.error("operators.models.parameter-is-a-number", value, name=name)
+        raise _no_number(call, name, value)
     if name in ("MODS", "MATS"):
         # Refuse what does not describe a section.
         if name == "MODS" and not isinstance(value, Model):
@@ -242,7 +242,7 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
             raise call.error("operators.models.section-material-wrong", value)
         return _one_object(value, n)
     if isinstance(value, Model):
-        raise call.error("operators.models.parameter-is-no-model", value, name=name)
+        raise _no_number(call, name, value)
     if isinstance(value, CellField):
         seen = zone_field(zone, value)
         if not seen.names:
@@ -256,11 +256,20 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
         raise call.error("operators.models.parameter-is-no-nodal-field", value, name=name)
     if isinstance(value, Point | Curve | Cloud | NodeField):
         if isinstance(value, Point) and name not in ("VECT", "CGRA"):
-            raise call.error("operators.models.parameter-is-a-number", value, name=name)
+            raise _no_number(call, name, value)
         return _one_object(value, n)
     if name == "VECT":
         raise call.error("operators.models.vect-is-a-vector", value)
     return np.full((n, 1), float(value)), "GRAVITE"
+
+
+def _no_number(call: Call, name: str, value: Any) -> SsiError:
+    """The refusal of a parameter: of what a word was read past, where that is no value at all."""
+    if isinstance(value, str) and call.operands and type_of(call.operands[0].value) not in _VALUES:
+        value = call.required(ANY)
+    word = value if isinstance(value, str) else ""
+    code = "kernel.elements.parameter-not-a-number"
+    return call.error(code, value, name=name, found=type_of(value), word=word, curve=False)
 
 
 def _one_object(value: Any, n: int) -> Value:

@@ -54,7 +54,7 @@ from ssilang.operators.statics.pasapas_steering import (
     working_table,
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
-from ssilang.operators.statics.solve import NOT_SMALL, far
+from ssilang.operators.statics.solve import NOT_SMALL, far, warn_of_weight
 from ssilang.operators.statics.temperatures import warn_of_temperatures
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
@@ -159,6 +159,12 @@ def _stretch(
         plausibility.warn_of_start(work, problem, inputs, in_statics=not dynamic)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
+    axis = "UZ" if "UZ" in problem.numbering.unknowns else "UY"
+    if not dynamic and axis in problem.numbering.unknowns:
+        rows = problem.numbering.where(axis)
+        pressing = -problem.loading.forces[rows] @ problem.loading.at(times[-1:])[0]
+        nodes = problem.numbering.nodes[rows]
+        warn_of_weight(entries.call, inputs.stiffness, zones, nodes, pressing)
     strained = _strained(given, bool(finite))
     results = ResultTables(entries.table, saved, stresses, dynamic, number, zones, strained)
     reached = Reached(results, len(times))

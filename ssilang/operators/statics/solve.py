@@ -14,7 +14,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
-from ssilang.operators.workspace import solver_of
+from ssilang.operators.workspace import solver_of, workspace
 
 FAR, NOT_SMALL = 10.0, 0.2
 """Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""
@@ -78,6 +78,10 @@ def _reso(
             call.warn("operators.statics.imposed-elsewhere", count=count)
     solutions = tuple(solve(matrix, loads, options))
     for load, solution in zip(loads, solutions, strict=True):
+        down = load.components.get("FZ" if workspace(call.session).dimension == 3 else "FY")
+        down = load.components.get("FZ") if down is None else down  # of revolution
+        if down is not None:
+            warn_of_weight(call, matrix, (), matrix.table.resolve(down.nodes), -down.values)
         if _is_anywhere(load) and not _is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
         judged = workspace(call.session).units is not None
@@ -86,6 +90,18 @@ def _reso(
                 call.warn("operators.statics.moves-far", **told)
     _warn_condition(call, matrix, options)
     return solutions
+
+
+def warn_of_weight(
+    call: Call, matrix: Matrix, zones: Iterable[Zone], nodes: IntArray, pressing: FloatArray
+) -> None:
+    """Warn of bodies that forces (m,) at nodes (m,) press down by twice the weight of MASS."""
+    masses = workspace(call.session).masses.values()
+    if masses and not call.session.warned("operators.dynamics.weight-twice"):
+        from ssilang.operators.dynamics.standing import weights_twice
+
+        for code, told in weights_twice(masses, matrix, zones, nodes, pressing):
+            call.warn(code, **told)
 
 
 def far(solution: NodeField, most: float) -> Iterator[dict[str, float]]:
