@@ -14,6 +14,7 @@ from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.kernel.matrices.matrix import ElementMatrices
@@ -311,7 +312,7 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         return
     alone = np.diff(rows.indptr) == 1
     fixed, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
-    for joint in joints.joints:
+    for joint in (j for j in joints.joints if law_of(j.zone.behaviour).opens):
         if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
             continue
         sides = [joint.zone.cells.nodes.resolve(side) for side in (joint.upper, joint.lower)]

@@ -261,6 +261,7 @@ LAWS = {
         check_lead_parameters,
         variables={**SLIPS, "HYS1": (Var.HYSTERETIC1,), "HYS2": (Var.HYSTERETIC2,)},
         two_points=True,
+        opens=False,
     ),
     "APPUI_PENDULE": Law(
         LawCode.PENDULUM,

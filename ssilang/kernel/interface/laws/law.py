@@ -49,6 +49,8 @@ class Law:
         Parameters that it needs in three dimensions beside; None if it is plane.
     two_points : bool
         Stands between two points alone (JOI1).
+    opens : bool
+        False if it pulls as it presses: what stands on it cannot lift.
     """
 
     code: LawCode
@@ -63,6 +65,7 @@ class Law:
     rocking: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
     in_space: tuple[str, ...] | None = ()
     two_points: bool = False
+    opens: bool = True
 
     @property
     def macro(self) -> bool:

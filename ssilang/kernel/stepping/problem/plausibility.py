@@ -16,6 +16,7 @@ from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.solvers.backends import SuperLUFactor
@@ -310,7 +311,7 @@ class Resolution:
 
 
 def contact_resolution(problem: Problem) -> Resolution | None:
-    """Contact time of the joints all together, None without joints or mass.
+    """Contact time of the joints all together, None without mass or joints that open.
 
     k is the stiffness of all joints closed under a uniform normal jump, m the mass of the bodies
     on their two sides, `1/m = 1/m_1 + 1/m_2`, moving as a whole along the mean normal (fixed
@@ -318,6 +319,8 @@ def contact_resolution(problem: Problem) -> Resolution | None:
     """
     joints = problem.interface
     if joints is None or problem.M.nnz == 0:
+        return None
+    if not any(law_of(j.zone.behaviour).opens for j in joints.joints):
         return None
     opening = _uniform_opening(joints.pairs, joints.B, joints.size)
     force = joints.closed_stiffness() @ opening
