@@ -244,7 +244,7 @@ HEADS = {
     "a list for the state": {"state": [1, 2]},
     "words for the state": {"state": {"own": "x", "held": "x"}},
     "a number for the call": {"call": 3},
-    "lists in the call": {"call": dict.fromkeys(["files", "arithmetic", "procedure"], [None])},
+    "lists in the call": {"call": {"files": [None], "arithmetic": [None]}},
     "no batches": {"batches": 0, "length": 0, "sum": 0},
 }
 ARRAYS = {

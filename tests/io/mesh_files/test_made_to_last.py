@@ -85,7 +85,9 @@ def test_values_of_no_cells_have_no_parts_without_end(tmp_path: Path) -> None:
     begin = time.process_time()
     read = read_avs(tmp_path / "v.avs")
     assert time.process_time() - begin < SOON
-    assert read is not None and not read.cell_values and len(read.points) == 2
+    assert read is not None
+    assert not read.cell_values
+    assert len(read.points) == 2
 
 
 VTU = (
