@@ -83,12 +83,16 @@ class LoadPart:
     time : Curve or None
     steps : tuple of (float, field)
         A field at given times, linear between.
+    beside : tuple of NodeField
+        Of the forces of a free field: masses and dampers on the diagonal (of UX, ...) that they
+        were found with, the dampers where the free field moves them.
     """
 
     name: str
     space: NodeField | CellField | None = None
     time: Curve | None = None
     steps: tuple[tuple[float, NodeField | CellField], ...] = ()
+    beside: tuple[NodeField, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

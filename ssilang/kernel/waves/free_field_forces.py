@@ -37,6 +37,7 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import (
     Numbering,
     assemble_blocks,
+    field_to_vector,
     numbering_of,
     vector_to_field,
 )
@@ -136,6 +137,8 @@ def _concerned(cells: CellBlock, nodes: IntArray, axis: int | None) -> BoolArray
 
 #: singular values below this share of the largest one are rounding
 ROUNDING = 1e-15
+STILL = 1e-6
+"""Share of the largest velocity up to which an unknown does not move."""
 
 
 @dataclass(frozen=True)
@@ -296,11 +299,20 @@ def _known(numbering: Numbering, wanted: BoolArray, motion: Motion) -> None:
             raise FieldError("kernel.waves.motion-not-known", unknown=unknown, count=len(lost))
 
 
-def load_of(numbering: Numbering, times: FloatArray, forces: FloatArray) -> Load:
+def load_of(share: Share, dampers: Matrix | None, motion: Motion, forces: FloatArray) -> Load:
     """Histories of forces (n, n_times) as few constant fields times curves.
 
-    The fields are left singular vectors; what is left out is rounding.
+    The fields are left singular vectors; what is left out is rounding. The masses of the share, and
+    the dampers where the motion is not nought (or not known), stand beside them.
     """
+    numbering, speed = share.numbering, np.abs(motion.velocity).max(axis=1)
+    damping = np.zeros(numbering.size)
+    if dampers:  # a matched layer has unknowns of its own
+        own = numbering_of(dampers)
+        found = vector_to_field(assemble_blocks(dampers.blocks, own).diagonal(), own)
+        damping = field_to_vector(found, numbering, dual=False)
+    damping[speed <= STILL * np.nan_to_num(speed).max()] = 0.0
+    beside = tuple(vector_to_field(of, numbering) for of in (share.mass.diagonal(), damping))
     rows = np.flatnonzero(np.abs(forces).max(axis=1, initial=0.0) > 0)
     if not len(rows):
         return Load(())
@@ -313,8 +325,8 @@ def load_of(numbering: Numbering, times: FloatArray, forces: FloatArray) -> Load
         nodes = np.unique(numbering.nodes[rows])
         values = {name: whole.values_at(name, nodes) for name in whole.components}
         field = NodeField.of(whole.table, nodes, values, "DISCRET")
-        curve = Curve((CurvePart(times, size[k] * right[k], "TEMP", "FORC"),), "")
-        parts.append(LoadPart("MECA", field, curve))
+        curve = Curve((CurvePart(motion.times, size[k] * right[k], "TEMP", "FORC"),), "")
+        parts.append(LoadPart("MECA", field, curve, beside=beside))
     return Load(tuple(parts))
 
 

@@ -31,9 +31,14 @@ from ssilang.kernel.stepping.problem.plausibility import (
     stiffness_contrast,
     swings,
 )
-from ssilang.kernel.waves.shaken import AXES, translations
+from ssilang.kernel.waves.shaken import AXES, accelerations, changing, translations
 from ssilang.operators.dynamics.reports import conserved
-from ssilang.operators.dynamics.shaking import bridged, sides_unlike, warn_of_shaking
+from ssilang.operators.dynamics.shaking import (
+    beside_free_field,
+    bridged,
+    sides_unlike,
+    warn_of_shaking,
+)
 from ssilang.operators.dynamics.standing import (
     bodies_stand,
     footing_too_wide,
@@ -196,6 +201,11 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         told = {"dt": dt, "period": period, "wanted": period / WANTED, "steps": WANTED}
         told["dt_over"] = dt / period
         yield "operators.dynamics.step-over-period", told
+    longest = max((s.period for s in found), default=np.inf)
+    free = problem.interface is not None or problem.contact or any(s.sudden for s in found)
+    if longest < FEWEST * dt and not free and (accelerations(problem) * changing(problem)).any():
+        told = {"period": longest, "steps": longest / dt}
+        yield "operators.dynamics.shaken-as-rigid", told
     if any(s.damping < 0.0 for s in found):
         yield "operators.dynamics.driven-by-dashpots", {"ratio": min(s.damping for s in found)}
     if ratio > OVERDAMPED:
@@ -205,7 +215,7 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
-    ground_twice, footing_too_wide, sides_unlike,
+    ground_twice, footing_too_wide, sides_unlike, beside_free_field,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (

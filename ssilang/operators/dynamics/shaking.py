@@ -17,6 +17,7 @@ from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones,
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.interface.response import local_jumps
+from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
@@ -53,6 +54,7 @@ STUCK = {True: "operators.dynamics.joints-closed", False: "operators.dynamics.jo
 """Joints that cannot open, by whether they can slip."""
 SHEARED = "operators.dynamics.weight-in-shear"
 SOFT = 1e-3  # of the stiffness of a joint's point: springs that stand there for numbers' sake
+PRESENT = 0.1  # of a mass or damper on the diagonal: lumped or not, it is there
 FEW = 2  # nodes of a side with springs of their own; one is an oscillator's
 NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP": "DEPL"}
 """What a curve is of, by the first letters of the name of its ordinates."""
@@ -216,6 +218,21 @@ def sides_unlike(_: Problem, inputs: Inputs) -> Told:
         if found is not None:
             told = {"node": inputs.mass.table.told(found[0]), "times": found[1]}
             yield "operators.dynamics.sides-unlike", told
+
+
+def beside_free_field(problem: Problem, inputs: Inputs) -> Told:
+    """Masses and dampers that a free field's forces were found with, and the matrices lack."""
+    parts, numbering = () if inputs.load is None else inputs.load.parts, problem.numbering
+    for mass, dampers in dict.fromkeys(part.beside for part in parts if part.beside):
+        m, c = (field_to_vector(of, numbering, dual=False) for of in (mass, dampers))
+        for code, lost in {
+            "operators.dynamics.dampers-left-out": (c > 0.0) & (problem.C.diagonal() < PRESENT * c),
+            "operators.dynamics.masses-left-out": (m > 0.0) & (problem.M.diagonal() < PRESENT * m),
+            "operators.dynamics.dampers-held": (c > 0.0) & held(problem),
+        }.items():
+            if lost.any():
+                nodes = np.unique(numbering.nodes[lost])
+                yield code, {"count": len(nodes), "node": numbering.table.told(int(nodes[0]))}
 
 
 def bridged(problem: Problem, inputs: Inputs) -> Told:

@@ -49,8 +49,11 @@ HALF = 0.5  # of the mass that moves; with less the answer is that of the rest
 def _tell_left_out(
     call: Call, shapes: Sequence[Shape], moved: dict[int, float], direction: str
 ) -> None:
-    """Warn where modes leave out more of the mass that no support holds than they have."""
+    """Warn of modes that nothing holds, and of mass free to move that they leave out."""
     words, axis, held = ("MASSES_MOBILES", "MASSE_GENERALISEE"), AXES.index(direction) + 1, 0.0
+    still = [s for s in shapes if s.entry.get(Mot("FREQUENCE")) == 0.0 and moved[s.mark.node]]
+    if still:
+        call.warn("operators.modal.free-mode-shaken", count=len(still), axis=direction)
     for shape in shapes:
         masses, mass = (shape.entry.get(Mot(word)) for word in words)
         whole = masses.get(axis) if isinstance(masses, Table) else None

@@ -45,7 +45,7 @@ def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
     _tell_coarse(entries, motion)
     _tell_reflecting(entries, motion)
     forces = layer_forces(layer, entries.needed("INTERIEUR"), motion)
-    return load_of(layer.numbering, motion.times, forces)
+    return load_of(layer, entries.get("AMORTISSEURS"), motion, forces)
 
 
 @operator("ZBOR", family="dynamics")
@@ -63,8 +63,8 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     _tell_coarse(entries, motion)
     if entries.get("COLONNE") is not None:
         _tell_other_ground(entries, row, motion)
-    forces = edge_forces(row, edge, entries.needed("AMORTISSEURS"), motion)
-    return load_of(row.numbering, motion.times, forces)
+    dampers = entries.needed("AMORTISSEURS")
+    return load_of(row, dampers, motion, edge_forces(row, edge, dampers, motion))
 
 
 def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
