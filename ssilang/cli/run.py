@@ -294,6 +294,8 @@ def _take_down(session: Session, source: Source) -> None:
     from ssilang.operators.files.outputs import run_output
 
     output = run_output(session)
+    if (output.directory / FOLDER).is_symlink():
+        raise SsiError("io.folder-is-link", None, path=output.directory / FOLDER)
     told = {"name": source.name, "text": source.text, "language": session.language}
     output.recording = Recording(output.directory / FOLDER, told)
 
@@ -359,11 +361,11 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
     output.deck, output.resume = partial(deck_of, source, options.given), options.resume
     if not options.resume or output.checkpoints is None:
         return
-    if not output.checkpoints.found:
-        session.warn("cli.nothing-to-resume", None, folder=output.checkpoints.folder)
-        return
     try:
-        output.checkpoints.check()
+        if output.checkpoints.found:
+            output.checkpoints.check()
+        else:
+            session.warn("cli.nothing-to-resume", None, folder=output.checkpoints.folder)
     except InputError as problem:
         raise SsiError.of(problem, None) from problem
 

@@ -131,7 +131,7 @@ class Checkpoints:
         try:
             with zipfile.ZipFile(path) as file:
                 state = _decoded(head["state"], file)
-            path = self._path(number, "rows")
+            path = _plain(self._path(number, "rows"))
             length, total, batches = (int(head[name]) for name in ("length", "sum", "batches"))
             rows = _read_rows(path, length, total, batches)
         except DAMAGES as error:
@@ -186,6 +186,8 @@ class Checkpoints:
         return self.folder / f"{number}.{suffix}"
 
     def _states(self) -> Iterator[Path]:
+        if self.folder.is_symlink():  # what stands elsewhere is not replaced, nor removed
+            raise InputError("io.folder-is-link", path=self.folder)
         yield from sorted(self.folder.glob("[0-9]*.state"))
 
     def _remove(self) -> None:
@@ -198,7 +200,10 @@ class Checkpoints:
 
     def _head(self, path: Path) -> dict[str, Any]:
         try:
-            with zipfile.ZipFile(path) as file:
+            with zipfile.ZipFile(_plain(path)) as file:
+                size = path.stat().st_size
+                if sum(part.file_size for part in file.infolist()) > size:
+                    raise ValueError(f"{size} bytes that unpack")
                 head: dict[str, Any] = json.loads(file.read("head.json"))
             if head["format"] != FORMAT:
                 raise ValueError(f"format {head['format']!r}")
@@ -243,6 +248,13 @@ def changed_names(before: Mapping[str, str], now: Mapping[str, str]) -> list[str
 
 
 # ---- what files hold -----------------------------------------------------------------------------
+
+
+def _plain(path: Path) -> Path:
+    """The path of a file that is no pipe and no folder."""
+    if not path.is_file():
+        raise OSError(f"{path.name}: no file")
+    return path
 
 
 def _encoded(value: Any, arrays: list[NDArray[Any]]) -> Any:

@@ -119,7 +119,7 @@ def _regular(text: str, separator: str, first_line: int) -> FloatArray | None:
 def _number(cell: str, path: Path, line: int) -> float:
     text = cell.strip().strip('"')
     try:
-        value = float(text.replace("D", "E").replace("d", "e"))
+        value = float(text.replace("D", "E").replace("d", "e").replace("_", "?"))
     except ValueError:
         raise InputError("io.line-no-number", name=path.name, line=line, text=text) from None
     if not math.isfinite(value):
@@ -131,8 +131,11 @@ def as_columns(rows: Rows) -> list[FloatArray]:
     """Columns of rows; a short row ends the columns that it does not reach."""
     if isinstance(rows, np.ndarray):
         return list(np.ascontiguousarray(rows.T))
-    count = max((len(r) for r in rows), default=0)
-    return [np.array([r[i] for r in rows if i < len(r)]) for i in range(count)]
+    columns: list[list[float]] = [[] for _ in range(max(map(len, rows), default=0))]
+    for row in rows:
+        for column, value in zip(columns, row, strict=False):
+            column.append(value)
+    return list(map(np.array, columns))
 
 
 def is_there() -> bool:

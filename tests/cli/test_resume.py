@@ -1,5 +1,7 @@
 """`--resume`: processes that were killed, checkpoints that belong elsewhere."""
 
+import io
+import json
 import os
 import random
 import shutil
@@ -7,8 +9,10 @@ import signal
 import subprocess
 import sys
 import time
+import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from script_runs import HOPPING
 
@@ -214,3 +218,109 @@ def test_processes_that_are_killed_go_on_to_the_same_files(tmp_path):
         if kept:
             assert b"goes on behind step" in told or b"given back" in told
         assert files_of(out) == truth
+
+
+def state_of(case):
+    """Head of the first checkpoint with its arrays, and what writes them back."""
+    path = case.parent / "results" / "case" / "checkpoints" / "1.state"
+    with zipfile.ZipFile(path) as file:
+        parts = {name: file.read(name) for name in file.namelist()}
+
+    def write(head, arrays=None):
+        with zipfile.ZipFile(path, "w") as made:
+            for name, content in parts.items():
+                found = json.dumps(head).encode() if name == "head.json" else content
+                if arrays is not None and name != "head.json":
+                    buffer = io.BytesIO()
+                    np.save(buffer, arrays(np.load(io.BytesIO(content))))
+                    found = buffer.getvalue()
+                made.writestr(name, found)
+
+    return json.loads(parts["head.json"]), write
+
+
+HEADS = {
+    "no state": {"state": {}},
+    "a list for the state": {"state": [1, 2]},
+    "words for the state": {"state": {"own": "x", "held": "x"}},
+    "a number for the call": {"call": 3},
+    "lists in the call": {"call": {"files": [None], "arithmetic": [None]}},
+    "no batches": {"batches": 0, "length": 0, "sum": 0},
+}
+ARRAYS = {
+    "shorter": lambda x: x.ravel()[:1],
+    "of another rank": lambda x: x[None],
+    "words": lambda x: x.astype("U9"),
+}
+
+
+@pytest.mark.parametrize("how", HEADS)
+def test_a_head_that_is_none_of_this_calculation_is_refused(case, capsys, how):
+    head, write = state_of(case)
+    write(head | HEADS[how])
+    assert main([str(case), "--resume"]) == 1
+    told = said(capsys)
+    assert "run without --resume" in told
+    assert "defect" not in told
+
+
+@pytest.mark.parametrize("how", ARRAYS)
+def test_arrays_that_are_none_of_this_calculation_are_refused(case, capsys, how):
+    head, write = state_of(case)
+    write(head, ARRAYS[how])
+    assert main([str(case), "--resume"]) == 1
+    told = said(capsys)
+    assert "does not fit this calculation" in told
+    assert "defect" not in told
+
+
+def test_names_that_a_solver_does_not_keep_are_not_set(case, capsys):
+    head, write = state_of(case)
+    loop = head["state"]["own"]["loops"][0]
+    loop["remembers"]["__class__"] = {"advance": [1], "prepare": [1], "memory": [1]}
+    write(head)
+    assert main([str(case), "--resume"]) == 0
+    assert "goes on behind step 60 of 100" in said(capsys)
+
+
+def test_a_state_that_unpacks_is_refused_unread(case, capsys):
+    path = case.parent / "results" / "case" / "checkpoints" / "1.state"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        file.writestr("head.json", b" " * 2**24 + b"{}")
+    assert main([str(case), "--resume"]) == 1
+    assert "bytes that unpack" in said(capsys)
+
+
+@posix
+@pytest.mark.parametrize("name", ["1.state", "2.state", "1.rows"])
+def test_a_pipe_for_a_checkpoint_is_not_waited_for(case, name):
+    path = case.parent / "results" / "case" / "checkpoints" / name
+    path.unlink(missing_ok=True)
+    os.mkfifo(path)
+    words = [sys.executable, "-m", "ssilang.cli.main", str(case), "--resume"]
+    ended = subprocess.run(words, capture_output=True, text=True, timeout=120, check=False)
+    assert ended.returncode == 1
+    assert "cannot be read as a checkpoint" in ended.stderr
+
+
+@posix
+@pytest.mark.parametrize("words", [(), ("--resume",)])
+def test_a_link_for_the_folder_of_checkpoints_removes_nothing_elsewhere(case, capsys, words):
+    folder = case.parent / "results" / "case" / "checkpoints"
+    elsewhere = folder.rename(case.parent / "elsewhere")
+    before = {path.name: path.read_bytes() for path in elsewhere.iterdir()}
+    folder.symlink_to(elsewhere)
+    assert main([str(case), *words]) == 1
+    assert "is a link to another place" in said(capsys)
+    assert {path.name: path.read_bytes() for path in elsewhere.iterdir()} == before
+
+
+@posix
+def test_a_link_for_the_folder_of_the_report_gets_nothing(case, capsys):
+    elsewhere = case.parent / "elsewhere"
+    elsewhere.mkdir()
+    (case.parent / "results" / "case" / "report").symlink_to(elsewhere)
+    case.write_text("MESS 1 ;")
+    assert main([str(case), "--report"]) == 1
+    assert "is a link to another place" in said(capsys)
+    assert not list(elsewhere.iterdir())

@@ -1,5 +1,6 @@
 """Columns to CSV and back."""
 
+import time
 from pathlib import Path
 
 import numpy as np
@@ -64,4 +65,21 @@ def test_what_is_not_finite_is_refused_where_it_stands(tmp_path: Path, cell: str
     path = tmp_path / "x.csv"
     path.write_text(f"1;2\n3;{cell}\n")
     with pytest.raises(InputError, match="line 2"):
+        read_csv(path)
+
+
+def test_one_long_row_over_many_short_ones_is_read_soon(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text(";".join(map(str, range(50_000))) + "\n" + "7\n" * 50_000)
+    begin = time.process_time()
+    columns = as_columns(read_csv(path))
+    assert time.process_time() - begin < 20.0  # thousands of millions of cells would be hours
+    assert columns[0].tolist() == [0.0, *[7.0] * 50_000]
+    assert [c.tolist() for c in columns[1:]] == [[float(i)] for i in range(1, 50_000)]
+
+
+def test_digits_that_python_alone_reads_are_no_number(tmp_path: Path) -> None:
+    path = tmp_path / "x.csv"
+    path.write_text("1;1_0\n2;3\n")
+    with pytest.raises(InputError, match="1_0"):
         read_csv(path)

@@ -219,6 +219,20 @@ def test_a_record_that_is_no_record_says_where(rocking: Path, tmp_path: Path) ->
     assert "calculations[0].table: 3 != text" in Sections(page(tmp_path)).text["header"]
 
 
+@pytest.mark.parametrize("half", ["\ud800", "a\udfff"])
+def test_half_a_character_is_refused(half: str, rocking: Path, tmp_path: Path) -> None:
+    records = whole(rocking)
+    records[RECORD]["calculations"][0]["title"] = "a whole one: \U0001f3d7"
+    folder = put(tmp_path / "results", records, rocking)
+    assert main(["report", str(folder)]) == 0
+    told = "Damaged, not shown: report/contents.json"
+    assert told not in Sections(page(folder)).text["header"]
+    records[RECORD]["text"] = half
+    put(folder, records, rocking)
+    assert main(["report", str(folder)]) == 0
+    assert told in Sections(page(folder)).text["header"]
+
+
 def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> None:
     put(tmp_path, whole(rocking), rocking)
     (tmp_path / "top.csv").write_text('a;b\n1;"' + "2" * 200_000)

@@ -33,7 +33,7 @@ def parse_value(text: str) -> Value:
     """A number, VRAI or FAUX, else a word."""
     text = text.strip()
     if _NUMBER.fullmatch(text):
-        if re.fullmatch(r"[+-]?\d+", text):
+        if re.fullmatch(r"[+-]?\d{1,4000}", text):
             return int(text)
         number = float(re.sub("[dD]", "E", text))
         if math.isinf(number):

@@ -31,9 +31,13 @@ _NUMBERED = {
 _BEAMS = {"1": "SEG2", "2": "SEG3", "3": "SEG2"}
 _NAME = re.compile(r"([A-Z]+(?:[23]D)?)(\d+)")
 _MIDDLE_SECOND = (0, 1, 2)  # of a line's three nodes the second is the middle one, as Cast3M's
-MOST = 10**7  # numbers of a set that one line generates: no mesh here has more
+_MOST = 10**7, 20  # members of all sets, and of sets for each node or element: one of both is met
+_FILES = 1000  # that a deck includes
 _GENERATED = ("NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM")
 """Keywords that make nodes or elements, or move them, without their being written."""
+
+_Member = str | int | range
+"""What a line of a set names: another set, a number, numbers that are generated."""
 
 
 @dataclass
@@ -43,8 +47,8 @@ class _Deck:
     points: dict[int, list[float]] = field(default_factory=dict)
     rows: dict[str, list[list[int]]] = field(default_factory=dict)
     place: dict[int, tuple[str, int]] = field(default_factory=dict)
-    node_sets: dict[str, list[str | int]] = field(default_factory=dict)
-    cell_sets: dict[str, list[str | int]] = field(default_factory=dict)
+    node_sets: dict[str, list[_Member]] = field(default_factory=dict)
+    cell_sets: dict[str, list[_Member]] = field(default_factory=dict)
     left_out: dict[str, int] = field(default_factory=dict)
     unread: set[int] = field(default_factory=set)
     parts: int = 0
@@ -65,7 +69,7 @@ def read_abaqus(path: Path, allowed: Callable[[str], Path]) -> FileMesh:
     """
     deck = _Deck()
     try:
-        _read(_blocks(path, allowed, 0), deck, path.name)
+        _read(_blocks(path, allowed, []), deck, path.name)
         if not deck.points:
             raise InputError("io.mesh-file-empty", name=path.name, kind="ABAQUS")
         return _gathered(deck).sound(path.name, "ABAQUS")
@@ -76,11 +80,12 @@ def read_abaqus(path: Path, allowed: Callable[[str], Path]) -> FileMesh:
 
 
 def _blocks(
-    path: Path, allowed: Callable[[str], Path], depth: int
+    path: Path, allowed: Callable[[str], Path], read: list[Path]
 ) -> Iterator[tuple[str, dict[str, str], list[str]]]:
     """Keyword, its parameters and its data lines, with included files in their place."""
-    if depth > 10:
+    if len(read) > _FILES:
         raise ValueError("*INCLUDE")
+    read.append(path)
     text = text_of(path, "latin-1")
     lines = [t for t in text.splitlines() if t.strip() and not t.startswith("**")]
     starts = [i for i, t in enumerate(lines) if t.startswith("*")]
@@ -93,7 +98,7 @@ def _blocks(
             k.strip().upper(): v.strip().strip('"') for k, _, v in (t.partition("=") for t in said)
         }
         if word.upper() == "INCLUDE":
-            yield from _blocks(allowed(parameters["INPUT"]), allowed, depth + 1)
+            yield from _blocks(allowed(parameters["INPUT"]), allowed, read)
         else:
             yield " ".join(word.upper().split()), parameters, data
 
@@ -115,20 +120,18 @@ def _read(blocks: Iterator[tuple[str, dict[str, str], list[str]]], deck: _Deck, 
             _set(sets, said[word]).extend(_members("GENERATE" in said, data))
 
 
-def _set(sets: dict[str, list[str | int]], name: str) -> list[str | int]:
+def _set(sets: dict[str, list[_Member]], name: str) -> list[_Member]:
     """The members of a set, whose name is written in any case."""
     known = next((n for n in sets if n.upper() == name.upper()), name)
     return sets.setdefault(known, [])
 
 
-def _members(generated: bool, data: list[str]) -> Iterator[str | int]:
+def _members(generated: bool, data: list[str]) -> Iterator[_Member]:
     for line in data:
         words = [t.strip().strip('"') for t in line.split(",") if t.strip()]
         if generated:
             first, last, step = ([int(t) for t in words] + [1])[:3]
-            if last - first > MOST * abs(step):
-                raise ValueError(f"{line.strip()}, GENERATE")
-            yield from range(first, last + 1, step)
+            yield range(first, last + 1, step)
         else:
             yield from (int(t) if t.lstrip("-").isdigit() else t for t in words)
 
@@ -189,15 +192,17 @@ def _gathered(deck: _Deck) -> FileMesh:
         table = np.array([[row_of[n] for n in row] for row in rows], dtype=np.int64)
         cells[cell_type] = table.reshape(len(rows), -1)[:, order]
     parts: dict[str, Part] = {}
+    numbers = _Numbers(deck.cell_sets, len(deck.place) + len(deck.unread))
     for name in deck.cell_sets:
         chosen: dict[str, list[int]] = {}
-        for number in _resolved(deck.cell_sets, name, ()):
+        for number in numbers[name]:
             if number not in deck.unread:
                 cell_type, row = deck.place[number]
                 chosen.setdefault(cell_type, []).append(row)
         parts[name] = Part({k: np.unique(rows) for k, rows in chosen.items()})
+    numbers = _Numbers(deck.node_sets, len(deck.points))
     for name in deck.node_sets:
-        nodes = [row_of[number] for number in _resolved(deck.node_sets, name, ())]
+        nodes = [row_of[number] for number in numbers[name]]
         known = next((n for n in parts if n.upper() == name.upper()), name)
         parts[known] = Part(
             parts[known].cells if known in parts else {}, np.unique(np.array(nodes, np.int64))
@@ -205,12 +210,30 @@ def _gathered(deck: _Deck) -> FileMesh:
     return FileMesh(padded(points), cells, parts, deck.left_out)
 
 
-def _resolved(sets: dict[str, list[str | int]], name: str, above: tuple[str, ...]) -> Iterator[int]:
-    """Numbers in a set and in those that it names."""
-    if name.upper() in above:
-        raise ValueError(name)
-    for member in {n.upper(): members for n, members in sets.items()}[name.upper()]:
-        if isinstance(member, int):
-            yield member
-        else:
-            yield from _resolved(sets, member, (*above, name.upper()))
+class _Numbers:
+    """The numbers in each set and in those that it names, each once."""
+
+    def __init__(self, sets: dict[str, list[_Member]], count: int) -> None:
+        self._sets = {name.upper(): members for name, members in sets.items()}
+        self._count = count
+        self._left = max(_MOST[0], _MOST[1] * count)
+        self._found: dict[str, set[int] | None] = {}  # None of a set that is being read
+
+    def __getitem__(self, name: str) -> set[int]:
+        key = name.upper()
+        if key not in self._found:
+            self._found[key], found = None, set[int]()
+            for member in dict.fromkeys(self._sets[key]):
+                more = self[member] if isinstance(member, str) else member
+                if isinstance(more, range) and len(more) > self._count:
+                    raise ValueError(f"{name}, GENERATE")
+                more = (more,) if isinstance(more, int) else more
+                self._left -= len(more)
+                if self._left < 0:
+                    raise ValueError(f"*NSET, *ELSET {name}")
+                found.update(more)
+            self._found[key] = found
+        known = self._found[key]
+        if known is None:
+            raise ValueError(name)
+        return known

@@ -171,6 +171,8 @@ def _cells(
 def _values(lines: Iterator[str], count: int) -> dict[str, FloatArray]:
     sizes = [int(t) for t in next(lines).split()[1:]]
     names = [next(lines).split(",")[0].strip() for _ in sizes]
+    if not count:  # no row says whether there are as many components
+        return {}
     rows = [next(lines).split() for _ in range(count)]
     table = np.array([[float(t) for t in row[-sum(sizes) :]] for row in rows])
     table = table.reshape(count, sum(sizes))

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.errors import InputError, readable
+from ssilang.io.mesh_files.bounds import Text, check_hdf5, opened, unpacked
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
@@ -80,7 +81,7 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
         If it cannot be read, or a library for it is missing.
     """
     with _guarded(path, kind) as said:
-        read = _READERS.get(kind, _by_meshio)(path, kind)
+        read = _read(path, kind)
         remarks = re.split(r"(?:Warning|Info|Error):", " ".join(said.getvalue().split()))
         told = tuple(t.strip() for t in remarks if t.strip())
         return _gathered(read, kind, told).sound(path.name, kind)
@@ -89,7 +90,7 @@ def read_foreign(path: Path, kind: str) -> FileMesh:
 def foreign_mesh(path: Path, kind: str) -> Any:
     """The same as meshio has it, with its fields."""
     with _guarded(path, kind):
-        return _READERS.get(kind, _by_meshio)(path, kind)
+        return _read(path, kind)
 
 
 @contextmanager
@@ -119,19 +120,49 @@ def _first_line(error: Exception) -> str:
     return shown if len(shown) >= 12 or (not shown and kind == "ReadError") else f"{kind} {shown}"
 
 
-# nodes of a text of version 2; meshio counts them, whatever their numbers
-_MSH2 = re.compile(rb"\$MeshFormat\s+2\S*\s+0\s.*?\$Nodes\s+\d+\s*\n(.*?)\$EndNodes", re.DOTALL)
+_MSH2 = re.compile(rb"\$MeshFormat\s+2\S*\s+0\s")
 _GRID = re.compile(r"^GRID\*?[ ,]+(\d+)(.*)$", re.MULTILINE)
 
 
-def _by_meshio(path: Path, kind: str) -> Any:
-    from importlib import import_module
+def _gmsh(path: Path, kind: str) -> Any:
+    from meshio.gmsh.main import read_buffer
 
-    library()
-    if kind == "GMSH" and (nodes := _MSH2.search(path.read_bytes())) is not None:
-        lines = nodes[1].decode("latin-1").strip().split("\n")
+    content = path.read_bytes()
+    if _MSH2.search(content):  # the nodes of a text: meshio counts them, whatever their numbers
+        nodes = content.partition(b"$Nodes")[2].partition(b"$EndNodes")[0]
+        lines = nodes.decode("latin-1").strip().split("\n")[1:]
         refuse_doubles(path.name, ((int(t.split()[0]), t) for t in lines))
-    return import_module(f"meshio.{FOREIGN[kind].reader}").read(str(path))
+    with opened(path, binary=True) as stream:
+        return read_buffer(stream)
+
+
+def _vtk(path: Path, kind: str) -> Any:
+    from meshio.vtk._main import read_buffer
+
+    with opened(path, binary=True) as stream:
+        return read_buffer(stream)
+
+
+def _vtu(path: Path, kind: str) -> Any:
+    from meshio.vtu import read
+
+    with unpacked(path):
+        return read(str(path))
+
+
+def _med(path: Path, kind: str) -> Any:
+    from meshio.med import read
+
+    check_hdf5(path)
+    return read(str(path))
+
+
+def _medit(path: Path, kind: str) -> Any:
+    from meshio.medit import _medit
+
+    binary = path.name.endswith("b")
+    with opened(path, binary) as stream:
+        return (_medit.read_binary_buffer if binary else _medit.read_ascii_buffer)(stream)
 
 
 # element cards of Nastran that meshio passes over without a word
@@ -146,14 +177,13 @@ def _nastran(path: Path, kind: str) -> Any:
     """Bulk data; a file without its end would make meshio's reader turn for ever."""
     from meshio.nastran import _nastran
 
-    library()
     text = path.read_text(encoding="latin-1").replace("\r\n", "\n")
     if "BEGIN BULK" not in text:
         text = "BEGIN BULK\n" + text
     if not re.search(r"^ENDDATA", text, re.MULTILINE):
         raise InputError("io.mesh-file-cut", name=path.name, kind=kind, end="ENDDATA")
     refuse_doubles(path.name, ((int(n), rest) for n, rest in _GRID.findall(text)))
-    read = _nastran.read_buffer(io.StringIO(text.rstrip() + "\n"))
+    read = _nastran.read_buffer(Text(text.rstrip() + "\n"))
     if np.any(read.point_data.get("nastran:ref", 0)):
         raise InputError("io.nastran-coordinate-system", name=path.name)
     for card in _CARDS.findall(text):
@@ -161,7 +191,14 @@ def _nastran(path: Path, kind: str) -> Any:
     return read
 
 
-_READERS: Mapping[str, Callable[[Path, str], Any]] = {"NASTRAN": _nastran}
+_READERS: Mapping[str, Callable[[Path, str], Any]] = {
+    "GMSH": _gmsh, "MED": _med, "VTU": _vtu, "VTK": _vtk, "NASTRAN": _nastran, "MEDIT": _medit
+}  # fmt: skip
+
+
+def _read(path: Path, kind: str) -> Any:
+    library()
+    return _READERS[kind](path, kind)
 
 
 # ---- cells and parts -----------------------------------------------------------------------------

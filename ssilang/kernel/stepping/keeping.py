@@ -18,7 +18,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.errors import LostSolverError
+from ssilang.kernel.base.errors import KernelError, LostSolverError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.problem.problem import Problem
 
@@ -145,7 +145,7 @@ def put_back(record: Any, values: Sequence[Any]) -> None:
     """The arrays of a record become those of `leaves`, in place."""
     for array, value in zip(_leaves(record), values, strict=True):
         if isinstance(array, np.ndarray):
-            array[...] = value
+            array[...] = _fitting(value, array)
 
 
 def rebuilt(like: Any, values: Sequence[Any]) -> Any:
@@ -188,14 +188,43 @@ def recall(owner: Any, kept: Any) -> None:
     if hasattr(owner, "recall"):
         owner.recall(kept)
         return
-    for name, value in kept.items():
-        now = getattr(owner, name)
+    for name in getattr(owner, "remembered", ()):  # and no other name that a file may hold
+        now, value = getattr(owner, name), kept[name]
         if isinstance(now, tuple):
             put_back(now, value)
         elif isinstance(value, dict):
             recall(now, value)
         else:
-            setattr(owner, name, None if value is None else value.copy())
+            setattr(owner, name, None if value is None else _fitting(value, now).copy())
+
+
+def _fitting(value: Any, like: Any) -> NDArray[Any]:
+    """An array of a file that stands for another one: of its shape and kind of numbers.
+
+    Raises
+    ------
+    ValueError
+        If it is none: compiled loops look at no sizes.
+    """
+    sizes = np.shape(like) if like is not None else np.shape(value)
+    if not isinstance(value, np.ndarray) or value.dtype.kind not in "biuf" or value.shape != sizes:
+        raise ValueError(f"{np.shape(value)}, {sizes}")
+    return value
+
+
+@contextmanager
+def fitting() -> Iterator[None]:
+    """What an earlier run kept is taken over meanwhile.
+
+    Raises
+    ------
+    KernelError
+        If it is not what this calculation keeps.
+    """
+    try:
+        yield
+    except (LookupError, ValueError, TypeError, AttributeError, OverflowError) as error:
+        raise KernelError("kernel.stepping.kept-does-not-fit", error=str(error)) from error
 
 
 # ---- calculations that step in Python ------------------------------------------------------------
@@ -222,13 +251,14 @@ class KeptSteps:
         kept = None if self.keeper is None else self.keeper.last()
         if kept is None:
             return False
-        self.done, h = len(kept["energies"]) - 1, self.history
-        put_back(self.motion, kept["motion"])
-        h.kept[: self.done + 1] = kept["energies"]
-        h.iterations, h.seconds = kept["iterations"], kept["seconds"]
-        if self.more is not None:
-            recall(self.more, kept["more"])
-        recall(self.solver, kept["remembers"])
+        with fitting():
+            self.done, h = len(kept["energies"]) - 1, self.history
+            put_back(self.motion, kept["motion"])
+            h.kept[: self.done + 1] = kept["energies"]
+            h.iterations, h.seconds = kept["iterations"], kept["seconds"]
+            if self.more is not None:
+                recall(self.more, kept["more"])
+            recall(self.solver, kept["remembers"])
         return True
 
     def state(self) -> State:

@@ -24,6 +24,7 @@ from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.keeping import (
     Keeper,
     State,
+    fitting,
     leaves,
     memory,
     put_back,
@@ -205,7 +206,8 @@ class Integration:
             self.prepare(inside)
             kept = None if self.keeper is None else self.keeper.last()
             if kept is not None:
-                self._go_on(kept, history)
+                with fitting():
+                    self._go_on(kept, history)
             else:
                 self.begin()
             self._run(history)

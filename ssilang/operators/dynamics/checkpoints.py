@@ -20,7 +20,7 @@ from ssilang.operators.tables.entries import Entries
 from ssilang.threads import blas
 
 if TYPE_CHECKING:
-    from ssilang.io.checkpoint import Checkpoints, Rows
+    from ssilang.io.checkpoint import Checkpoints, Kept, Rows
     from ssilang.kernel.plasticity.bulk import Bulk
     from ssilang.kernel.plasticity.bulk import State as BulkState
     from ssilang.kernel.stepping.keeping import State
@@ -144,11 +144,17 @@ class KeptCalculation:
 
     def last(self) -> State | None:
         """What an earlier run kept; the observers get what they had."""
-        from ssilang.io.checkpoint import changed_names
+        from ssilang.kernel.stepping.keeping import fitting
 
         kept = self.checkpoints.read(self.number)
         if kept is None:
             return None
+        with fitting():
+            return self._taken(kept)
+
+    def _taken(self, kept: Kept) -> State:
+        from ssilang.io.checkpoint import changed_names
+
         self._check(kept.call)
         for batch in kept.rows:
             for i, track in enumerate(self._tracks):

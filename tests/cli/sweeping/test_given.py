@@ -40,6 +40,7 @@ def test_values(text, values):
         ("7:1:2", "cli.range-no-values-first"), ("1:6:2", "cli.range-misses-end"),
         ("1::2", "cli.value-empty"), ("1,,2", "cli.value-empty"), ("1,2,", "cli.value-empty"),
         ("0:1:1.E-6", "cli.range-values"), ("1.E999", "cli.value-too-large"),
+        ("9" * 6000, "cli.value-too-large"),
     ],
 )  # fmt: skip
 def test_values_that_are_none(text, code):
