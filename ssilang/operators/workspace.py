@@ -85,14 +85,18 @@ class Workspace:
         return bool(self.options.get("FREQ"))
 
     def weighed(self, made: Matrix, *constituents: str) -> Matrix:
-        """A matrix of MASS, its masses remembered: those made last of the same cells."""
+        """A matrix of MASS, its masses remembered: those made last of the same cells.
+
+        Of points that are given masses once more, nothing is known: they may be others beside.
+        """
         for block in made.blocks:
             axis = "UZ" if "UZ" in block.unknowns else "UY"
             rows = np.flatnonzero(np.array(block.unknowns) == axis)
             nodes = block.raw_nodes[:, block.local[rows]]
             sums = block.values[:, rows][:, :, rows].sum(axis=2)
             key = hash((block.raw_nodes.tobytes(), axis, *constituents))
-            self.masses[key] = nodes.ravel(), sums.ravel()
+            known = bool(constituents) or key not in self.masses
+            self.masses[key] = nodes.ravel(), sums.ravel() if known else np.full(sums.size, np.nan)
         return made
 
     def point(self, coordinates: list[float]) -> Point:
