@@ -31,6 +31,7 @@ Told = Iterator[tuple[str, dict[str, Any]]]
 OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
+LARGEST = 100.0  # m; a structure that is a point on a short joint may have less
 OFF = 1e-3  # of a load's factor: less is no other one
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
@@ -84,7 +85,7 @@ def turns_heavily(problem: Problem, _: Inputs) -> Told:
         inertia = np.bincount(label, turn * (problem.M @ turn))
         body = int((inertia - (FAR_MASS * size) ** 2 * mass).argmax())
         way = float(np.sqrt(inertia[body] / (mass[body] or np.inf)))
-        if way > FAR_MASS * size:
+        if way > max(FAR_MASS * size, LARGEST):
             node = numbering.table.told(int(numbering.nodes[(label == body).argmax()]))
             told = {"node": node, "inertia": inertia[body], "mass": mass[body], "size": size}
             yield "operators.dynamics.turns-heavily", {**told, "way": way}
