@@ -201,12 +201,16 @@ def recall(owner: Any, kept: Any) -> None:
 def _fitting(value: Any, like: Any) -> NDArray[Any]:
     """An array of a file that stands for another one: of its shape and kind of numbers.
 
+    One that begins with no rows (cells that have yielded, past steps) has any number of them.
+
     Raises
     ------
     ValueError
         If it is none: compiled loops look at no sizes.
     """
-    sizes = np.shape(like) if like is not None else np.shape(value)
+    sizes = np.shape(like if like is not None else value)
+    if sizes[:1] == (0,):
+        sizes = (*np.shape(value)[:1], *sizes[1:])
     if not isinstance(value, np.ndarray) or value.dtype.kind not in "biuf" or value.shape != sizes:
         raise ValueError(f"{np.shape(value)}, {sizes}")
     return value
