@@ -95,13 +95,13 @@ def unpacked(path: Path) -> Iterator[None]:
         _vtu.zlib, _vtu.lzma = before
 
 
-class _Rows(np.ndarray):
+class _Rows(np.ndarray[Any, Any]):
     """Rows of nodes by their numbers: Python would count those below 0 from the last."""
 
     def __getitem__(self, numbers: Any) -> Any:
-        if isinstance(numbers, np.ndarray) and numbers.dtype.kind in "iu":
-            if numbers.size and not (numbers.min() >= 0 and numbers.max() < len(self)):
-                raise _NoNode
+        counts = isinstance(numbers, np.ndarray) and numbers.dtype.kind in "iu" and numbers.size
+        if counts and not (numbers.min() >= 0 and numbers.max() < len(self)):
+            raise _NoNode
         return super().__getitem__(numbers)
 
 

@@ -141,7 +141,7 @@ MSH_TEXTS = {  # of each version, a square of four nodes that stand for NODES
     "2.2": f"{MSH}$Nodes\n4\n{FOUR}$EndNodes\n$Elements\n1\n1 3 2 1 1 NODES\n$EndElements\n",
     "4.0": "$MeshFormat\n4.0 0 8\n$EndMeshFormat\n$Nodes\n1 4\n1 2 0 4\n"
     f"{FOUR}$EndNodes\n$Elements\n1 1\n1 2 3 1\n1 NODES\n$EndElements\n",
-    "4.1": f"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n"
+    "4.1": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n"
     "0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 3 1\n1 NODES\n"
     "$EndElements\n",
 }
