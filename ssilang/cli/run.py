@@ -239,7 +239,10 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     errors: list[SsiError] = []
     take()  # an interruption before this run is none of its own
     summary = options.summary or options.report
+    link = None if options.output_directory else _link_to_results(session)
     try:
+        if link is not None:
+            raise SsiError("io.folder-is-link", None, path=link)
         if summary:  # it writes there in any case
             hold_folder(session)
         keep_for(session, source, options)
@@ -262,7 +265,7 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         _tell_plain_numba(session)
     from ssilang.operators.files.outputs import run_output
 
-    refused = any(e.code == "io.folder-in-use" for e in errors)
+    refused = link is not None or any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
         with session.hold():  # files end whole
             _end_recording(session, errors)
@@ -286,6 +289,13 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
             _report(result, err, options.quiet)
     run_output(session).release()
     return result
+
+
+def _link_to_results(session: Session) -> Path | None:
+    """A link where results go that the user has not named: nothing is written where it leads."""
+    from ssilang.io.run_output import link_to
+
+    return link_to(Path(session.output_directory))
 
 
 def _take_down(session: Session, source: Source) -> None:

@@ -59,6 +59,11 @@ class RunLock:
                 self.path.unlink()
 
 
+def link_to(folder: Path) -> Path | None:
+    """The first link on the way to a folder whose name the user has not given; None without."""
+    return next((p for p in (*reversed(folder.parents), folder) if p.is_symlink()), None)
+
+
 def hold(folder: Path) -> RunLock | None:
     """Hold an output folder; None where that cannot be done, such as where nothing can be written.
 

@@ -1,11 +1,13 @@
 """A deck reads and writes below its folder and the output folder, and nowhere else."""
 
 import io
+import os
 from pathlib import Path
 
 import pytest
 from script_runs import ran
 
+from ssilang.cli.main import main
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.text.source import Source
 
@@ -108,3 +110,53 @@ def test_warnings_of_libraries_stay_out_of_a_run_from_python(tmp_path, recwarn):
 
     ran("X = (PROG 1. 0.) / (PROG 0. 0.) ;", tmp_path)
     assert not recwarn.list
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with a name")
+@pytest.mark.parametrize("command", ["run", "check"])
+@pytest.mark.parametrize("kind", ["pipe", "device", "huge"])
+def test_a_script_is_a_file_that_ends(tmp_path, process, command, kind):
+    """A pipe would be waited for, a device read until the memory is full."""
+    deck = tmp_path / "d.ssi"
+    if kind == "pipe":
+        os.mkfifo(deck)
+    elif kind == "device":
+        deck.symlink_to("/dev/zero")
+    else:
+        with deck.open("wb") as stream:
+            stream.truncate(2**26 + 1)
+    ended = process(command, str(deck))
+    assert ended.code == 2
+    assert "d.ssi" in ended.err
+    assert ("too large" if kind == "huge" else "no file of text") in ended.err
+    deck.unlink()
+    (tmp_path / "sound.ssi").write_text("A = 1 ;")
+    deck.symlink_to("sound.ssi")  # a link to a file is a file
+    assert process(command, str(deck)).code == 0
+
+
+@pytest.mark.parametrize("link", ["results", "results/d"])
+def test_results_that_lead_elsewhere_are_written_where_the_user_says_so(
+    tmp_path, monkeypatch, link
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "d.ssi").write_text("OPTI SORT 'a.csv' ; SORT 'EXCE' (PROG 1.) ;")
+    place = tmp_path / link
+    place.parent.mkdir(exist_ok=True)
+    place.symlink_to(tmp_path / "elsewhere")
+    assert main(["run", "d.ssi"]) == 1
+    assert main(["run", "--report", "d.ssi"]) == 1
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+    assert main(["run", "d.ssi", "--out", link]) == 0
+    assert (tmp_path / "elsewhere" / "a.csv").is_file()
+
+
+def test_a_sweep_writes_no_results_that_lead_elsewhere(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "d.ssi").write_text("A = 1. ;")
+    (tmp_path / "results").symlink_to(tmp_path / "elsewhere")
+    assert main(["sweep", "d.ssi", "--set", "A=1,2"]) == 2
+    assert "results is a link to another place" in capsys.readouterr().err
+    assert list((tmp_path / "elsewhere").iterdir()) == []

@@ -32,6 +32,7 @@ from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.checkpoint import digest_of_file
 from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named, vertical
+from ssilang.io.run_output import link_to
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -84,6 +85,9 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
         asked = _asked(options)
         if options.folder.exists() and not options.folder.is_dir():
             raise SsiError("cli.out-no-folder", None, path=options.folder)
+        link = None if options.out else link_to(Path("results") / f"{options.deck.stem}_sweep")
+        if link is not None:
+            raise SsiError("io.folder-is-link", None, path=link)
         cases = _checked_cases(options, err)
         rows = run_cases(cases, options, out, err)
     except SsiError as error:

@@ -97,6 +97,8 @@ class Decoder:
     def _object(self, number: int) -> Any:
         if number in self._made:
             return self._made[number]
+        if number < 0:  # Python would count from the last
+            raise LookupError(number)
         name, parts = self._archive.objects[number]
         if name == "nodes":
             self._made[number] = self._table(parts)

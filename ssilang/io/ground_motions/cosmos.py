@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of, real
+from ssilang.io.ground_motions.record import GroundMotion, check_step, finite, lines_of, real
 from ssilang.kernel.base.arrays import FloatArray
 
 _VERSION = re.compile(r"Format\s*v?\s*(\d+\.\d+)", re.IGNORECASE)
@@ -68,6 +68,7 @@ def _record(path: Path, lines: list[str], begin: int, end: int) -> GroundMotion:
         elif (m := _SERIES.match(lines[i])) is not None and len(m[1]) <= _LARGEST:
             if not step > 0.0:
                 raise InputError("io.cosmos-without-step", name=path.name)
+            check_step(path, step)
             block = _Block(i + 1, int(m[1]), int(m[4]), int(m[5]))
             values = _numbers(path, lines, block, end)
             _check_duration(path, m[3], step * len(values))

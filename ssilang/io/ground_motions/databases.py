@@ -10,7 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.record import GroundMotion, finite, lines_of, quantity_of, real
+from ssilang.io.ground_motions.record import (
+    GroundMotion,
+    check_step,
+    finite,
+    lines_of,
+    quantity_of,
+    real,
+)
 from ssilang.kernel.base.arrays import FloatArray
 
 _DIGITS = 12  # of a number of values that a file can hold
@@ -54,7 +61,7 @@ def _sizes(path: Path, lines: list[str]) -> tuple[int, float]:
             if (found := pattern.search(lines[_HEADER - 1])) is not None:
                 dt = real(found[2].rstrip("."))
                 if 0.0 < dt < math.inf and len(found[1]) < _DIGITS:
-                    return int(found[1]), dt
+                    return int(found[1]), check_step(path, dt)
     raise InputError("io.line-no-npts-dt", name=path.name)
 
 
@@ -81,12 +88,10 @@ def read_esm(path: Path) -> GroundMotion:
     lines = lines_of(path)
     begin = next((i for i, line in enumerate(lines) if _is_number(line)), len(lines))
     head = {k.strip().upper(): v.strip() for k, _, v in (x.partition(":") for x in lines[:begin])}
-    try:
-        dt = float(head["SAMPLING_INTERVAL_S"])
-    except (KeyError, ValueError):
-        dt = math.nan
+    dt = real(head.get("SAMPLING_INTERVAL_S", ""))
     if not 0.0 < dt < math.inf:
         raise InputError("io.esm-without-step", name=path.name)
+    check_step(path, dt)
     values = _esm_values(path, lines, begin)
     if (said := head.get("NDATA", "")).isdigit() and int(said) != len(values):
         raise InputError(
@@ -98,11 +103,7 @@ def read_esm(path: Path) -> GroundMotion:
 
 
 def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    return not math.isnan(real(text))
 
 
 def _esm_values(path: Path, lines: list[str], begin: int) -> FloatArray:
@@ -114,5 +115,5 @@ def _esm_values(path: Path, lines: list[str], begin: int) -> FloatArray:
             raise InputError(
                 "io.record-line-no-number", name=path.name, number=number, rest=text[:20]
             )
-        found.append(float(text))
+        found.append(real(text))
     return finite(path, np.array(found))

@@ -88,11 +88,29 @@ def lines_of(path: Path) -> list[str]:
 
 
 def real(text: str) -> float:
-    """A number as Fortran writes it, NaN for what is none."""
+    """A number as Fortran writes it, NaN for what is none: `1_0` is 10 in Python alone."""
     try:
-        return float(text.upper().replace("D", "E"))
+        plain = text.isascii() and "_" not in text
+        return float(text.upper().replace("D", "E")) if plain else math.nan
     except ValueError:
         return math.nan
+
+
+_STEPS = 1e-9, 1e3  # s: no instrument is as fast, or as slow
+
+
+def check_step(path: Path, step: float, most: float = _STEPS[1]) -> float:
+    """The same step (s), the smallest of a file that lists times.
+
+    Raises
+    ------
+    InputError
+        If no record has it.
+    """
+    if not _STEPS[0] <= step <= most or math.isinf(step):
+        told = {"least": _STEPS[0], "most": _STEPS[1]}
+        raise InputError("io.record-step", name=path.name, step=step, **told)
+    return step
 
 
 def finite(path: Path, values: FloatArray) -> FloatArray:

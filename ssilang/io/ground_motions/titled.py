@@ -8,6 +8,7 @@ import numpy as np
 from ssilang.io.errors import InputError
 from ssilang.io.ground_motions.record import (
     GroundMotion,
+    check_step,
     finite,
     is_unit,
     lines_of,
@@ -50,6 +51,8 @@ def read_titled(path: Path) -> list[GroundMotion]:
     if (falling := np.flatnonzero(np.diff(times) <= 0.0)).size:
         line = rows[first + int(falling[0]) + 1][0]
         raise InputError("io.titled-times-fall", name=path.name, line=line)
+    for step in (np.diff(times).min(), np.diff(times).max()):
+        check_step(path, float(step), np.inf)
     return [
         GroundMotion(column, 0.0, title.strip(), _quantity(title), _unit(title), times)
         for title, column in zip(titles[1:], values[:, 1:].T, strict=True)

@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ssilang.io.archive.container import most_unpacked
 from ssilang.io.errors import InputError
 
@@ -91,6 +93,51 @@ def unpacked(path: Path) -> Iterator[None]:
         yield
     finally:
         _vtu.zlib, _vtu.lzma = before
+
+
+class _Rows(np.ndarray[Any, Any]):
+    """Rows of nodes by their numbers: Python would count those below 0 from the last."""
+
+    def __getitem__(self, numbers: Any) -> Any:
+        counts = isinstance(numbers, np.ndarray) and numbers.dtype.kind in "iu" and numbers.size
+        if counts and not (numbers.min() >= 0 and numbers.max() < len(self)):
+            raise _NoNode
+        return super().__getitem__(numbers)
+
+
+class _NoNode(Exception):
+    """A file's cell names a node that the file does not hold."""
+
+
+class _Numpy:
+    """numpy for meshio's readers of Gmsh, whose tables of nodes come from `ones` and `full`."""
+
+    def __getattr__(self, name: str) -> Any:
+        made = getattr(np, name)
+        return (lambda *a, **k: made(*a, **k).view(_Rows)) if name in ("ones", "full") else made
+
+
+@contextmanager
+def nodes_held(path: Path) -> Iterator[None]:
+    """A .msh is read meanwhile: its cells name nodes that it holds.
+
+    Raises
+    ------
+    InputError
+        If they do not.
+    """
+    from meshio.gmsh import _gmsh22, _gmsh40, _gmsh41
+
+    readers = (_gmsh22, _gmsh40, _gmsh41)
+    for reader in readers:
+        reader.np = _Numpy()
+    try:
+        yield
+    except _NoNode:
+        raise InputError("io.mesh-file-names-no-node", name=path.name, kind="GMSH") from None
+    finally:
+        for reader in readers:
+            reader.np = np
 
 
 def check_hdf5(path: Path) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.io.errors import InputError, readable
-from ssilang.io.mesh_files.bounds import Text, check_hdf5, opened, unpacked
+from ssilang.io.mesh_files.bounds import Text, check_hdf5, nodes_held, opened, unpacked
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
@@ -132,7 +132,7 @@ def _gmsh(path: Path, kind: str) -> Any:
         nodes = content.partition(b"$Nodes")[2].partition(b"$EndNodes")[0]
         lines = nodes.decode("latin-1").strip().split("\n")[1:]
         refuse_doubles(path.name, ((int(t.split()[0]), t) for t in lines))
-    with opened(path, binary=True) as stream:
+    with opened(path, binary=True) as stream, nodes_held(path):
         return read_buffer(stream)
 
 

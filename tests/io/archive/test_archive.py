@@ -209,3 +209,14 @@ def test_a_large_field_of_zeros_comes_back(tmp_path):
     archive = read_archive(path)
     assert archive.array(0).shape == (2**22,)
     archive.close()
+
+
+@pytest.mark.parametrize("number", [-1, -4, 10**6])
+def test_a_reference_to_no_object_is_damage(tmp_path, number):
+    """Python would count what is below 0 from the last object."""
+    saved(tmp_path / "sound", X=square(), Y=NodeTable())
+    archive = read_archive(tmp_path / "sound")
+    assert len(archive.objects) >= 4
+    with refusal(InputError, "io.damaged"):
+        Decoder(archive, NodeTable()).decode(["o", number])
+    archive.close()

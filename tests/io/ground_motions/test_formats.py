@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from ssilang.io.errors import InputError
+from ssilang.io.ground_motions.cosmos import read_cosmos
+from ssilang.io.ground_motions.databases import read_esm, read_peer
 from ssilang.io.ground_motions.record import GroundMotion, plain_unit, quantity_of
 from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named
 from ssilang.io.ground_motions.titled import read_titled
@@ -86,12 +88,16 @@ def test_tables_by_their_titles(tmp_path, text, columns):
         ("t;a\n0;1\n1;2\n1;3\n2;4", "io.titled-times-fall", 4),
         ("t;a\n\n0;1\n1;2;7\n2;4", "io.titled-other-columns", 4),
         ("t;a\n0;1\n1;x\n2;4", "io.line-no-number", 3),
+        ("t;a\n0;1\n1;1_0\n2;4", "io.line-no-number", 3),
+        ("t;a\n0;1\n1;\u0663\n2;4", "io.line-no-number", 3),
+        ("t;a\n0;1\n1E-320;2\n2;4", "io.record-step", None),
+        ("t;a\n-1E308;1\n1E308;2", "io.record-step", None),
         ("t;a\n0;1", "io.titled-no-table", None),
         ("t (h);a\n0;1\n1;2", "io.titled-time-unit", None),
     ],
 )
 def test_a_table_that_is_none(tmp_path, text, code, line):
-    (tmp_path / "m.txt").write_text(text)
+    (tmp_path / "m.txt").write_text(text, encoding="utf-8")
     with pytest.raises(InputError) as caught:
         read_titled(tmp_path / "m.txt")
     assert (caught.value.code, caught.value.data.get("line")) == (code, line)
@@ -130,3 +136,32 @@ def test_units_are_told_where_they_differ():
     assert [plain_unit(u) for u in ("m/sec/sec", "M/S\u00b2", "mm/s")] == ["M/S2", "M/S2", "MM/S"]
     texts = ("Displ. then ACCEL", "subacc", "velocity", "dep.", "none")
     assert [quantity_of(t) for t in texts] == ["DEPL", "", "VITE", "DEPL", ""]
+
+
+HEAD_OF = {  # the step of each format stands for STEP
+    "m.AT2": (read_peer, "P\nQ\nACCELERATION IN UNITS OF G\nNPTS= 3, DT= STEP SEC\n1. 2. 3.\n"),
+    "m.ASC": (read_esm, "SAMPLING_INTERVAL_S: STEP\nUNITS: cm/s^2\n1.5\n2.5\n3.5\n"),
+    "m.V1": (read_cosmos, COSMOS.replace("  2.000000E-02", f"{'STEP':>14}").replace(
+        "approx  0 secs, ", "")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HEAD_OF)
+@pytest.mark.parametrize("step", ["1E-320", "1E-12", "1001.", "1E308", "0.", "1E400", "-.01"])
+def test_a_step_that_no_record_has(tmp_path, name, step):
+    read, text = HEAD_OF[name]
+    path = tmp_path / name
+    path.write_text(text.replace(" " * (10 if name == "m.V1" else 0) + "STEP", step.rjust(14)))
+    with pytest.raises(InputError):
+        read(path)
+    path.write_text(text.replace(" " * (10 if name == "m.V1" else 0) + "STEP", "1000.".rjust(14)))
+    found = read(path)
+    assert (found[0] if isinstance(found, list) else found).dt == 1000.0
+
+
+def test_an_underscore_is_no_part_of_a_number(tmp_path):
+    path = tmp_path / "m.ASC"
+    path.write_text(HEAD_OF["m.ASC"][1].replace("STEP", "0.01").replace("3.5", "3_5"))
+    with pytest.raises(InputError) as refused:
+        read_esm(path)
+    assert (refused.value.code, refused.value.data["rest"]) == ("io.record-line-no-number", "3_5")

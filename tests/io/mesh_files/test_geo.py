@@ -235,8 +235,9 @@ def test_what_is_allowed_runs_under_a_guard_where_there_is_one(tmp_path, monkeyp
         "x = 1;\nFor i In {0:1}\n  i = 0;\n  x = x + 1;\nEndFor\n",
         SQUARE.replace("0.5}", "0.00002}"),
         "a() = {0:3e9};" + SQUARE,
+        "Macro again\n  Call again;\nReturn\nCall again;\n",
     ],
-    ids=["a loop", "a huge mesh", "a huge list"],
+    ids=["a loop", "a huge mesh", "a huge list", "a macro that calls itself"],
 )
 def test_what_takes_all_is_ended(text, tmp_path, monkeypatch, capsys):
     monkeypatch.setenv("SSILANG_GEO_SECONDS", "1")

@@ -134,3 +134,27 @@ def test_a_med_that_unpacks_past_any_use_is_refused(tmp_path: Path) -> None:
         )
         nodes.attrs["NBR"] = 13_333_333
     assert "unpacks to more than 268 MB" in soon(lambda: read_foreign(tmp_path / "bomb.med", "MED"))
+
+
+FOUR = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+MSH_TEXTS = {  # of each version, a square of four nodes that stand for NODES
+    "2.2": f"{MSH}$Nodes\n4\n{FOUR}$EndNodes\n$Elements\n1\n1 3 2 1 1 NODES\n$EndElements\n",
+    "4.0": "$MeshFormat\n4.0 0 8\n$EndMeshFormat\n$Nodes\n1 4\n1 2 0 4\n"
+    f"{FOUR}$EndNodes\n$Elements\n1 1\n1 2 3 1\n1 NODES\n$EndElements\n",
+    "4.1": "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n"
+    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 3 1\n1 NODES\n"
+    "$EndElements\n",
+}
+
+
+@pytest.mark.parametrize("version", MSH_TEXTS)
+@pytest.mark.parametrize("nodes", ["-1 -2 3 4", "1 2 3 0", "1 2 3 5", "1 2 3 -1"])
+def test_cells_of_gmsh_name_nodes_of_the_file(version: str, nodes: str, tmp_path: Path) -> None:
+    """Python would count what is below 1 from the last node."""
+    path = tmp_path / "m.msh"
+    path.write_text(MSH_TEXTS[version].replace("NODES", "1 2 3 4"))
+    assert read_foreign(path, "GMSH").cells["QUA4"].tolist() == [[0, 1, 2, 3]]
+    path.write_text(MSH_TEXTS[version].replace("NODES", nodes))
+    with pytest.raises(InputError) as refused:
+        read_foreign(path, "GMSH")
+    assert refused.value.code == "io.mesh-file-names-no-node"
