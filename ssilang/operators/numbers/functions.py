@@ -108,30 +108,27 @@ _ANGLE = arg("value", *OPERANDS, en="angle", unit="deg", range=CARRIED, usual=CA
 _REALS = "FLOTTANT|LISTREEL|EVOLUTIO|CHPOINT|MCHAML"
 
 
-def _run(name: str, function: Function, value: Any) -> Any:
+def _run(name: str, function: Function, value: Any, axis: str | None) -> Any:
+    if axis and not isinstance(value, Curve):
+        raise KernelError("operators.numbers.axis-of-curve", axis=axis, kind=type_of(value))
+    if axis == "ABSC":
+        parts = (replace(p, abscissas=function(p.abscissas)) for p in value.parts)
+        return replace(value, parts=tuple(parts))
     if name not in _INTEGERS_STAY and isinstance(value, int | ListEnti):
         value = float(value) if isinstance(value, int) else ListReel(value.values)
     return mapped(function, value)
 
 
-_CURVE = arg("curve", "EVOLUTIO", en="curve", range=CARRIED)
-_AXIS = choice("axis", ("ABSC", "ORDO"), optional=False, en="of abscissas, or of ordinates")
-
-
-def _along(function: Function, curve: Curve, axis: str) -> Curve:
-    if axis == "ORDO":
-        return mapped(function, curve)
-    parts = (replace(p, abscissas=function(p.abscissas)) for p in curve.parts)
-    return replace(curve, parts=tuple(parts))
+_AXIS = choice("axis", ("ABSC", "ORDO"), en="of the abscissas of a curve, or of its ordinates")
 
 
 for _name, _function in _FUNCTIONS.items():
-    _made = operator(_name, _CURVE, _AXIS, gives="EVOLUTIO", family="functions")(
-        partial(_along, _function)
-    )
-    _made.form(
+    operator(
+        _name,
         _ANGLE if _name in ("SIN", "COS", "TAN") else _VALUE,
+        _AXIS,
         gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
+        family="functions",
     )(partial(_run, _name, _function))
 
 
@@ -148,20 +145,18 @@ def ifre(
     return float(cosine), float(sine)
 
 
-_ATG = operator("ATG", _CURVE, _AXIS, gives="EVOLUTIO", family="functions")(
-    partial(_along, _degrees(np.arctan))
-)
-
-
-@_ATG.form(gives=_REALS)
+@operator("ATG", gives=_REALS, family="functions")
 def atg(
     call: Call,
     first: Any = Arg(*OPERANDS, en="tangent, or numerator", range=CARRIED),
     second: Any = Opt(*OPERANDS, en="denominator", range=CARRIED),
+    axis: str | None = _AXIS,
 ) -> Any:
     """Arc tangent of one or two objects."""
     if second is None:
-        return _run("ATG", _degrees(np.arctan), first)
+        return _run("ATG", _degrees(np.arctan), first, axis)
+    if axis:
+        raise KernelError("operators.numbers.axis-of-curve", axis=axis, kind=type_of(second))
     if isinstance(first, int | float) and isinstance(second, int | float):
         return float(np.degrees(np.arctan2(first, second)))
     if isinstance(first, ListReel | ListEnti) and isinstance(second, ListReel | ListEnti):

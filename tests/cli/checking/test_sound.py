@@ -165,7 +165,7 @@ def test_procedures_beside_the_script_are_read_anew_when_they_change(tmp_path):
     ],
 )
 def test_a_name_is_of_a_type_where_it_is_so_whichever_way_is_taken(between, sure):
-    text = f"N0 = 0 ; X = 1. ; {between} Z = SIN X ; MESS Z ;"
+    text = f"N0 = 0 ; X = 1. ; {between} Z Y = IFRE X ; MESS Z Y ;"
     problems, _ = check_source(Source("deck", text))
     told = [p.code for p in problems if p.severity == "error"]
     assert told == (["wrong-argument"] if sure else [])

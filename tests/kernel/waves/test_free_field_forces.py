@@ -126,13 +126,16 @@ def test_forces_at_edges_hold_their_elements_and_feed_the_dampers(body):
 
 
 def test_histories_become_few_fields_times_curves(body):
-    _, ground, _ = body
+    b, ground, _ = body
     numbering = ground.numbering
     rng = np.random.default_rng(1)
     forces = rng.standard_normal((numbering.size, 3)) @ rng.standard_normal((3, 9))
     forces[4:7] = 0.0
     t = np.linspace(0, 2, 9)
-    load = load_of(numbering, t, forces)
+    share, rest = elements_at(ground, Mesh.of(b.table, "POI1", b.n[:2, None])), 0.0 * forces
+    moved = np.arange(numbering.size) == 3  # where alone the free field has a velocity
+    motion = Motion(t, rest, np.where(moved[:, None], 1.0, rest), rest)
+    load = load_of(share, ground.damping, motion, forces)
     assert len(load.parts) == 3
     back = sum(
         np.outer(field_to_vector(p.space, numbering), p.time.parts[0].ordinates) for p in load.parts
@@ -141,7 +144,11 @@ def test_histories_become_few_fields_times_curves(body):
     for p in load.parts:
         np.testing.assert_array_equal(p.time.parts[0].abscissas, t)
         assert set(p.space.node_ids) <= set(numbering.nodes[np.abs(forces).sum(axis=1) > 0])
-    assert load_of(numbering, t, 0 * forces).parts == ()
+    assert load_of(share, None, motion, 0 * forces).parts == ()
+    masses, dampers = (field_to_vector(f, numbering, dual=False) for f in load.parts[0].beside)
+    np.testing.assert_array_equal(masses, share.mass.diagonal())
+    whole = assemble(ground.damping, numbering).diagonal()
+    np.testing.assert_array_equal(dampers, np.where(moved, whole, 0.0))
 
 
 def test_heights_beyond_a_column_are_refused():
