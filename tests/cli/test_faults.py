@@ -90,7 +90,7 @@ def test_a_deck_s_name_that_no_file_can_have_is_told(shell):
 
 
 def test_a_word_that_fills_the_memory_is_told(shell, tmp_path):
-    (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * (8 * 10**7) + "' ;")
+    (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * (6 * 10**7) + "' ;")
     code, _, told = shell("$S large.ssi --max-memory 150")
     assert code == 1
     assert told.startswith("error: large.ssi needs more memory than there is")

@@ -48,10 +48,12 @@ def read_titled(path: Path) -> list[GroundMotion]:
     times = values[:, 0] * _TIMES.get(unit, 1.0)
     if unit and unit not in _TIMES:
         raise InputError("io.titled-time-unit", name=path.name, title=titles[0])
-    if (falling := np.flatnonzero(np.diff(times) <= 0.0)).size:
+    with np.errstate(over="ignore"):  # steps of infinity are refused
+        steps = np.diff(times)
+    if (falling := np.flatnonzero(steps <= 0.0)).size:
         line = rows[first + int(falling[0]) + 1][0]
         raise InputError("io.titled-times-fall", name=path.name, line=line)
-    for step in (np.diff(times).min(), np.diff(times).max()):
+    for step in (steps.min(), steps.max()):
         check_step(path, float(step), np.inf)
     return [
         GroundMotion(column, 0.0, title.strip(), _quantity(title), _unit(title), times)
