@@ -217,8 +217,8 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         told["dt_over"] = dt / period
         yield "operators.dynamics.step-over-period", told
     longest = max((s.period for s in found), default=np.inf)
-    free = problem.interface is not None or problem.contact or any(s.sudden for s in found)
-    if longest < FEWEST * dt and not free and (accelerations(problem) * changing(problem)).any():
+    strikes = problem.interface is not None or problem.contact or any(s.sudden for s in found)
+    if longest < FEWEST * dt and not strikes and (accelerations(problem) * changing(problem)).any():
         told = {"period": longest, "steps": longest / dt}
         yield "operators.dynamics.shaken-as-rigid", told
     if any(s.damping < 0.0 for s in found):
