@@ -43,6 +43,7 @@ from ssilang.operators.dynamics.standing import (
     bodies_stand,
     footing_too_wide,
     ground_twice,
+    matter_amiss,
     out_of_balance,
     turns_heavily,
     unequal_joints,
@@ -72,6 +73,7 @@ FEWEST, WANTED = 3, 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
 HELD = 0.99  # of all mass, on nodes that do not move
+OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
@@ -230,7 +232,7 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
-    ground_twice, footing_too_wide, sides_unlike, beside_free_field,
+    ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
@@ -327,7 +329,7 @@ def warn_of_contact(entries: Entries, problem: Problem, extremes: Extremes | Non
     lost = known.get(("OUVERTURE", ""))
     if found is None or found.resolved or (lost is not None and not lost.value):
         return
-    if entries.call.session.warned("operators.dynamics.mass-held"):
+    if any(map(entries.call.session.warned, OF_MASS)):
         return  # of the mass that is left
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"

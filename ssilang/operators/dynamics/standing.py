@@ -18,13 +18,22 @@ from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
-from ssilang.kernel.stepping.problem.bodies import bodies_of
+from ssilang.kernel.stepping.problem.bodies import bodies_of, held
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
+from ssilang.kernel.waves.shaken import (
+    GRAVITIES,
+    LARGE,
+    accelerations,
+    axes_of,
+    changing,
+    matter,
+    shares,
+)
+from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -41,6 +50,11 @@ UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
+TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
+LIGHTER = {False: 30.0, True: 10.0}
+"""Times the density of other solids; below them, where buildings as one solid do not stand."""
+MASSLESS, FOAM = 5000.0, 500.0  # times: beyond, no mass is meant; m/s, of waves of shear
+ALIKE = 0.1  # of a density, that is the same ground's
 
 
 def out_of_balance(problem: Problem, _: Inputs) -> Told:
@@ -237,6 +251,34 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
         stiff = float(np.median(problem.K.diagonal()[cells])) if cells.any() else 0.0
         if float(joints.parameters[:, Parameter.KN].max()) < STIFF * stiff:
             yield "operators.dynamics.ground-twice", {"node": numbering.table.told(node)}
+
+
+def matter_amiss(problem: Problem, inputs: Inputs) -> Told:
+    """Ground whose waves no ground has, by its density; solids of densities far apart."""
+    if inputs.mass is None or not len(cells := matter(inputs.stiffness, inputs.mass)):
+        return
+    numbering, joints = problem.numbering, problem.interface
+    label, below = bodies_of(problem), held(problem)
+    for joint in () if joints is None else joints.joints:
+        below |= np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.lower))
+    ground = np.isin(cells[:, 0], numbering.nodes[np.isin(label, label[below])])
+    height, density, speed = cells[:, 1:].T
+    usual = MATTER[1]["RHO"]
+    for i in np.flatnonzero(ground & (speed > WAVES.high) & (speed < WAVES.high * TONNE**0.5)):
+        if TONNES <= density[i] in usual:
+            told = {"density": density[i], "speed": speed[i], "wanted": density[i] * TONNE}
+            told["low"], told["high"] = WAVES.low, WAVES.high
+            node = numbering.table.told(int(cells[i, 0]))
+            yield "operators.dynamics.ground-too-light", {"node": node, **told}
+            return
+    i, j = int(density.argmin()), int(density.argmax())
+    low, high = (abs(density - density[k]) < ALIKE * density[k] for k in (i, j))
+    beneath = height[low].mean() < height[high].mean() and speed[i] > speed[j]
+    times = density[j] / density[i]
+    if LIGHTER[beneath] <= times < MASSLESS and speed[i] > FOAM:
+        told = {"node": numbering.table.told(int(cells[i, 0])), "density": density[i]}
+        told |= {"there": numbering.table.told(int(cells[j, 0])), "other": density[j]}
+        yield "operators.dynamics.densities-apart", {**told, "times": times}
 
 
 def footing_too_wide(problem: Problem, _: Inputs) -> Told:
