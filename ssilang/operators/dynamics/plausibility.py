@@ -16,7 +16,7 @@ from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
-from ssilang.kernel.statics.doubled import idle_nodes
+from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -357,6 +357,15 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
         entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
     if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
         entries.warn("operators.dynamics.no-mass")
+
+
+def warn_of_bodies(entries: Entries, inputs: Inputs) -> None:
+    """Warn of bodies, those that yield among them, that touch and are not joined."""
+    zones = () if inputs.model is None else inputs.model.zones
+    nodes = bodies_apart(inputs.stiffness, zones)
+    if len(nodes) and not any(z.formulation == "CONTACT" for z in zones):
+        told = {"count": len(nodes), "node": inputs.stiffness.table.told(int(nodes[0]))}
+        entries.warn("operators.matrices.bodies-apart", **told)
 
 
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
