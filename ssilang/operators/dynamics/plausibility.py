@@ -41,6 +41,7 @@ from ssilang.operators.dynamics.shaking import (
 )
 from ssilang.operators.dynamics.standing import (
     bodies_stand,
+    braked,
     footing_too_wide,
     ground_twice,
     matter_amiss,
@@ -239,7 +240,7 @@ IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand, braked,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 

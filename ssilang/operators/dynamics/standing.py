@@ -12,7 +12,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
-from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import Matrix
@@ -48,6 +48,8 @@ AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
 TIMES = 10.0  # masses of a body over that of its weight
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
+BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
+OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
 TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
@@ -144,6 +146,52 @@ def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
             if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
                 for code, told in _beside_its_base(bodies, own, up, force):
                     yield code, {**told, "node": node}
+
+
+def braked(problem: Problem, _: Inputs) -> Told:
+    """Damping by the mass of bodies that lift, which it brakes as they fall, or swing on bearings.
+
+    What is proportional to a stiffness does not act on a body that moves as a whole.
+    """
+    bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
+    force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    for body in bodies.moving if axes and problem.C.nnz else ():
+        own = bodies.label == body
+        at = problem.numbering.nodes[own]
+        size = float(np.ptp(problem.numbering.table.coordinates[at], axis=0).max())
+        told: dict[str, Any] = {"node": problem.numbering.table.told(int(at[0]))}
+        weight = -float(bodies.along(body, axes[-1]) @ force)
+        for axis in axes:
+            way = bodies.along(body, axis)
+            drag, pull = problem.C @ way, problem.M @ way
+            mass = float(way @ pull)
+            alpha = float(way @ drag) / (mass or np.inf)
+            off = np.abs(drag - alpha * pull).max() > OFF * np.abs(drag).max()
+            if alpha <= 0.0 or off or bodies.holds(way):
+                continue
+            lifts = axis == axes[-1] and bodies.touches(-way) and not bodies.touches(way)
+            if lifts and alpha * np.sqrt(size * mass) > BRAKED * np.sqrt(max(weight, 0.0)) > 0.0:
+                fall = weight / mass / alpha
+                yield "operators.dynamics.falls-braked", {**told, "alpha": alpha, "fall": fall}
+            swings = 0.0 if joints is None else _bearing_stiffness(joints, way, weight)
+            pulsation = np.sqrt(swings / mass)
+            if alpha > 2.0 * OF_BEARINGS * pulsation > 0.0:
+                told |= {"alpha": alpha, "frequency": pulsation / (2.0 * np.pi), "axis": axis}
+                ratio = alpha / 2.0 / pulsation
+                yield "operators.dynamics.bearings-braked", {**told, "ratio": ratio}
+                return
+
+
+def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
+    """Stiffness against a motion of bearings that have yielded, none beside other joints."""
+    w = np.zeros((joints.n_points, joints.dimension))
+    local_jumps(joints.points, joints.J @ way, w)
+    moved, p = (w[:, :-1] ** 2).sum(axis=1), joints.parameters[:, [Parameter.KPOS, Parameter.RAYO]]
+    lead, pendulum = (joints.codes[moved > 0.0] == c for c in (LawCode.LEAD, LawCode.PENDULUM))
+    if lead.size and lead.all():
+        return float(p[:, 0] @ moved)
+    radius = p[moved > 0.0, 1]
+    return max(weight, 0.0) / float(radius.max()) if pendulum.size and pendulum.all() else 0.0
 
 
 def _are_weights(count: float, force: float, mass: float) -> bool:
