@@ -46,6 +46,7 @@ from ssilang.operators.dynamics.standing import (
     ground_twice,
     matter_amiss,
     out_of_balance,
+    rotary_alone,
     turns_heavily,
     unequal_joints,
     velocity_of_rest,
@@ -234,6 +235,7 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
+    rotary_alone,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
