@@ -50,6 +50,7 @@ from ssilang.operators.dynamics.standing import (
     turns_heavily,
     unequal_joints,
     velocity_of_rest,
+    weak_cores,
 )
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
@@ -235,7 +236,7 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
-    rotary_alone,
+    rotary_alone, weak_cores,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (

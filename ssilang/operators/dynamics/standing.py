@@ -51,6 +51,7 @@ UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
 OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
+CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
 TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
@@ -204,6 +205,22 @@ def braked(problem: Problem, _: Inputs) -> Told:
                 ratio = alpha / 2.0 / pulsation
                 yield "operators.dynamics.bearings-braked", {**told, "ratio": ratio}
                 return
+
+
+def weak_cores(problem: Problem, _: Inputs) -> Told:
+    """Lead cores that yield under next to nothing of the weight above."""
+    bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
+    lead = [] if joints is None else joints.codes == LawCode.LEAD
+    force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    for body in bodies.moving if np.any(lead) and axes else ():
+        assert joints is not None
+        up, w = bodies.along(body, axes[-1]), np.zeros((joints.n_points, joints.dimension))
+        local_jumps(joints.points, joints.J @ up, w)
+        cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
+        if 0.0 < cores < CORES * (weight := -float(up @ force)):
+            node = problem.numbering.table.told(int(problem.numbering.nodes[(up != 0.0).argmax()]))
+            told = {"node": node, "cores": cores, "weight": weight, "share": cores / weight}
+            yield "operators.dynamics.cores-weak", told
 
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
