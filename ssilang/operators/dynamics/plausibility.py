@@ -44,6 +44,7 @@ from ssilang.operators.dynamics.standing import (
     braked,
     footing_too_wide,
     ground_twice,
+    mass_of_both,
     matter_amiss,
     out_of_balance,
     rotary_alone,
@@ -236,7 +237,7 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
-    rotary_alone, weak_cores,
+    rotary_alone, weak_cores, mass_of_both,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (

@@ -5,6 +5,7 @@ them: the levers of all points about an axis have its own between them.
 """
 
 from collections.abc import Iterable, Iterator
+from itertools import product
 from typing import Any, cast
 
 import numpy as np
@@ -51,6 +52,7 @@ UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
 OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
+PAIR = 2  # terms of a relation of two nodes
 CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
@@ -131,6 +133,24 @@ def rotary_alone(problem: Problem, inputs: Inputs) -> Told:
             told = {"inertia": inertia[i], "mass": own[i], "way": np.sqrt(inertia[i] / own[i])}
             yield "operators.dynamics.rotary-alone", {"node": node, "size": size, **told}
             return
+
+
+def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
+    """Two nodes of one place that move together, each with the mass of a line of nodes."""
+    given = [] if inputs.mass is None else inputs.mass.blocks
+    lumps = [b for b in given if b.zone is None and b.raw_nodes.shape == (len(b.nodes), 1)]
+    table = problem.numbering.table
+    for r in inputs.stiffness.relations if lumps else ():
+        first = r.row_start[:-1][(np.diff(r.row_start) == PAIR) & (r.sense == 0)]
+        a, b = r.nodes[first], r.nodes[np.minimum(first + 1, len(r.nodes) - 1)]
+        one = np.abs(table.coordinates[a] - table.coordinates[b]).max(axis=1, initial=0.0) < BESIDE
+        for k, lump in product(np.flatnonzero(one & (a != b)).tolist(), lumps):
+            (name, other), (c, d) = (x[first[k] :][:PAIR] for x in (r.unknowns, r.coefficients))
+            several = name == other and c == -d and name in lump.unknowns
+            if several and len(lump.nodes) > PAIR and np.isin([a[k], b[k]], lump.nodes).all():
+                told = {"node": table.told(int(a[k])), "unknown": name}
+                yield "operators.dynamics.mass-of-both", told
+                return
 
 
 def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
