@@ -35,6 +35,7 @@ from ssilang.kernel.waves.shaken import (
     shares,
 )
 from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
+from ssilang.operators.matrices.connections import rotary_without_mass
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -42,7 +43,6 @@ OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
 LARGEST = 100.0  # m; a structure that is a point on a short joint may have less
-OF_SIZE = 0.25  # of the model: a radius of gyration of what has no mass of its own
 OFF = 1e-3  # of a load's factor: less is no other one
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
@@ -113,26 +113,10 @@ def turns_heavily(problem: Problem, _: Inputs) -> Told:
 
 
 def rotary_alone(problem: Problem, inputs: Inputs) -> Told:
-    """Rotary inertia that nodes are given without mass, far beyond what their cells have."""
-    given = [] if inputs.mass is None else inputs.mass.blocks
-    lumps = [b for b in given if b.zone is None and b.raw_nodes.shape[1] == 1]
-    numbering, table, axes = problem.numbering, problem.numbering.table, axes_of(problem)
-    moved = [b.nodes.ravel() for b in lumps if {*axes} & {*b.unknowns}]
-    size = float(np.ptp(table.coordinates[numbering.nodes], axis=0).max(initial=0.0))
-    mass = np.zeros((len(table), len(axes)))
-    for k, axis in enumerate(axes):
-        along = (numbering.codes == numbering.code(axis)).astype(float)
-        np.add.at(mass[:, k], numbering.nodes, along * (problem.M @ along))
-    for block in lumps:
-        inertia = np.diagonal(block.values, axis1=1, axis2=2).max(axis=1)
-        nodes, own = block.nodes[:, 0], mass[block.nodes[:, 0]].max(axis=1, initial=0.0)
-        alone = (own > 0.0) & ~np.isin(nodes, np.concatenate([nodes[:0], *moved]))
-        far = alone & (inertia > (OF_SIZE * size) ** 2 * own)
-        if far.any() and not any(True for _ in turns_heavily(problem, inputs)):
-            node, i = table.told(int(nodes[far][0])), int(far.argmax())
-            told = {"inertia": inertia[i], "mass": own[i], "way": np.sqrt(inertia[i] / own[i])}
-            yield "operators.dynamics.rotary-alone", {"node": node, "size": size, **told}
-            return
+    """Rotary inertia where masses are meant, but for that of masses far away, told already."""
+    found = None if inputs.mass is None else rotary_without_mass(inputs.mass)
+    if found is not None and not any(True for _ in turns_heavily(problem, inputs)):
+        yield "operators.matrices.rotary-alone", found
 
 
 def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
