@@ -184,6 +184,10 @@ def braked(problem: Problem, _: Inputs) -> Told:
     """
     bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
     force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    steps, times = bodies.factors[:, changing(problem)], problem.times
+    most = np.abs(steps).max(axis=0, initial=0.0)
+    rate = np.abs(np.diff(steps, axis=0) / np.diff(times)[:, None]).max(axis=0, initial=0.0)
+    rate = np.inf if problem.v.any() else float((rate / most).max(initial=0.0))
     for body in bodies.moving if axes and problem.C.nnz else ():
         own = bodies.label == body
         at = problem.numbering.nodes[own]
@@ -199,7 +203,8 @@ def braked(problem: Problem, _: Inputs) -> Told:
             if alpha <= 0.0 or off or bodies.holds(way):
                 continue
             lifts = axis == axes[-1] and bodies.touches(-way) and not bodies.touches(way)
-            if lifts and alpha * np.sqrt(size * mass) > BRAKED * np.sqrt(max(weight, 0.0)) > 0.0:
+            rocks = np.sqrt(max(weight, 0.0) / mass / size) if size else 0.0
+            if lifts and alpha > BRAKED * rocks > 0.0 and rate > rocks:  # else slow, to equilibrium
                 fall = weight / mass / alpha
                 yield "operators.dynamics.falls-braked", {**told, "alpha": alpha, "fall": fall}
             swings = 0.0 if joints is None else _bearing_stiffness(joints, way, weight)
