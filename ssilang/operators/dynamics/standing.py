@@ -129,8 +129,9 @@ def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
         a, b = r.nodes[first], r.nodes[np.minimum(first + 1, len(r.nodes) - 1)]
         one = np.abs(table.coordinates[a] - table.coordinates[b]).max(axis=1, initial=0.0) < BESIDE
         for k, lump in product(np.flatnonzero(one & (a != b)).tolist(), lumps):
-            (name, other), (c, d) = (x[first[k] :][:PAIR] for x in (r.unknowns, r.coefficients))
-            several = name == other and c == -d and name in lump.unknowns
+            name, other = r.unknowns[first[k] :][:PAIR]
+            opposed = not r.coefficients[first[k] :][:PAIR].sum()
+            several = name == other and opposed and name in lump.unknowns
             if several and len(lump.nodes) > PAIR and np.isin([a[k], b[k]], lump.nodes).all():
                 told = {"node": table.told(int(a[k])), "unknown": name}
                 yield "operators.dynamics.mass-of-both", told

@@ -186,23 +186,22 @@ def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
 
 
 def rotary_without_mass(mass: Matrix) -> dict[str, Any] | None:
-    """Rotary inertia given to a node that got no mass, far beyond what its cells have."""
+    """Rotary inertia at a node far beyond what its cells have, where no node is given a mass."""
     lumps = [b for b in mass.blocks if b.zone is None and b.raw_nodes.shape[1] == 1]
     turning = [b for b in lumps if all(u[0] == "R" for u in b.unknowns)]
-    if not turning:
+    if not turning or len(turning) < len(lumps):
         return None
     every = np.unique(np.concatenate([b.nodes.ravel() for b in mass.blocks]))
     size = float(np.ptp(mass.table.coordinates[every], axis=0).max())
-    own, moved = np.zeros((len(mass.table), 3)), np.zeros(len(mass.table), bool)
+    own = np.zeros((len(mass.table), 3))
     for block, (k, axis) in product(mass.blocks, enumerate(("UX", "UY", "UZ"))):
         at = np.flatnonzero(np.array(block.unknowns) == axis)
         rows = block.values[:, at][:, :, at].sum(axis=2)
         np.add.at(own[:, k], block.nodes[:, block.local[at]], rows)
-        moved[block.nodes[:, block.local[at]]] |= block in lumps
     for block in turning:
         nodes, inertia = block.nodes[:, 0], np.diagonal(block.values, axis1=1, axis2=2).max(axis=1)
         beside = own[nodes].max(axis=1)
-        far = (beside > 0.0) & ~moved[nodes] & (inertia > (_OF_SIZE * size) ** 2 * beside)
+        far = (beside > 0.0) & (inertia > (_OF_SIZE * size) ** 2 * beside)
         if far.any():
             i = int(far.argmax())
             told = {"inertia": inertia[i], "mass": beside[i], "size": size}
