@@ -169,7 +169,8 @@ FILES = {
 
 SENSIBLE_FILES = {
     "a record that begins at a fifth of its peak": (
-        "E = LIRE 'SIGNAL' 'a.csv' 1. ;", {"a.csv": cut(0.2)},
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ;",
+        {"a.csv": cut(0.2)},
     ),
     "surfaces": (
         "S = LIRE 'STL' 'm.stl' ; OPTI DIME 3 ; S = LIRE 'STL' 'n.stl' ;",
