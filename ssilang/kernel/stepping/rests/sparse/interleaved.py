@@ -21,7 +21,6 @@ from ssilang.kernel.stepping.problem.moving_supports import (
     Start,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     BOTH,
     DOWN,
@@ -96,7 +95,7 @@ class InterleavedLoop:
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
-        self.joints, joints = joints_of(problem), problem.interface
+        self.joints, joints = problem.joints, problem.interface
         soft = joints is not None and joints.is_soft(effective.S) and not effective.R.any()
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
         self.newton = workspace(motion.w.shape, q, single=soft)
