@@ -10,8 +10,6 @@ so the reactions are those of any other order. Velocities are corrected as `impa
 say.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

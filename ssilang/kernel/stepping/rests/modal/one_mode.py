@@ -17,8 +17,6 @@ so that the new u, v, a follow from the old ones by a few fused products side by
 finds the joint beyond its branch is made again by the law.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -11,8 +11,6 @@ they are eliminated from the interface's compliance once for a step length. Supp
 loads stand among the others, `lift` holds the jumps that they make.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

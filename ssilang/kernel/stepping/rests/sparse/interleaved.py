@@ -47,6 +47,7 @@ from ssilang.kernel.stepping.track import View, whole_view
 KEPT = ("u", "v", "a", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
+MANY = 16_384  # unknowns of steps between them where unknowns are few: they cost calls alone
 
 
 def fits(problem: Problem, effective: Effective) -> bool:
@@ -117,8 +118,9 @@ class InterleavedLoop:
         worst, r, steps = 0, recorder, len(recorder.row)
         seen = self.seen(r.tap.at)
         peaks = peaks_of(self.T.shape[1] if len(r.peaks.u) else 0, r.peaks.joints.shape[1])
-        for first in range(0, steps, BLOCK):
-            part = slice(first, min(first + BLOCK, steps))
+        length = max(BLOCK, MANY // max(self.T.shape[1], 1))
+        for first in range(0, steps, length):
+            part = slice(first, min(first + length, steps))
             given = np.ascontiguousarray(factors[first : part.stop + 1])
             block = self.block(given)
             kept = self.room(block, r, part, seen)._replace(peaks=peaks)
