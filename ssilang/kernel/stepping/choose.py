@@ -5,8 +5,6 @@ system, the modes) is made once, when a rule asks for it. A problem loads the lo
 each brings compiled functions, a hundredth of a second or two.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -91,7 +89,7 @@ class Case:
         return pays(self.problem, effective_matrix(self.problem, self.dt))
 
     @cached_property
-    def modal(self) -> SmallLoop | None:
+    def modal(self) -> "SmallLoop | None":
         """The loop on all modes of a small problem, if it has some."""
         if not self.problem.small:
             return None
@@ -103,7 +101,7 @@ class Case:
         return SmallLoop(self.problem, self.motion, self.effective, modes)
 
     @cached_property
-    def stops(self) -> ContactLoop | None:
+    def stops(self) -> "ContactLoop | None":
         """The compiled loop of unilateral relations, if it can run the problem."""
         if self.problem.contact is None:
             return None
