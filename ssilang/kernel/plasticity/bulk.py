@@ -1,5 +1,7 @@
 """All plastic zones of a problem together: state, forces, tangent, results."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -132,7 +134,7 @@ class Bulk:
         """The state of virgin material."""
         return tuple(map(_virgin, self.zones))
 
-    def entered(self, before: "Bulk", state: State, time: float) -> State:
+    def entered(self, before: Bulk, state: State, time: float) -> State:
         """A state of the same zones `before` they had these parameters: elastic strains stay."""
         made = []
         for i, (own, old, known) in enumerate(zip(self.zones, before.zones, state, strict=True)):
@@ -235,14 +237,14 @@ class Bulk:
         )
 
     @cached_property
-    def passes(self) -> "tuple[ZonePass | None, ...]":
+    def passes(self) -> tuple[ZonePass | None, ...]:
         """Compiled passes of the zones that have them."""
         return tuple(
             _pass_of(*each, self.least) for each in zip(self.zones, self.places, strict=True)
         )
 
     @cached_property
-    def terms(self) -> "Pattern":
+    def terms(self) -> Pattern:
         """Where the terms of the tangent stand."""
         from ssilang.kernel.plasticity.solving.positive import Pattern
 
@@ -309,7 +311,7 @@ def _virgin(zone: PlasticPoints) -> PointState:
     return PointState(nothing, nothing, nothing, np.zeros((zone.count, len(zone.law.variables))))
 
 
-def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> "ZonePass | None":
+def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> ZonePass | None:
     law = points.law
     plain = type(points) is PlasticPoints and (law.columns is not None or law.parts is not None)
     if not plain or points.count < least:

@@ -1,5 +1,7 @@
 """The step by Newton's method on all unknowns: plastic bodies and joints together."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -226,7 +228,7 @@ class BulkSolver(FullNewtonSolver):
         return len(last) == 3 and max(last) <= STALLED and last[-1] > 0.3 * last[0]
 
 
-def _positive_factors(problem: Problem, bulk: Bulk) -> "PositiveFactors | None":
+def _positive_factors(problem: Problem, bulk: Bulk) -> PositiveFactors | None:
     """Cholesky factors for large bodies with symmetric tangents and no contact."""
     plain = type(bulk) is Bulk and bulk.symmetric and problem.contact is None
     if not plain or not problem.constraints.associated:

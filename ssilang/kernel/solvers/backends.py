@@ -6,6 +6,8 @@ PETSc, on as many machines as its command says, takes what a run hands to it by 
 too large for the others.
 """
 
+from __future__ import annotations
+
 import importlib.util
 from collections import OrderedDict
 from collections.abc import Callable
@@ -271,7 +273,7 @@ def _by_petsc(A: sp.csr_array, positive: bool, asked: Solver, ordering: Ordering
 
 def _by_multigrid(
     A: sp.csr_array, positive: bool, ordering: Ordering | None, asked: Solver
-) -> "MultigridFactor":
+) -> MultigridFactor:
     from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 
     if ordering is None:

@@ -4,6 +4,8 @@ A loop keeps entries of its own coordinates (`Tap`); a `View` gives the problem'
 when someone asks. Whole fields are never made on the way.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
@@ -41,7 +43,7 @@ class Map(Protocol):
         """p and c."""
         ...
 
-    def __getitem__(self, places: IntArray | slice) -> "Map":
+    def __getitem__(self, places: IntArray | slice) -> Map:
         """That of some of the unknowns."""
         ...
 
@@ -61,7 +63,7 @@ class Matrix:
         """p and c."""
         return self.X.shape[0], self.X.shape[1]
 
-    def __getitem__(self, places: IntArray | slice) -> "Matrix":
+    def __getitem__(self, places: IntArray | slice) -> Matrix:
         return Matrix(self.X[places])
 
     def __call__(self, z: FloatArray) -> FloatArray:
@@ -143,13 +145,13 @@ class Rows:
             return self.view.joints(self.tap)
         return JointRows(self.tap.w, self.tap.t, self.tap.state)
 
-    def reactions(self, balance: "Balance") -> FloatArray:
+    def reactions(self, balance: Balance) -> FloatArray:
         """Reactions (k, p) of some unknowns whose neighbours were kept too."""
         if self.tap.reaction.shape[1]:
             return self.values("reaction", np.searchsorted(self.unknowns, balance.at))
         return balance.of(self)
 
-    def chosen(self, which: BoolArray, unknowns: IntArray) -> "Rows":
+    def chosen(self, which: BoolArray, unknowns: IntArray) -> Rows:
         """Some of the instants (k,) at some of the unknowns."""
         few = self
         if not which.all():
@@ -173,7 +175,7 @@ class Rows:
         }  # fmt: skip
         return replace(few, unknowns=unknowns, tap=few.tap._replace(**held))
 
-    def settled(self) -> "Rows":
+    def settled(self) -> Rows:
         """The same with its unknowns made, if these are fewer than what was kept for them."""
         mapped = self.view.map
         if mapped is None or mapped.shape[0] >= mapped.shape[1]:

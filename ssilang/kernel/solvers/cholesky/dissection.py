@@ -7,6 +7,8 @@ are cut in turn (George 1973). Each separator and each part too small to be cut 
 All parts of a level are cut together by numpy, so that nothing waits to be compiled.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -92,10 +94,10 @@ class _Parts(NamedTuple):
     size: IntArray
     above: IntArray
 
-    def only(self, chosen: BoolArray) -> "_Parts":
+    def only(self, chosen: BoolArray) -> _Parts:
         return _Parts(*(x[chosen] for x in self))
 
-    def and_these(self, others: "_Parts") -> "_Parts":
+    def and_these(self, others: _Parts) -> _Parts:
         return _Parts(*map(np.append, self, others))
 
 

@@ -5,6 +5,8 @@ A small eigenvalue is suspected from a few inverse iterations on the factor; the
 without stiffness are found from a slightly shifted matrix and judged by their energy.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 

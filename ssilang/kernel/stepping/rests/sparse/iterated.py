@@ -6,6 +6,8 @@ made once. With the inertia of a step next to the stiffness that takes few turns
 where the last steps lead.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -50,7 +52,7 @@ SYMMETRIC = 1e-12  # of the largest tangent
 class IteratedSystem:
     """The matrix of a step with all joints closed, and its levels."""
 
-    factor: "MultigridFactor"  # of `scale T^T (A + c J^T K_0 J) T scale`, K_0 of the closed joints
+    factor: MultigridFactor  # of `scale T^T (A + c J^T K_0 J) T scale`, K_0 of the closed joints
     scale: FloatArray  # (r,)
     T: sp.csr_array  # (n, r) motions of the scaled unknowns
     J: sp.csr_array  # (q, r) their jumps
