@@ -1,7 +1,5 @@
 """One run of a sweep, in a process of its own."""
 
-from __future__ import annotations
-
 import gc
 import json
 import time
@@ -91,7 +89,7 @@ def run_task(task: Task) -> Row:
     return row
 
 
-def _inputs(result: RunResult, started: float) -> dict[str, Any]:
+def _inputs(result: "RunResult", started: float) -> dict[str, Any]:
     """What a run computed with; a file that changed meanwhile holds for no later run."""
     from ssilang.operators.files.outputs import digests_of_read, run_output
 
@@ -104,7 +102,7 @@ def _inputs(result: RunResult, started: float) -> dict[str, Any]:
     return {**output.deck().kept(), "files": files} if output.deck is not None else {}
 
 
-def row_of(task: Task, deck: Deck) -> Row | Sentence | None:
+def row_of(task: Task, deck: "Deck") -> Row | Sentence | None:
     """The row of a run that ended well, with its number in this sweep.
 
     Returns

@@ -9,8 +9,6 @@ v is no larger than these jumps, and iterated on (GMRES, Saad and Schultz 1986).
 digits, since Newton's residual is made with S itself: Y may be of single precision.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

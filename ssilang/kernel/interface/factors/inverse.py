@@ -9,8 +9,6 @@ which costs two products of q^2 numbers for each row of dD, where new factors co
 direction is `-(1 + S (c K - R))^-1 r = Y (c K - R) r - r`.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -5,8 +5,6 @@ jumps keep an inverse that points change one by one (`Inverse`); more jumps keep
 tangents, and correct what it gives (`Changed`).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
