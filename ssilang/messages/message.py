@@ -33,7 +33,7 @@ from pathlib import Path, PurePath
 from string import Formatter
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeGuard, runtime_checkable
 
-Severity = Literal["error", "warning"]
+Severity = Literal["error", "warning", "note"]
 
 _LAST = {"and": {"en": " and ", "fr": " et "}, "or": {"en": " or ", "fr": " ou "}}
 _SINGULAR = {"en": (1,), "fr": (0, 1)}

@@ -111,6 +111,29 @@ def test_warns(text, code):
     assert problems[0].severity == "warning"
 
 
+def test_signs_in_an_order_that_is_no_other_language_s_are_noted_once():
+    text = (
+        "A = 3. ;\nX = 1. + A * 0.5 ;\nY = PROG (A - (X / 2.) / A) ((A * X) ** 2) ;\n"
+        "SI (X > (A * X ** 2)) ; MESS X ; FINSI ;\nMESS (A * X / 2. + 1.) Y (X + (A * 2.)) ;\n"
+    )
+    (note,), _ = check_source(Source("test", text))
+    assert (note.code, note.severity, note.span.text) == ("left-to-right", "note", "1. + A * 0.5")
+    assert note.data["places"] == [
+        "1. + A * 0.5 = (1. + A) * 0.5 (2)",
+        "A - (X / 2.) / A = (A - (X / 2.)) / A (3)",
+        "A * X ** 2 = (A * X) ** 2 (4)",
+    ]
+    assert "note: operations go from left to right: 1. + A" in render(note)
+    assert "remarque : les opérations vont de gauche à droite : 1. + A" in render(note, "fr")
+
+
+@pytest.mark.parametrize(
+    "text", ["X = RELA 1. 'UX' P - 2. 'UX' Q * 3. ;", "X = 2. * 3. + 4. ;", "X = 1. - 2. + 3. ;"]
+)
+def test_signs_in_the_order_of_other_languages_are_not_noted(text):
+    assert "left-to-right" not in codes(text)
+
+
 @pytest.mark.parametrize("given", ["SI (Y > 0.) ; {} FINSI ;", "SI (X > 0.) ; FINSI ; {}", "{}"])
 def test_values_known_where_no_condition_asks_for_them_are_checked(given):
     entry = given.format("T . 'REDUCTION' = X ;")

@@ -16,7 +16,7 @@ from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
-from ssilang.kernel.statics.doubled import idle_nodes
+from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -41,12 +41,17 @@ from ssilang.operators.dynamics.shaking import (
 )
 from ssilang.operators.dynamics.standing import (
     bodies_stand,
+    braked,
     footing_too_wide,
     ground_twice,
+    mass_of_both,
+    matter_amiss,
     out_of_balance,
+    rotary_alone,
     turns_heavily,
     unequal_joints,
     velocity_of_rest,
+    weak_cores,
 )
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
@@ -73,6 +78,7 @@ FEWEST, WANTED = 3, 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
 HELD = 0.99  # of all mass, on nodes that do not move
+OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
@@ -231,14 +237,15 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
-    ground_twice, footing_too_wide, sides_unlike, beside_free_field,
+    ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
+    rotary_alone, weak_cores, mass_of_both,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand, braked,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
@@ -331,7 +338,7 @@ def warn_of_contact(entries: Entries, problem: Problem, extremes: Extremes | Non
     lost = known.get(("OUVERTURE", ""))
     if found is None or found.resolved or (lost is not None and not lost.value):
         return
-    if entries.call.session.warned("operators.dynamics.mass-held"):
+    if any(map(entries.call.session.warned, OF_MASS)):
         return  # of the mass that is left
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
@@ -359,6 +366,15 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
         entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
     if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
         entries.warn("operators.dynamics.no-mass")
+
+
+def warn_of_bodies(entries: Entries, inputs: Inputs) -> None:
+    """Warn of bodies, those that yield among them, that touch and are not joined."""
+    zones = () if inputs.model is None else inputs.model.zones
+    nodes = bodies_apart(inputs.stiffness, zones)
+    if len(nodes) and not any(z.formulation == "CONTACT" for z in zones):
+        told = {"count": len(nodes), "node": inputs.stiffness.table.told(int(nodes[0]))}
+        entries.warn("operators.matrices.bodies-apart", **told)
 
 
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:

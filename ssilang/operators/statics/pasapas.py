@@ -155,6 +155,8 @@ def _stretch(
     if bodies is None and not control_asked(work) and stage.entries is work:
         plausibility.warn_of_connections(work, inputs)
         plausibility.warn_of_start(work, problem, inputs, in_statics=not dynamic)
+    elif start.reached is None:
+        plausibility.warn_of_bodies(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     axis = "UZ" if "UZ" in problem.numbering.unknowns else "UY"

@@ -104,7 +104,7 @@ class Bodies:
                 assert joints is not None
                 delta = joints.J @ motion
                 held = float(delta @ (joints.closed_stiffness() @ delta))
-                if held > 0.0 and size > 0.0 and not self.holds(motion, dashpots=True):
+                if held > 0.0 and size > 0.0 and not self.holds(motion):
                     push = self.factors @ (problem.loading.forces.T @ motion)
                     way = float(np.abs(push).max(initial=0.0)) / held
                     if way > SUNK * size:
