@@ -48,6 +48,7 @@ KEPT = ("u", "v", "a", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
 MANY = 16_384  # unknowns of steps between them where unknowns are few: they cost calls alone
+SINGLE = 400  # jumps beyond which a response of double precision leaves the cache of a core
 
 
 def fits(problem: Problem, effective: Effective) -> bool:
@@ -97,9 +98,9 @@ class InterleavedLoop:
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
         self.joints, joints = problem.joints, problem.interface
-        soft = joints is not None and joints.is_soft(effective.S) and not effective.R.any()
+        soft = q > SINGLE and joints is not None and joints.is_soft(effective.S)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
-        self.newton = workspace(motion.w.shape, q, single=soft)
+        self.newton = workspace(motion.w.shape, q, single=soft and not effective.R.any())
         self._moved: tuple[FloatArray | None, sp.csr_array] = None, sp.csr_array((0, 0))
         gram = sp.csr_array(self.T.T @ self.T)
         self._gram_diagonal = gram.diagonal()
