@@ -151,18 +151,6 @@ def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.Monkey
     np.testing.assert_allclose(third, [(0, 1, 0), (-1, 0, 0), (0, 0, 1)], atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (f"{SOLID} TRAC V 'DIRE' ;", "DIRE turns the picture after the plane of COUP"),
-        (f"{SOLID} TRAC V (0. 0.4 -9.) {DIRE} ;", "one looks along what is to go upwards"),
-        (f"{PLATE} TRAC S 'DIRE' 'COUP' (0. 0.) (1. 0.) (0. 1.) ;", "a picture in the plane"),
-    ],
-)
-def test_what_cannot_turn_is_said(text: str, said: str, tmp_path: Path) -> None:
-    assert said in refused(text, tmp_path)
-
-
 def test_deformed_shape_keeps_what_is_given() -> None:
     result = run("V = VECT U 'DEPL' ; D = (DEFO S U V 3. 'ROUG') ET (DEFO U S) ;")
     made = result.session.root.find("D")

@@ -89,16 +89,6 @@ def test_pressure_in_a_ring_of_bars_goes_on_with_its_sides(sign):
     assert root.find("K") == pytest.approx(root.find("N"), rel=1e-6)
 
 
-def test_plates_are_refused_by_name():
-    assert "finite displacements are not built for COQ4" in refused(
-        "OPTI DIME 3 ELEM QUA4 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. 0.) ;"
-        "M = MODE S MECANIQUE COQ4 ; A = MATE M 'YOUN' 1.E4 'NU' 0. 'EPAI' 0.1 ;"
-        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;"
-        "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' L ;"
-        "T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;"
-    )
-
-
 YIELDING = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 2.) ; "
     "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; "
@@ -282,15 +272,3 @@ def test_stresses_given_for_one_body_are_none_of_another(tmp_path):
     )  # fmt: skip
     alone = 2e5 * 0.7 / (1.3 * 0.4) * 2e-4
     np.testing.assert_allclose(find("L").values, [alone + 70] * 2 + [alone] * 2, rtol=5e-4)
-
-
-def test_yielding_bars_in_finite_displacements_are_refused(tmp_path):
-    assert "built for plastic laws of continuous elements, not for BARR" in refused(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
-        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ; T = TABL ; "
-        "T . 'MODELE' = M ; "
-        "T . 'CARACTERISTIQUES' = MATE M 'YOUN' 1. 'NU' 0. 'SIGY' 1. 'SECT' 1. ; "
-        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' (L POIN 1) ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
-        "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;",
-        tmp_path,
-    )

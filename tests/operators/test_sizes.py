@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from script_runs import found, refused
+from script_runs import found
 
 from ssilang.cli.run import run_text
 
@@ -42,14 +42,6 @@ def test_size_is_given_cell_by_cell():
     )  # fmt: skip
     assert (x, y) == pytest.approx((0.3, 0.7))
     assert str(name).strip() == "L"
-
-
-def test_other_elements_and_directions_are_refused():
-    line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; "
-    line += "M = MODE L MECANIQUE ELASTIQUE JOI1 ; "
-    assert "no smallest length" in refused(line + "A = TAIL 'DIAMETRE_MIN' M ;")
-    line = line.replace("JOI1", "BARR")
-    assert "only 'DIAMETRE_MIN'" in refused(line + "A = TAIL 'DIRECTION' M ;")
 
 
 def test_shells_and_beams_have_the_length_of_bending_waves():

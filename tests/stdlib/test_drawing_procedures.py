@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 
 from ssilang.cli.run import run_text
 from tests.windows import needs_window
@@ -108,10 +108,6 @@ def test_axes_have_the_lengths_asked_for():
     assert sum(b.connectivity.shape[0] for b in mesh.blocks) == 9 + 2 + 2 + 3
     at = plain.nodes.coordinates[np.concatenate([b.connectivity.ravel() for b in plain.blocks])]
     assert at.max(axis=0) == pytest.approx([3.0, 4.0, 5.0])
-
-
-def test_axes_refuse_sizes_that_do_not_come_by_dimension():
-    assert "come by 2" in refused("OPTI DIME 2 ; A = @REPERE (PROG 1. 2. 3.) ;")
 
 
 @needs_window
