@@ -189,7 +189,7 @@ def test_three_plastic_bars_are_pulled_to_collapse_by_their_greatest_strain(tmp_
 
 @pytest.mark.parametrize("seed", range(6))
 def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
-    """The greatest of lines `a + x b` is least where two of them meet, a rising and a falling one."""
+    """The greatest of lines `a + x b` is least where one that rises meets one that falls."""
     rng = np.random.default_rng(seed)
     size = 10.0**-seed
     b = size * rng.uniform(0.2, 3.0, 7) * [1, 1, 1, -1, -1, -1, -1]
