@@ -5,8 +5,6 @@ import math
 import pytest
 from script_runs import found
 
-from ssilang.cli.run import run_text
-
 
 @pytest.mark.parametrize(
     ("mesh", "want"),
@@ -58,11 +56,3 @@ def test_shells_and_beams_have_the_length_of_bending_waves():
     assert x == pytest.approx(0.25 / 0.1)
     assert y == pytest.approx(1.0 / 0.3)
     assert z == pytest.approx(1.0)
-
-
-def test_bending_lengths_want_the_thickness():
-    result = run_text(
-        "OPTI DIME 3 ELEM QUA4 ; S = ((0. 0. 0.) DROI 1 (2. 0. 0.)) TRAN 1 (0. 0.5 0.) ; "
-        "A = TAIL 'DIAMETRE_MIN' (MODE S MECANIQUE ELASTIQUE COQ4) ;"
-    )
-    assert "thickness or section is needed" in result.message

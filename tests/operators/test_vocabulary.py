@@ -263,15 +263,6 @@ def test_mate_takes_numbers_in_their_range(given, tmp_path):
     ran(_BAR.format(given), output_directory=tmp_path)
 
 
-def test_a_field_out_of_range_is_refused_too(tmp_path):
-    text = (
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE BARR ; "
-        "Y = MANU 'CHML' M 'YOUN' -5. ; A = MATE M 'YOUN' Y ;"
-    )
-    done = run_text(text, output_directory=tmp_path)
-    assert "parameter YOUN = -5 is out of its range" in done.message
-
-
 def test_mode_says_what_stands_on_the_cells(tmp_path):
     text = "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE TIOM ;"
     said = run_text(text, output_directory=tmp_path).message

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from script_runs import found, ran
 
-from ssilang.cli.run import run_text
 from tests.windows import needs_window
 
 _BAND = (
@@ -120,9 +119,3 @@ def test_turned_skin_and_loaded_shape_are_drawn(tmp_path):
     )
     ran(script, output_directory=tmp_path)
     assert len(list(tmp_path.rglob("*.png"))) == 2
-
-
-def test_a_view_without_direction_is_told():
-    script = "OPTI DIME 3 ELEM SEG2 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; "
-    script += "D = CINEMA L (MANU 'POI1' (5. 5. 5.)) (MANU 'POI1' (0. 0. 0.)) (0. 0. 1.) ;"
-    assert "direction of view 1 has no length" in run_text(script).message

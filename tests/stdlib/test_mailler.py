@@ -186,8 +186,3 @@ def test_unknown_or_mistyped_index_of_the_table_is_named():
     assert unknown.session.warnings[0].data["near"] == "LARGEUR_SOL"
     mistyped = run_text(f"{start} T0 . 'TAILLE' = 'fine' ; T1 = MAILLER T0 ;")
     assert "'TAILLE' must be FLOTTANT, found MOT" in mistyped.message
-
-
-def test_only_plane_models_are_meshed():
-    result = run_text("OPTI DIME 3 ; T1 = MAILLER 'SEMELLE' 4. ;")
-    assert "OPTI DIME 2" in result.message

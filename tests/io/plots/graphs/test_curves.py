@@ -134,6 +134,15 @@ def test_triangles_of_bars_stand_at_the_middle_of_their_curve(word: str, end: fl
     assert [bar.get_width() for bar in axes.patches] == pytest.approx([0.96] * 3)
 
 
+def test_abscissas_that_are_words_stand_below_the_axis() -> None:
+    words = ("one", "two ", "last")
+    part = CurvePart(np.array([1.0, 2.0, 3.0]), np.array([4.0, 1.0, 2.0]), abscissa_words=words)
+    (axes,) = draw_curves(Curve((part,))).axes
+    assert [(t.get_position()[0], t.get_text()) for t in axes.get_xticklabels()] == [
+        (1.0, "one"), (2.0, "two"), (3.0, "last")
+    ]  # fmt: skip
+
+
 def test_only_the_span_is_drawn() -> None:
     (axes,) = draw_curves(curve(0), CurveOptions(spans={1: (3, 5)})).axes
     assert np.allclose(axes.lines[0].get_xdata(), [0.4, 0.6, 0.8])
