@@ -354,7 +354,7 @@ class Evaluator(PhraseRunner):
             for index in target.indices[:-1]:
                 holder = self.element(holder, index, target, "no-inner-table")
             if not isinstance(holder, Table):
-                raise self.no_table(holder, target)
+                raise self.no_table(holder, target, target.indices[-1])
             holder.set(self.single(target.indices[-1]), value)
         elif isinstance(target, tree.Attribute):
             self.object_of(target).attributes[target.name] = value

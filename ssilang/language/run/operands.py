@@ -118,7 +118,7 @@ class OperandReader(ABC):
             holder = holder.attributes.get(self.single(index), ANNULE)
             return holder
         if not isinstance(holder, Table):
-            raise self.no_table(holder, item)
+            raise self.no_table(holder, item, index)
         where = self.single(index)
         value = holder.get(where)
         if value is None:
@@ -127,11 +127,13 @@ class OperandReader(ABC):
             raise SsiError(missing, index.span, index=where, known=known, path=path)
         return value
 
-    def no_table(self, holder: Any, item: tree.Path) -> SsiError:
-        base = item.base.span
-        if isinstance(holder, Mot) and self.session.frame.find(base.text.upper()) is None:
+    def no_table(self, holder: Any, item: tree.Path, index: tree.Item) -> SsiError:
+        base, before = item.base.span, item.indices[: item.indices.index(index)]
+        known = before or self.session.frame.find(base.text.upper()) is not None
+        if isinstance(holder, Mot) and not known:
             return SsiError("undefined-table", base, name=base.text)
-        return SsiError("not-a-table", base, found=type_of(holder), name=base.text)
+        at = base.to(before[-1].span) if before else base
+        return SsiError("not-a-table", at, found=type_of(holder), name=at.text)
 
     def _attribute(self, item: tree.Attribute) -> list[Operand]:
         holder = self.object_of(item)
