@@ -115,8 +115,7 @@ class OperandReader(ABC):
         self, holder: Any, index: tree.Item, item: tree.Path, missing: str = "no-index"
     ) -> Any:
         if isinstance(holder, Objet):
-            holder = holder.attributes.get(self.single(index), ANNULE)
-            return holder
+            return holder.attributes.get(self.single(index), ANNULE)
         if not isinstance(holder, Table):
             raise self.no_table(holder, item, index)
         where = self.single(index)
@@ -151,5 +150,6 @@ class OperandReader(ABC):
     def object_of(self, item: tree.Attribute) -> Objet:
         holder = self.single(item.base) if item.base is not None else self.session.frame.object
         if not isinstance(holder, Objet):
-            raise SsiError("not-an-object", item.span, found=type_of(holder))
+            found = "nothing" if holder is None else type_of(holder)
+            raise SsiError("not-an-object", item.span, found=found)
         return holder
