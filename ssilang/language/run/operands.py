@@ -150,6 +150,6 @@ class OperandReader(ABC):
     def object_of(self, item: tree.Attribute) -> Objet:
         holder = self.single(item.base) if item.base is not None else self.session.frame.object
         if not isinstance(holder, Objet):
-            found = "nothing" if holder is None else type_of(holder)
-            raise SsiError("not-an-object", item.span, found=found)
+            code = "not-an-object" if item.base is not None else "no-object-runs"
+            raise SsiError(code, item.span, found=type_of(holder), name=item.name)
         return holder
