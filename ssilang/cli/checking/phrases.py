@@ -51,11 +51,9 @@ class AbstractCall(Call):
 
     def _read(self, types: Sequence[str], after: int) -> Operand | None:
         for operand in self.operands:
-            if operand.value is UNKNOWN:
-                raise Ambiguous
-            if operand.value is SOMETHING:
-                if types == ("PROCEDUR",):
-                    continue
+            if operand.value is SOMETHING and types == ("PROCEDUR",):
+                continue
+            if operand.value is UNKNOWN or operand.value is SOMETHING:
                 raise Ambiguous
             late = after < 0 or operand.span.start >= after
             if (late and accepts(types, operand.value)) or isinstance(

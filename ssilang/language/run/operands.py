@@ -128,11 +128,10 @@ class OperandReader(ABC):
 
     def no_table(self, holder: Any, item: tree.Path, index: tree.Item) -> SsiError:
         base, before = item.base.span, item.indices[: item.indices.index(index)]
-        known = before or self.session.frame.find(base.text.upper()) is not None
-        if isinstance(holder, Mot) and not known:
-            return SsiError("undefined-table", base, name=base.text)
         at = base.to(before[-1].span) if before else base
-        return SsiError("not-a-table", at, found=type_of(holder), name=at.text)
+        alone = isinstance(holder, Mot) and self.session.frame.find(base.text.upper()) is None
+        code = "undefined-table" if alone and not before else "not-a-table"
+        return SsiError(code, at, found=type_of(holder), name=at.text)
 
     def _attribute(self, item: tree.Attribute) -> list[Operand]:
         holder = self.object_of(item)
