@@ -115,7 +115,7 @@ def _name(case: Case, *, whole: bool) -> str:
     plain = _UNFIT.sub("-", name)
     if plain == name and len(name) <= _LONGEST_NAME:
         return name
-    digest = hashlib.sha256(name.encode()).hexdigest()[:6]
+    digest = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:6]
     return f"{plain[:_LONGEST_NAME]}_{digest}"
 
 
