@@ -146,6 +146,31 @@ def test_motions_whose_names_are_no_utf_8_are_runs_that_are_kept(tmp_path):
     assert "2 of 2 runs are done already" in run(options)[1]
 
 
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+def test_motions_that_lead_out_of_their_folder_are_refused(tmp_path):
+    motions, private = tmp_path / "motions", tmp_path / "private"
+    for folder in (motions, private):
+        folder.mkdir()
+    (private / "theirs.csv").write_text("0. 0.\n1. 2.5\n")
+    (motions / "a.csv").write_text("0. 0.\n1. 1.5\n")
+    (motions / "b.csv").symlink_to(motions / "a.csv")
+    deck = tmp_path / "case.ssi"
+    deck.write_text("A = LIRE 'SIGNAL' MOTION 1. ; SORT 'BILA' 'peak' (MAXI (EXTR A 'ORDO')) ;")
+    options = SweepOptions(deck, motions=motions, out=tmp_path / "out", jobs=1)
+    assert run(options)[0] == 0
+    rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
+    assert [(r["peak"], r["folder"]) for r in rows] == [(1.5, "a"), (1.5, "b")]
+    (motions / "c.csv").symlink_to(private / "theirs.csv")
+    code, _, wrong = run(options)
+    assert code == 2
+    assert "c.csv is a link out of" in wrong
+    with pytest.raises(ssilang.Error, match="is a link out of"):
+        ssilang.sweep(deck, records=motions)
+    link = tmp_path / "named"  # by the user, as the folder itself
+    link.symlink_to(private)
+    assert run(replace(options, motions=link))[0] == 0
+
+
 def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):
     folder = tmp_path / "motions"
     folder.mkdir()
