@@ -28,7 +28,7 @@ VERSION = 1
 _OBJECTS = "objects.json"
 DAMAGES = (
     OSError, LookupError, ValueError, TypeError, AttributeError, OverflowError, EOFError,
-    RecursionError, SyntaxError, NotImplementedError, zipfile.BadZipFile, zlib.error, TokenError,
+    RuntimeError, MemoryError, SyntaxError, zipfile.BadZipFile, zlib.error, TokenError,
 )  # fmt: skip
 """What Python and its libraries raise over bytes that are no archive of ours."""
 
