@@ -84,5 +84,5 @@ def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
     raw[raw.find(b"PK\x01\x02") + 8] |= 1  # the first array, by a password
     raw[6] |= 1
     locked.path.write_bytes(raw)
-    with pytest.raises(InputError, match="is damaged: .*encrypted"):
+    with pytest.raises(InputError, match=r"is damaged: .*encrypted"):
         locked.read()
