@@ -84,9 +84,16 @@ def run_task(task: Task) -> Row:
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,
     }
+    row = _written(row)
     kept = {**_inputs(result, wall), "row": row, "seal": _seal(row)}
-    write_text(task.folder / ROW, json.dumps(kept, ensure_ascii=False) + "\n")
+    write_text(task.folder / ROW, json.dumps(kept) + "\n")
     return row
+
+
+def _written(row: Row) -> Row:
+    r"""A row as tables hold it: names of files that are no UTF-8 have `\udcff` where that is."""
+    texts = {k: v.encode("utf-8", "backslashreplace") for k, v in row.items() if isinstance(v, str)}
+    return {**row, **{name: text.decode() for name, text in texts.items()}}
 
 
 def _inputs(result: "RunResult", started: float) -> dict[str, Any]:
@@ -150,11 +157,5 @@ def row_anyhow(task: Task, work: Work = run_task) -> Row:
 
 def lost_row(task: Task, reason: str) -> Row:
     """The row of a run whose process died."""
-    return {
-        "run": task.number,
-        **task.values,
-        "exit_code": 1,
-        "seconds": None,
-        "error": f"the run was lost: {reason}",
-        "folder": task.folder.name,
-    }
+    told = {"exit_code": 1, "seconds": None, "error": f"the run was lost: {reason}"}
+    return _written({"run": task.number, **task.values, **told, "folder": task.folder.name})
