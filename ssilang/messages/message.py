@@ -18,8 +18,6 @@ table of a file is a `Message`; its data fill the templates:
 One is singular in English; in French nought is, too.
 """
 
-from __future__ import annotations
-
 from collections.abc import (
     Callable,
     Collection,

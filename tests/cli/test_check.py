@@ -190,6 +190,46 @@ def test_raises_no_false_alarm(text):
     assert errors(Source("test", text)) == []
 
 
+_UNKNOWN = (
+    "OPTI DIME 2 ; T = TABL ; T . 1 = 3. ; T . 2 = MOT 'DIME' ; A = 2. ; N = 2 ; W = MOT 'FOO' ; "
+    "E = TEXT '1. 2.' ; F = TEXT '+ 1.' ; L = PROG 1. 2. ; "
+)
+_EITHER = "SI VRAI ; OPTI DIME 2 ; SINO ; OPTI DIME 3 ; FINS ; "
+
+
+@together(
+    "phrase, code",
+    [
+        *((phrase, "unknown-operator") for phrase in (
+            "X = FOO T . 1", "X = 'FOO' T . 1", "X = FOO E", "X = FOO F", "X = FOO (T . 2 L)",
+            "X = (EXTR L 1) FOO T . 1", "X = COOR 1 (FOO T . 1)", "SI (FOO T . 1) ; FINS",
+            "X = P T . 1", "X = 'FOO' 1. 2.", "X = (1. 2.) FOO", "X = (A + 1.) FOO",
+        )),
+        *((phrase, "excess") for phrase in (
+            "X = 1. 2. 3.", "X = (1. 2.) 3.", "X = 2. W", "X = VRAI 2.", "X = COOR 1 (1. 2. 3.)",
+            f"{_EITHER} X = 1. 2. 3. 4.", "OPTI DIME 3 ; X = 1. 2. 3. 4.", "X = W W W",
+        )),
+        *((phrase, "") for phrase in (
+            "X Y = W T . 1", "X Y Z = W FOO T . 1", "X Y = (T . 2 L) FOO", "X = T . 2 L", "X = E",
+            "X = T . 1", "X = T . 1 T . 1", "X = (A + 1.) N", "X = (A + 1.) T . 1", "X = 2. F",
+            "X Y = VRAI 2.",
+            "X Y = A N ; Z = X + Y", "X = 1. 2. ; Y = COOR 2 X", "X = COOR 1 (T . 1 T . 1)",
+            f"{_EITHER} X = 1. 2. ; Y = COOR 1 X", f"{_EITHER} X Y = 1. 2. ; Z = X + Y",
+            "OPTI DIME 3 ; X Y = 1. 2. ; Z = X + Y", "OPTI DIME 3 ; X = 1. 2. 3. ; Y = COOR 3 X",
+        )),
+        ("SI (1. 2.) ; FINS", "condition"), ("X = COOR 1 (1.)", "wrong-argument"),
+        ("OPTI DIME 3 ; X = A N", "third-coordinate"), ("X Y = 3.", "no-result"),
+    ],
+)  # fmt: skip
+def test_what_a_phrase_leaves_is_judged_as_by_a_run(phrase, code):
+    text = f"{_UNKNOWN}{phrase} ;"
+    problems, _ = check_source(Source("test", text))
+    done = run_text(text)
+    for told in (problems, done.errors):
+        assert [p.code for p in told if p.severity == "error"] == [code][: bool(code)]
+    assert done.exit_code == bool(code)
+
+
 _BODY = "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
 _MODEL = "MO = MODE S MECANIQUE ELASTIQUE ; "
 _CURVE = "(PROG 1. 2.) {} (PROG 3. 4.) ; LIST E ; "

@@ -4,8 +4,6 @@ A load shakes where it is the mass times an acceleration of the whole: what move
 the ground then.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
@@ -37,12 +35,12 @@ SIDEWAYS = ((0, "UX"), (0, "UR"), (1, "UY"))
 ALIKE = (0.75, 6.0)  # impedances of sides over that of their cells; rock beside soil has some
 
 
-def axes_of(problem: Problem) -> list[str]:
+def axes_of(problem: "Problem") -> list[str]:
     """Displacements that the problem knows."""
     return [a for a in AXES if a in problem.numbering.unknowns]
 
 
-def translations(problem: Problem) -> FloatArray:
+def translations(problem: "Problem") -> FloatArray:
     """Motions (n, d) of the whole along its axes."""
     numbering = problem.numbering
     rows = [numbering.codes == numbering.code(a) for a in axes_of(problem)]
@@ -56,12 +54,12 @@ def shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:
     return np.where(off > SAME * np.abs(wholes).max(axis=0, initial=0.0), 0.0, found)
 
 
-def changing(problem: Problem) -> BoolArray:
+def changing(problem: "Problem") -> BoolArray:
     """Which loads (k,) change."""
     return np.asarray(np.ptp(problem.loading.at(problem.times), axis=0) > 0.0)
 
 
-def accelerations(problem: Problem) -> FloatArray:
+def accelerations(problem: "Problem") -> FloatArray:
     """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others.
 
     Where one node has all the mass, any force on it is some: one of -1 alone, or of -g, is meant.
@@ -76,7 +74,7 @@ def accelerations(problem: Problem) -> FloatArray:
     return found
 
 
-def is_shaken(problem: Problem, name: str) -> bool:
+def is_shaken(problem: "Problem", name: str) -> bool:
     """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
     axes = axes_of(problem)
     shaking = accelerations(problem) * changing(problem)
@@ -123,7 +121,9 @@ class Long:
     usual: int
 
 
-def unlike_sides(stiffness: Matrix, mass: Matrix, damping: Matrix) -> tuple[int, float] | None:
+def unlike_sides(
+    stiffness: "Matrix", mass: "Matrix", damping: "Matrix"
+) -> tuple[int, float] | None:
     """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
 
     A uniform strain s across a face of area A and a translation t tell the impedance of cells of
@@ -154,8 +154,8 @@ def unlike_sides(stiffness: Matrix, mass: Matrix, damping: Matrix) -> tuple[int,
 
 
 def _strained(
-    block: ElementMatrices,
-    mass: ElementMatrices,
+    block: "ElementMatrices",
+    mass: "ElementMatrices",
     some: slice | IntArray,
     x: FloatArray,
     name: str,
@@ -168,7 +168,7 @@ def _strained(
 
 
 def longest_cell(
-    stiffness: Matrix, mass: Matrix, axis: str, frequency: float, upwards: bool = True
+    stiffness: "Matrix", mass: "Matrix", axis: str, frequency: float, upwards: bool = True
 ) -> Long | None:
     """The cell that is longest for shear waves of a frequency (Hz), None without cells.
 
@@ -189,8 +189,8 @@ def longest_cell(
 
 
 def _sheared(
-    stiffness: Matrix, mass: Matrix, axis: str
-) -> Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]:
+    stiffness: "Matrix", mass: "Matrix", axis: str
+) -> "Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]":
     """Some cells of solids with mass: `s K s` and `t M t` of a shear of one and a translation."""
     heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
     for block in stiffness.blocks:
@@ -204,7 +204,7 @@ def _sheared(
             yield block, zone, some, *_strained(block, heavy[id(block.raw_nodes)], some, up, axis)
 
 
-def matter(stiffness: Matrix, mass: Matrix) -> FloatArray:
+def matter(stiffness: "Matrix", mass: "Matrix") -> FloatArray:
     """Node, height, density, speed of shear waves (n, 4) of some cells of solids that have mass."""
     found = [np.zeros((0, 4))]
     for block, zone, some, stiff, whole in _sheared(stiffness, mass, "UX"):

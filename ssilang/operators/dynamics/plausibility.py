@@ -71,6 +71,7 @@ NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its en
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
+HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stages sees less
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 FEWEST, WANTED = 3, 20  # steps of a period
@@ -306,8 +307,11 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
     ends = [0, int(np.abs(y).argmax())]
-    straight = np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size
-    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw and not straight:
+    ahead = AHEAD
+    if np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size:
+        # the time itself may be the factor of the load; what reaches 1 later is the whole load
+        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else np.inf
+    if np.abs(y[x > last]).max(initial=0.0) > ahead * saw > 0.0:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
     if at_rest and np.abs(np.diff(before)).sum() > SWUNG * size:

@@ -157,7 +157,7 @@ def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
             push = bodies.factors @ (loading.forces.T @ way)
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
             most = float(np.abs(push).max(initial=0.0))
-            if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, problem.C):
+            if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, dashpots=True):
                 yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
