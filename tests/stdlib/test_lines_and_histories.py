@@ -41,7 +41,8 @@ def test_cable_is_the_elastic_catenary(dimension, first, second, stiffness):
     mode = "MODE PLAN CONT" if dimension == 2 else ""
     z, t, length, points, kept = found(
         f"OPTI DIME {dimension} {mode} ELEM QUA8 ; P1 = {first} ; P2 = {second} ;"
-        f"G M C = HAUBAN P1 P2 {stiffness} 50. 106. 40 ; Z = EXTR (COOR {dimension} G) 'VALE' 'SCAL' G ;"
+        f"G M C = HAUBAN P1 P2 {stiffness} 50. 106. 40 ; Z1 = COOR {dimension} G ;"
+        "Z = EXTR Z1 'VALE' 'SCAL' G ;"
         "T = EXTR (CHAN 'CHPO' M C) 'VALE' 'EFFX' G ; L = MESU G ; N = NBEL G ; E = VALE 'ELEM' ;",
         "Z", "T", "L", "N", "E",
     )  # fmt: skip
