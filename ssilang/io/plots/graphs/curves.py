@@ -170,8 +170,7 @@ def _colours(given: list[int]) -> list[str]:
     """Shades of curves: their own; those without one get, if several, colours not yet used."""
     if given.count(0) < 2:
         return [shade(c, ink=True) for c in given]
-    free = [c for c in CYCLE if index_of(c) not in given] or list(CYCLE)
-    turns = cycle(free)
+    turns = cycle([c for c in CYCLE if index_of(c) not in given] or CYCLE)
     return [shade(c or next(turns), ink=True) for c in given]
 
 
