@@ -63,7 +63,8 @@ def _paint(f: Faces, inks: Inks, solid: bool, options: PictureOptions) -> tuple[
     """Inks of faces and of their edges."""
     edge = inks.copy()
     if options.filled:
-        plain = np.isin(f.colours, (0, index_of("BLAN")))[:, None] & (inks[:, :3].max(axis=1) < 0.2)[:, None]
+        white = np.isin(f.colours, (0, index_of("BLAN")))
+        plain = (white & (inks[:, :3].max(axis=1) < 0.2))[:, None]
         base = np.where(plain, _DEFAULT_FILL, 0.25 * _PAPER + 0.75 * inks[:, :3])
         fill = np.column_stack([base, np.ones(len(base))])
         edge[:, :3] = 0.45 * fill[:, :3] if options.filled == "FACE" else 1.0
@@ -82,8 +83,7 @@ def _inks(f: Faces, layer: Layer) -> Inks:
 
 
 def _mixed(inks: Inks, share: float) -> Inks:
-    rgb = (1 - share) * _PAPER + share * inks[:, :3]
-    return np.column_stack([rgb, np.ones(len(rgb))])
+    return np.column_stack([(1 - share) * _PAPER + share * inks[:, :3], np.ones(len(inks))])
 
 
 def _edge_width(points: FloatArray, painter: Painter, size: float) -> float:
