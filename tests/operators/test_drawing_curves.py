@@ -7,7 +7,7 @@ import pytest
 from script_runs import ran, refused
 from together import together
 
-from ssilang.cli.run import RunResult
+from ssilang.cli.run import RunResult, run_text
 
 CURVES = (
     "E1 = EVOL 'MANU' 'BLEU' 't (s)' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; "
@@ -133,3 +133,21 @@ def test_bars_of_a_histogram(tmp_path: Path) -> None:
     assert [p.colour for p in found.find("E").parts] == [1, 2]
     (part,) = found.find("W").parts
     assert (part.abscissa_name, part.ordinate_name) == ("abscissas of", "ordinates of")
+
+
+WHITES = [
+    "E = EVOL BLAN 'MANU' 'X' (PROG 0. 1.) 'Y' (PROG 0. 1.) ; DESS E ;",
+    "E = EVOL 'MANU' 'X' (PROG 0. 1.) 'Y' (PROG 0. 1.) ; DESS ((COUL E BLAN) ET (COUL E ROUG)) ;",
+    "OPTI DIME 2 ELEM SEG2 ; TRAC (COUL (DROI 2 (0. 0.) (1. 1.)) BLAN) ;",
+    "OPTI DIME 2 ELEM QUA4 ; TRAC (COUL ((DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.)) BLAN) ;",
+]
+
+
+@pytest.mark.parametrize("script", WHITES)
+def test_white_lines_are_black_on_white_paper(tmp_path, script):
+    """Cast3M's default colour is white, on a black screen; its PostScript turns it to black."""
+    assert run_text("OPTI TRAC SVG ; " + script, output_directory=tmp_path).exit_code == 0
+    (picture,) = tmp_path.rglob("*.svg")
+    drawn = picture.read_text(encoding="utf-8")
+    assert "stroke: #ffffff" not in drawn
+    assert "stroke: #1b1f24" in drawn

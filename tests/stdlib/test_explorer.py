@@ -60,7 +60,9 @@ CURVES = [
 ]
 
 
-@pytest.mark.parametrize(("entries", "word", "truth"), CURVES)
+@pytest.mark.parametrize(
+    ("entries", "word", "truth"), CURVES + [(entries, "", truth) for entries, _, truth in CURVES]
+)
 def test_curves_in_time_and_along_a_line_are_those_of_the_bar(drawn, entries, word, truth):
     result, found = drawn(entries + f" ; EXPLORER T (MOTS {word} 'EVOL') O ;")
     assert result.exit_code == 0, result.message
@@ -92,7 +94,6 @@ def test_one_picture_is_drawn_for_each_time(drawn, words, scale):
     [
         ("(MOTS 'SMXX')", "is neither DEPL REAC"),
         ("(MOTS 'TEMP')", "no index TEMPERATURES"),
-        ("(MOTS 'EVOL') O", "name the field"),
         ("(MOTS 'DEPL' 'EVOL') O", "no index TYPE"),
     ],
 )
@@ -100,6 +101,13 @@ def test_requests_that_lack_something_are_refused(drawn, words, said):
     result, _ = drawn(f"EXPLORER T {words} ;")
     assert result.exit_code == 1
     assert said in result.message
+
+
+def test_a_curve_of_no_field_is_refused(drawn):
+    result, _ = drawn(
+        "E . 'TYPE' = MOT 'TEMP' ; E . 'COMP' = MOT 'RZ' ; EXPLORER T (MOTS 'EVOL') O ;"
+    )
+    assert "has the component RZ" in result.message
 
 
 LOADING = """

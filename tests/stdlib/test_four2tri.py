@@ -67,6 +67,30 @@ def test_whole_turn_closes_and_has_the_volume_of_the_body():
     assert root.find("P") == 5
 
 
+@pytest.mark.parametrize("angles", [(0, 10, 90), (-30, 0, 45, 50, 200), (200, 300, 350, 460, 520)])
+@pytest.mark.parametrize("upright", [False, True])
+def test_sections_stand_at_the_angles_asked_for(angles, upright):
+    listed = " ".join(f"{a}." for a in angles)
+    result, points = solved(
+        f"OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; T = TABL ;"
+        f"T . 'MAILLAGE' = S ; T . 'REDRESSE' = {'VRAI' if upright else 'FAUX'} ;"
+        f"T . 'ANGLES' = PROG {listed} ; FOUR2TRI T ; M = T . 'MAILLAGE_3D' ; V = MESU M ;"
+        "X = COOR 1 S ; Y = COOR 2 S ; A = (MAXI X) - (MINI X) ; B = (MAXI Y) - (MINI Y) ;"
+    )
+    x, y = (points[:, 0], points[:, 1]) if upright else (points[:, 0], -points[:, 2])
+    off = np.hypot(x, y) > 1e-9
+    turned = np.degrees(np.arctan2(y[off], x[off])) % 360
+    wanted = np.array(angles) % 360
+    gap = np.abs(turned[:, None] - wanted)
+    nearest = np.minimum(gap, 360 - gap)
+    assert np.all(nearest.min(axis=1) < 1e-6)
+    assert np.all(nearest.min(axis=0) < 1e-6)
+    # a cell of one sector between radii a and b: half the sine of the angle by b^2 - a^2
+    root, exact = result.session.root, 0.5 * np.sum(np.sin(np.radians(np.diff(angles)))) * 4
+    assert root.find("V") == pytest.approx(exact)
+    assert (root.find("A"), root.find("B")) == (2, 1)
+
+
 def test_a_second_call_keeps_the_mesh():
     result, _ = solved(
         PLANE + "T . 'ANGLES' = PROG 0. 45. 90. ; T . 'ELIM' = 1.E-8 ; FOUR2TRI T 1 ;"

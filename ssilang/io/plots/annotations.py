@@ -49,7 +49,7 @@ def add_arrows(painter: Painter, arrows: Arrows, size: float, positions: FloatAr
     from matplotlib.colors import to_rgba
 
     for part in arrows.parts:
-        ink = to_rgba(shade(part.colour))
+        ink = to_rgba(shade(part.colour, ink=True))
         painter.add_arrows(*arrow_ends(part, size, positions), ink, part.heads)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.io.plots.bands import Levels, cut_bands, cut_lines
 from ssilang.io.plots.cutting import nodal_means, section_of
 from ssilang.io.plots.painter import CLEAR, Painter
-from ssilang.io.plots.palette import shade
+from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import Faces, all_faces, pieces
 from ssilang.io.plots.stage import Inks
 from ssilang.io.plots.values import values_on
@@ -61,7 +61,8 @@ def _paint(f: Faces, inks: Inks, solid: bool, options: "PictureOptions") -> tupl
     """Inks of faces and of their edges."""
     edge = inks.copy()
     if options.filled:
-        plain = (f.colours == 0)[:, None] & (inks[:, :3].max(axis=1) < 0.2)[:, None]
+        white = np.isin(f.colours, (0, index_of("BLAN")))
+        plain = (white & (inks[:, :3].max(axis=1) < 0.2))[:, None]
         base = np.where(plain, _DEFAULT_FILL, 0.25 * _PAPER + 0.75 * inks[:, :3])
         fill = np.column_stack([base, np.ones(len(base))])
         edge[:, :3] = 0.45 * fill[:, :3] if options.filled == "FACE" else 1.0
@@ -75,13 +76,12 @@ def _inks(f: Faces, layer: "Layer") -> Inks:
     from matplotlib.colors import to_rgba
 
     own = f.colours if layer.colour is None else np.full(len(f.nodes), layer.colour)
-    table = {int(c): to_rgba(shade(int(c))) for c in np.unique(own)}
+    table = {int(c): to_rgba(shade(int(c), ink=True)) for c in np.unique(own)}
     return np.array([table[int(c)] for c in own], dtype=float).reshape(-1, 4)
 
 
 def _mixed(inks: Inks, share: float) -> Inks:
-    rgb = (1 - share) * _PAPER + share * inks[:, :3]
-    return np.column_stack([rgb, np.ones(len(rgb))])
+    return np.column_stack([(1 - share) * _PAPER + share * inks[:, :3], np.ones(len(inks))])
 
 
 def _edge_width(points: FloatArray, painter: Painter, size: float) -> float:

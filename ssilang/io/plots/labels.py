@@ -89,12 +89,12 @@ def _draw_tag(axes: "Axes", view: View, tag: Tag, size: float) -> None:
     right, up = PLACES[tag.place]
     reach = (tag.distance if tag.distance is not None else 0.05 * size) if (right or up) else 0.0
     place: Any = (x + right * reach, y + up * reach)
-    line = {"arrowstyle": "-", "color": shade(tag.colour), "lw": 0.8, "shrinkB": 0}
+    line = {"arrowstyle": "-", "color": shade(tag.colour, ink=True), "lw": 0.8, "shrinkB": 0}
     axes.annotate(
         to_mathtext(tag.text),
         (float(x), float(y)),
         place,
-        color=shade(tag.colour),
+        color=shade(tag.colour, ink=True),
         fontsize=9,
         ha=_ALONG[int(right)],
         va=_UP[int(up)],

@@ -45,8 +45,10 @@ NAMES: tuple[str, ...] = tuple(_SHADES)
 CYCLE: tuple[str, ...] = ("BLEU", "ROUG", "VERT", "ORAN", "VIOL", "TURQ", "BRUN", "ROSE", "GRIS")
 
 
-def shade(colour: int | str) -> str:
+def shade(colour: int | str, ink: bool = False) -> str:
     """The shade '#rrggbb' of a colour given by index or by name (first four letters count).
+
+    `ink`: of lines and words; white ones are black on the white paper.
 
     Raises
     ------
@@ -57,7 +59,7 @@ def shade(colour: int | str) -> str:
         colour = index_of(colour)
     if not 0 <= colour < len(NAMES):
         raise OutputError("io.colour-number-not", colour=colour, n_names=len(NAMES) - 1)
-    return _SHADES[NAMES[colour]]
+    return _SHADES["DEFA" if ink and NAMES[colour] == "BLAN" else NAMES[colour]]
 
 
 def index_of(name: str) -> int:

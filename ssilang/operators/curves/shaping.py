@@ -126,7 +126,7 @@ def mapp(
         x, y = f.abscissas, np.abs(f.ordinates) > 0.0
         begins = x[np.flatnonzero(~y[:-1] & y[1:]) + 1]
         pair = [_at(call, c, begins) for c in (moved, speed)]
-        parts.append(CurvePart(pair[0], pair[1], "DEPL", "VITE", "", shade(colour, 0)))
+        parts.append(CurvePart(pair[0], pair[1], "DEPL", "VITE", "", shade(colour or "BLAN", 0)))
     return Curve(tuple(parts), "CARTE DE POINCARE")
 
 

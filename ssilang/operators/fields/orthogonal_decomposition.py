@@ -110,9 +110,9 @@ def _metric(matrix: Matrix, places: Any) -> sp.csr_array:
 
 def _basis(call: Call, fields: list[NodeField], values: Any, support: Mesh | None) -> Table:
     ws = workspace(call.session)
-    inner = Table("BASE_DE_MODES")
-    if support is not None:
-        inner.set(Mot("MAILLAGE"), support)
+    made, inner = Table("BASE_MODALE"), Table("BASE_DE_MODES")
+    for table in (made, inner) if support is not None else ():
+        table.set(Mot("MAILLAGE"), support)
     for number, (field, value) in enumerate(zip(fields, values, strict=True), 1):
         mode = Table("MODE")
         mode.set(Mot("POINT_REPERE"), ws.point([0.0] * max(ws.dimension, 1)))
@@ -121,6 +121,5 @@ def _basis(call: Call, fields: list[NodeField], values: Any, support: Mesh | Non
         mode.set(Mot("FREQUENCE"), float(np.sqrt(max(value, 0.0)) / (2.0 * np.pi)))
         mode.set(Mot("DEFORMEE_MODALE"), field)
         inner.set(number, mode)
-    made = Table("BASE_MODALE")
     made.set(Mot("MODES"), inner)
     return made

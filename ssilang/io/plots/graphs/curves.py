@@ -169,10 +169,9 @@ def _lines(curve: Curve, options: CurveOptions) -> list[Line]:
 def _colours(given: list[int]) -> list[str]:
     """Shades of curves: their own; those without one get, if several, colours not yet used."""
     if given.count(0) < 2:
-        return [shade(c) for c in given]
-    free = [c for c in CYCLE if index_of(c) not in given] or list(CYCLE)
-    turns = cycle(free)
-    return [shade(c) if c else shade(next(turns)) for c in given]
+        return [shade(c, ink=True) for c in given]
+    turns = cycle([c for c in CYCLE if index_of(c) not in given] or CYCLE)
+    return [shade(c or next(turns), ink=True) for c in given]
 
 
 def _line(part: CurvePart, number: int, colour: str, width: float, options: CurveOptions) -> Line:
