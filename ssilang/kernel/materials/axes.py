@@ -28,6 +28,8 @@ class Directions:
         Turn about the third axis, degrees.
     outside : array (3,), optional
         Side of a shell to which its normal counts positive for the angle.
+    roll : float
+        Turn of the second and third axis about the first, degrees.
     """
 
     first: FloatArray
@@ -35,6 +37,7 @@ class Directions:
     radial: bool = False
     angle: float = 0.0
     outside: FloatArray | None = None
+    roll: float = 0.0
 
 
 def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray], Support]:
@@ -58,6 +61,8 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
         first = np.broadcast_to(given.first, (n, 1, 3))
         second = _second(given, flat, first)
     v1, v2 = _turned(two_axes(first, second), given.angle)
+    if given.roll:
+        v2, _ = _turned((v2, np.cross(v1, v2)), given.roll)
     out = {f"V{i}{a}": v[..., k] for i, v in ((1, v1), (2, v2)) for k, a in enumerate("XYZ")}
     return out, support
 
