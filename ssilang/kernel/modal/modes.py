@@ -38,7 +38,7 @@ class Mode:
     mass : float
         Generalised mass `x^T M x`.
     shape : NodeField
-        Largest displacement component 1, real or imaginary; with the multipliers LX of the conditions.
+        Largest displacement component 1, real or imaginary; with the multipliers LX.
     along : tuple of 3 floats
         Generalised displacements `x^T M d` for a unit translation d along X, Y, Z.
     moving : tuple of 3 floats
