@@ -28,8 +28,8 @@ from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
 
 WARPED = 100.0
-"""Stiffness about the normal per square of a cell's warp, relative to the bending stiffness: without
-it nothing takes the moments that kinks between twisted cells turn about the normal."""
+"""Stiffness about the normal per square of a cell's warp, relative to the bending stiffness: nothing
+else takes the moments that kinks between twisted cells turn about the normal."""
 
 
 def flat_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
