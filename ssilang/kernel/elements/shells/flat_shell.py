@@ -28,8 +28,8 @@ from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
 
 WARPED = 100.0
-"""Stiffness about the normal per square of a cell's warp, relative to the bending stiffness: nothing
-else takes the moments that kinks between twisted cells turn about the normal."""
+"""Stiffness about the normal over that in bending, per square of the warp: nothing else takes
+moments that kinks between twisted cells turn about it."""
 
 
 def flat_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:

@@ -10,9 +10,9 @@ from ssilang.kernel.mesh.changes.transform import (
     mirror_plane,
     mirror_point,
     move,
+    quarter_middles,
     scaling,
     shift,
-    quarter_middles,
     straighten_middles,
     to_cylindrical,
     turn,
@@ -177,7 +177,10 @@ def quartered(
     moved: Mesh = _MOVED_MESH,
     tip: Mesh | Point = Arg("POINT", "MAILLAGE", en="tip or front of the crack"),
     at: float = Opt(
-        "FLOTTANT", default=0.495, en="place of the middle node, 0 in the middle, 1 at the tip"
+        "FLOTTANT",
+        range=Range(0.0, 1.0, open_high=True),
+        default=0.495,
+        en="place of the middle node, 0 in the middle, 1 at the tip",
     ),
 ) -> None:
     """Put middle nodes of cells at a crack near the quarter of their sides."""
