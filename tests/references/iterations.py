@@ -13,8 +13,13 @@ from ssilang.kernel.interface.response import (
     new_trial,
 )
 
-KINDS = {"inverse": {}, "LU": {"few": 0}, "single LU": {"few": 0, "single": True}}
-"""Thresholds under which an interface of any size keeps these factors."""
+KINDS = {
+    "usual": {},
+    "inverse": {"few": 10**6},
+    "LU": {"few": 0},
+    "single LU": {"few": 0, "single": True},
+}
+"""A threshold: what is followed at once, or corrected for."""
 
 
 def room(joints, q, kind):

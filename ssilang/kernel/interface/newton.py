@@ -3,8 +3,6 @@
 The laws are piecewise smooth, so two or three turns reach rounding errors.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -57,8 +55,7 @@ from ssilang.kernel.interface.response import (
 #
 # and what is solved for dy is Newton's matrix of the tangents D'.
 
-MOST_TURNS = 12
-TOLERANCE = 1e-8  # of the largest traction: Newton's method goes on from there
+DIRECTED = 1e-8  # residual of an iterated direction: forces of stiff points need digits
 STIFF = 0.5  # rho under which points are stiff
 
 
@@ -197,7 +194,7 @@ def find_start(
         residual(condensed, now, trial)
         for i in range(len(trial.y)):
             trial.dy[i] = -trial.r[i]
-        if not solve_tangent(joints, condensed, factors, trial.D, trial.dy, FORCING):
+        if not solve_tangent(joints, condensed, factors, trial.D, trial.dy, DIRECTED):
             break
         for i in range(len(trial.y)):
             trial.y[i] += trial.dy[i]
@@ -210,7 +207,7 @@ def find_start(
     return 0
 
 
-TOLERANCE = 1e-12  # of the largest jump or increment: what double precision leaves
+TOLERANCE = 1e-12  # of the largest jump, increment or traction: what double precision leaves
 PLAIN_TURNS = 12  # turns without line search
 HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60

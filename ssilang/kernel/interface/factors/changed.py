@@ -1,74 +1,49 @@
-"""The condensed interface of many jumps: kept for some tangents, corrected where others are theirs.
+"""Directions of tangents other than those that a response `Y` was made of.
 
-With `Y = (1 + S K)^-1 S`, K the stiffness of the tangents that Y was made of (less what S holds in
-excess), and dK what was added to it since, on the jumps that changed points join,
+With K the stiffness of the tangents that Y belongs to (less what S holds in excess), and dK what
+was added to it since, on the jumps that changed points join,
 
     (1 + S (K + dK))^-1 x = z - Y v ,   z = x - Y K x ,   (1 + dK Y) v = dK z
 
-v is no larger than these jumps, and iterated on (GMRES, Saad and Schultz 1986). Directions need few
-digits, since Newton's residual is made with S itself: Y may be of single precision.
+v is no larger than these jumps, and iterated on (GMRES, Saad and Schultz 1986): to the last digit
+where that reads fewer numbers than z takes, since laws of straight lines then end in one turn.
 """
 
-from __future__ import annotations
-
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import apart, later
+from ssilang.kernel.base.compiled.apart import later
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_state, dot, is_equal
+from ssilang.kernel.interface.factors.inverse import Inverse, subtract_jumps
 from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 
 MOST_TURNS = 60
 FEW_TURNS = 10
-WORTH = 0.5  # numbers read, over q^3, for which a new Y costs as much
+LAST_DIGIT = 1e-13
+LONG, ALL = 0, 1  # places of `spent`
 
 
 class Changed(NamedTuple):
-    """Y and what is overwritten; the first three of one precision."""
+    """What is overwritten, and what iterations cost; none for few jumps."""
 
-    Y: FloatArray  # (q, q)
-    own: FloatArray  # (q q,) Y of the changed jumps
-    x: FloatArray  # (q,) a vector on its way
+    own: FloatArray  # (q q,) Y of the changed jumps, of the precision of Y
     jumps: IntArray  # (q,) the changed jumps
     V: FloatArray  # (m + 1, q) directions of the iteration
-    spent: FloatArray  # (1,) numbers of `own` read by long iterations since Y was made
+    # (2,) numbers read by long iterations since Y was made, by all of them since a point was taken
+    spent: FloatArray
 
 
-def new_changed(q: int, precision: Any) -> Changed:
-    """Room for q jumps of pairs (0: none is needed)."""
+def new_changed(q: int, Y: FloatArray) -> Changed:
+    """Room for q jumps of pairs (0: none is needed) beside the response Y."""
     return Changed(
-        np.zeros((q, q), precision), np.zeros(q * q, precision), np.zeros(q, precision),
-        np.zeros(q, np.int64), np.zeros((min(MOST_TURNS, q) + 1, q)),
-        np.zeros(1),
+        np.zeros(q * q, Y.dtype), np.zeros(q, np.int64), np.zeros((min(MOST_TURNS, q) + 1, q)),
+        np.zeros(2),
     )  # fmt: skip
-
-
-@compiled_fast
-def _subtract_jumps(changed: Changed, forces: FloatArray, x: FloatArray) -> None:
-    """x -= Y forces."""
-    Y, room = changed.Y, changed.x
-    for i in range(len(x)):
-        room[i] = forces[i]
-    for i in range(len(x)):
-        x[i] -= dot(Y[i], room)
-
-
-@apart
-@compiled
-def solve_base(
-    joints: Joints, condensed: Condensed, known: FloatArray, changed: Changed, x: FloatArray
-) -> None:
-    """`(1 + S K)^-1 x` in place, K of the tangents `known` that Y was made of."""
-    forces = np.zeros(len(x))
-    add_stiffness_forces(joints, condensed.c, known, x, forces)
-    for i in range(len(condensed.R)):
-        forces[i] -= dot(condensed.R[i], x)
-    _subtract_jumps(changed, forces, x)
 
 
 @compiled
@@ -90,11 +65,12 @@ def _find_changes(joints: Joints, D: FloatArray, known: FloatArray, jumps: IntAr
 
 @compiled_fast
 def _changed_forces(
-    joints: Joints, c: float, change: FloatArray, changed: Changed, g: FloatArray, v: FloatArray
-) -> None:
+    joints: Joints, c: float, change: FloatArray, changed: Changed, inverse: Inverse,
+    g: FloatArray, v: FloatArray,
+) -> None:  # fmt: skip
     """v += dK Y v of the changed jumps; g is room."""
     n = len(v)
-    C, x = changed.own[: n * n].reshape((n, n)), changed.x[:n]
+    C, x = changed.own[: n * n].reshape((n, n)), inverse.x[:n]
     for a in range(n):
         x[a] = v[a]
     for i in range(len(g)):
@@ -155,8 +131,8 @@ def _combine(H: FloatArray, V: FloatArray, e: FloatArray, count: int, x: FloatAr
 
 @compiled
 def _iterate(
-    joints: Joints, c: float, change: FloatArray, changed: Changed, g: FloatArray, v: FloatArray,
-    enough: float,
+    joints: Joints, c: float, change: FloatArray, changed: Changed, inverse: Inverse,
+    g: FloatArray, v: FloatArray, enough: float,
 ) -> bool:  # fmt: skip
     """`(1 + dK Y)^-1 v` in place by iterations; False if that takes too many turns."""
     n, most = len(v), len(changed.V) - 1
@@ -165,17 +141,20 @@ def _iterate(
     e[0] = math.sqrt(dot(v, v))
     if e[0] == 0.0:
         return True
-    limit = enough * e[0]
+    size, limit = e[0], enough * e[0]
     for i in range(n):
-        V[0, i] = v[i] / e[0]
+        V[0, i] = v[i] / size
     for k in range(most):
         copy_state(V[k], V[k + 1])
-        _changed_forces(joints, c, change, changed, g, V[k + 1])
+        _changed_forces(joints, c, change, changed, inverse, g, V[k + 1])
         _orthogonalise(V, k, H[k])
         _rotate(H, k, turned, e)
+        changed.spent[ALL] += n * n
         if k >= FEW_TURNS:
-            changed.spent[0] += n * n
-        if abs(e[k + 1]) <= limit and _combine(H, V, e, k + 1, v):
+            changed.spent[LONG] += n * n
+        last = k + 1 == n or (k + 1) * n * n > len(g) ** 2
+        good = abs(e[k + 1]) <= (limit if last else LAST_DIGIT * size)
+        if good and _combine(H, V, e, k + 1, v):
             return True
     return False
 
@@ -183,10 +162,10 @@ def _iterate(
 @later
 @compiled
 def correct_changes(
-    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, changed: Changed,
-    x: FloatArray, enough: float,
+    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse,
+    changed: Changed, x: FloatArray, enough: float,
 ) -> bool:  # fmt: skip
-    """x from `solve_base` becomes that of the tangents D; False if that takes too many turns.
+    """x from `apply_inverse` becomes that of the tangents D; False if that takes too many turns.
 
     `enough` is the residual of v that is left, relative to that of none.
     """
@@ -201,16 +180,17 @@ def correct_changes(
                 change[p, i, j] = D[p, i, j] - known[p, i, j]
     C = changed.own[: n * n].reshape((n, n))
     for a in range(n):
-        row = changed.Y[jumps[a]]
+        row = inverse.Y[jumps[a]]
         for b in range(n):
             C[a, b] = row[jumps[b]]
     add_stiffness_forces(joints, condensed.c, change, x, forces)
     v = np.empty(n)
     for a in range(n):
         v[a] = forces[jumps[a]]
-    if not _iterate(joints, condensed.c, change, changed, g, v, enough):
+    changed.spent[ALL] += q * q
+    if not _iterate(joints, condensed.c, change, changed, inverse, g, v, enough):
         return False
     for a in range(n):
         forces[jumps[a]] = v[a]
-    _subtract_jumps(changed, forces, x)
+    subtract_jumps(inverse, forces, x)
     return True

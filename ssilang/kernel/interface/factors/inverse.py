@@ -1,17 +1,16 @@
-"""The condensed interface of few jumps: `Y = (1 + S (c K - R))^-1 S`, kept while points change.
+"""The response of a condensed interface: `Y = (1 + S (c K - R))^-1 S`, which follows its points.
 
 K is the stiffness of the tangents that Y belongs to. A point whose tangent changes by dD changes K
 by `w B^T dD B`, of the rank of dD at most, and Y by
 
     Y - Y B^T (1 + M N)^-1 M B Y ,   M = c w dD ,   N = B Y B^T
 
-which costs two products of q^2 numbers for each row of dD, where new factors cost q^3. Newton's
-direction is `-(1 + S (c K - R))^-1 r = Y (c K - R) r - r`.
+which costs a product of q^2 numbers for each row of dD, where new factors cost q^3. Newton's
+direction is `-(1 + S (c K - R))^-1 r = Y (c K - R) r - r`. Directions need few digits, since
+Newton's residual is made with S itself: Y may be of single precision.
 """
 
-from __future__ import annotations
-
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,12 +18,11 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, later, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, dot, is_equal
+from ssilang.kernel.interface.copies import copy_rows, dot
 from ssilang.kernel.interface.factors.newton_matrix import newton_matrix
 from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
-UPDATES = 64  # between two times that Y is made anew: rounding does not grow
 PLAIN = 64  # jumps up to which Y is made by plain elimination
 NOTHING = 1e-15  # of the largest number: a pivot of a singular matrix
 VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is made anew
@@ -33,21 +31,17 @@ VANISHING = 1e-10  # of the largest number of `1 + M N`: a pivot from which Y is
 class Inverse(NamedTuple):
     """Y, and what is overwritten."""
 
-    Y: FloatArray  # (q, q)
+    Y: FloatArray  # (q, q) of double or single precision
+    x: FloatArray  # (q,) a vector on its way, of the precision of Y
     room: FloatArray  # (q,)
-    updates: IntArray  # (1,) how many points were changed since Y was made
-    # (q, q) Newton's, of which Y is made by plain elimination; no rows where that is done by blocks
-    matrix: FloatArray
     rows: FloatArray  # (2, d, q) `B Y` and `(Y B^T)^T` of one point
     changes: FloatArray  # (2, d, d) of one point's tangent, and the matrix of their solution
 
 
-def inverse_of(Y: FloatArray, d: int) -> Inverse:
-    """Of points in d directions."""
-    q = len(Y)
-    m = q if q <= PLAIN else 0
+def new_inverse(q: int, d: int, precision: Any = np.float64) -> Inverse:
+    """Room for q jumps of pairs of points in d directions."""
     return Inverse(
-        Y, np.zeros(q), np.zeros(1, np.int64), np.zeros((m, m)), np.zeros((2, d, q)),
+        np.zeros((q, q), precision), np.zeros(q, precision), np.zeros(q), np.zeros((2, d, q)),
         np.zeros((2, d, d)),
     )  # fmt: skip
 
@@ -131,69 +125,32 @@ def update_point(
                 T[i, j] += E[i, k] * product
     if not solve_small(T, E, VANISHING):
         return False
-    for i in range(d):
+    for k in range(len(Y)):
+        line = Y[k]
         for j in range(d):
-            if E[i, j] != 0.0:
-                left, right = columns[i], rows[j]
-                for k in range(len(Y)):
-                    factor, line = E[i, j] * left[k], Y[k]
-                    for at in range(len(right)):
-                        line[at] -= factor * right[at]
+            factor, right = 0.0, rows[j]
+            for i in range(d):
+                factor += columns[i, k] * E[i, j]
+            if factor != 0.0:
+                for at in range(len(right)):
+                    line[at] -= factor * right[at]
     return True
 
 
 @seldom
 @compiled
-def update_inverse(
-    joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse
-) -> bool:
-    """Y, that belongs to the tangents `known`, becomes that of D, as do these; False if none is."""
-    n, d, changed, Y = len(condensed.S), D.shape[1], 0, inverse.Y
-    for p in range(D.shape[0]):
-        if not is_equal(D[p], known[p]):
-            changed += 1
-    if changed == 0:
-        return True
-    # point by point, as long as that is cheaper and safe
-    if known[0, 0, 0] == known[0, 0, 0] and 3 * d * changed <= 2 * n:
-        good = inverse.updates[0] + changed <= UPDATES
-        for p in range(D.shape[0]):
-            if good and not is_equal(D[p], known[p]):
-                weight = condensed.c * joints.weights[p]
-                good = update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], inverse)
-                if good:
-                    inverse.updates[0] += 1
-                    copy_rows(D[p], known[p])
-        if good:
-            return True
-    # else anew
-    if n <= PLAIN:
-        good = make_anew(joints, condensed, D, inverse)
-    else:
-        good = make_by_blocks(joints, condensed, D, Y)
-    for p in range(D.shape[0]):
-        if good:
-            copy_rows(D[p], known[p])
-        else:
-            known[p, 0, 0] = np.nan
-    if good:
-        inverse.updates[0] = 0
-    return good
-
-
-@apart
-@compiled
-def make_anew(joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse) -> bool:
+def make_plain(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
     """Y of the tangents D; False if there is none."""
-    newton_matrix(joints, condensed, D, inverse.matrix)
-    copy_rows(condensed.S, inverse.Y)
-    return solve_small(inverse.matrix, inverse.Y, NOTHING)
+    A = np.empty(Y.shape, Y.dtype)
+    newton_matrix(joints, condensed, D, A)
+    copy_rows(condensed.S, Y)
+    return solve_small(A, Y, NOTHING)
 
 
 @seldom
 @compiled
 def make_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
-    """As `make_anew`, by factors that read large matrices less often, in the precision of Y."""
+    """As `make_plain`, by factors that read large matrices less often, in the precision of Y."""
     A, order = np.empty(Y.shape, Y.dtype), np.empty(len(Y), np.int64)
     newton_matrix(joints, condensed, D, A)
     if not factorise_dense(A, order):
@@ -204,15 +161,25 @@ def make_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, Y: Float
 
 
 @compiled_fast
+def subtract_jumps(inverse: Inverse, forces: FloatArray, x: FloatArray) -> None:
+    """x -= Y forces."""
+    Y, by = inverse.Y, inverse.x
+    for i in range(len(x)):
+        by[i] = forces[i]
+    for i in range(len(x)):
+        x[i] -= dot(Y[i], by)
+
+
+@apart
+@compiled
 def apply_inverse(
     joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
 ) -> None:
     """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
-    R, Y, g = condensed.R, inverse.Y, inverse.room
+    R, forces = condensed.R, inverse.room
     for i in range(len(x)):
-        g[i] = 0.0
+        forces[i] = 0.0
         for j in range(len(R)):
-            g[i] -= R[i, j] * x[j]
-    add_stiffness_forces(joints, condensed.c, D, x, g)
-    for i in range(len(x)):
-        x[i] -= dot(Y[i], g)
+            forces[i] -= R[i, j] * x[j]
+    add_stiffness_forces(joints, condensed.c, D, x, forces)
+    subtract_jumps(inverse, forces, x)

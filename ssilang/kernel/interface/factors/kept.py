@@ -1,50 +1,56 @@
 """What solves with Newton's matrix `1 + S (c K - R)`, and is kept while the tangents stay.
 
-Between changes of contact the tangents of successive turns and steps are the same numbers. Few
-jumps keep an inverse that points change one by one (`Inverse`); more jumps keep that of the first
-tangents, and correct what it gives (`Changed`).
+Between changes of contact the tangents of successive turns and steps are the same numbers, so a
+response is kept (`Inverse`). A point whose tangent was asked for twice is taken into it, several
+when corrections (`Changed`) have cost as much; sliding in space turns tangents at every turn, which
+are corrected for. A few jumps follow each change at once.
 """
-
-from __future__ import annotations
 
 from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import tell_more
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.copies import copy_rows, copy_state, is_equal
 from ssilang.kernel.interface.factors.changed import (
-    WORTH,
+    ALL,
+    LONG,
     Changed,
     correct_changes,
     new_changed,
-    solve_base,
 )
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
     Inverse,
     apply_inverse,
-    inverse_of,
     make_by_blocks,
-    update_inverse,
+    make_plain,
+    new_inverse,
+    update_point,
 )
 from ssilang.kernel.interface.response import Joints
 
-FEW = 160  # jumps up to which an inverse is kept
+FEW = 20  # jumps up to which a new Y costs no more than a correction
 FORCING = 1e-4  # residual of an iterated direction: the turns that it costs are few
+UPDATES = 64  # between two times that Y is made anew: rounding does not grow
+AT_ONCE = 2e6  # numbers that points are taken for without waiting: a correction costs calls, too
+ANEW = 1.3  # numbers read, over q^3, for which a new Y costs as much
+LONG_WORTH = 0.5  # of those, read by long iterations
 
 
 class Factors(NamedTuple):
-    """The tangents (n_points, d, d) that are factorised (NaN: none yet), and by which record.
+    """The tangents (n_points, d, d) that Y belongs to (NaN: none yet), those asked for at last.
 
-    `changed` is empty beside an inverse, `inverse` elsewhere.
+    `changed` is empty beside few jumps.
     """
 
     tangents: FloatArray
+    asked: FloatArray
+    updates: IntArray  # (1,) how many points were changed since Y was made
     inverse: Inverse
     changed: Changed
 
@@ -52,16 +58,14 @@ class Factors(NamedTuple):
 def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, single: bool = False) -> Factors:
     """Room for (n_points, d) local jumps and q jumps of pairs; nothing is factorised yet.
 
-    `single` is the precision of many jumps.
+    `single` is the precision of their response.
     """
-    own = q if q <= few else 0  # of an inverse
-    if own:
-        tell_more("inverse" if own <= PLAIN else "blocks")
+    tell_more("inverse" if q <= PLAIN else "blocks")
+    inverse = new_inverse(q, shape[1], np.float32 if single else np.float64)
     return Factors(
-        np.full((*shape, shape[1]), np.nan),
-        inverse_of(np.zeros((own, own)), shape[1]),
-        new_changed(q - own, np.float32 if single and q > own else np.float64),
-    )
+        np.full((*shape, shape[1]), np.nan), np.full((*shape, shape[1]), np.nan),
+        np.zeros(1, np.int64), inverse, new_changed(q if q > few else 0, inverse.Y),
+    )  # fmt: skip
 
 
 @compiled
@@ -70,14 +74,54 @@ def is_factorised(factors: Factors) -> bool:
     return not np.isnan(factors.tangents[0, 0, 0])
 
 
-@apart
+@seldom
 @compiled
-def solve_known(joints: Joints, condensed: Condensed, factors: Factors, x: FloatArray) -> None:
-    """Solve in place with the matrix of the tangents that are factorised."""
-    if len(factors.inverse.Y):
-        apply_inverse(joints, condensed, factors.tangents, factors.inverse, x)
+def make_anew(joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray) -> bool:
+    """Y of the tangents D; False if there is none."""
+    known, Y = factors.tangents, factors.inverse.Y
+    if len(Y) <= PLAIN:
+        good = make_plain(joints, condensed, D, Y)
     else:
-        solve_base(joints, condensed, factors.tangents, factors.changed, x)
+        good = make_by_blocks(joints, condensed, D, Y)
+    for p in range(len(D)):
+        copy_rows(D[p], known[p])
+        copy_rows(D[p], factors.asked[p])
+    if not good:
+        known[0, 0, 0] = np.nan
+    factors.updates[0] = 0
+    factors.changed.spent[ALL] = factors.changed.spent[LONG] = 0.0
+    return good
+
+
+@seldom
+@compiled
+def follow_points(joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray) -> int:
+    """Y takes points whose tangents stay, if that pays: how many are left, negative if none is."""
+    known, asked, inverse = factors.tangents, factors.asked, factors.inverse
+    q, d, spent = len(inverse.Y), D.shape[1], factors.changed.spent
+    few, left, staying = len(factors.changed.jumps) == 0, 0, 0
+    for p in range(len(D)):
+        if not is_equal(D[p], known[p]):
+            left += 1
+            staying += few or is_equal(D[p], asked[p])
+    cost = 2.0 * d * q * q
+    anew = staying * cost > ANEW * q**3 or factors.updates[0] + staying > UPDATES
+    enough = few or min(staying * cost, ANEW * q**3) <= spent[ALL] + cost + AT_ONCE
+    if not is_factorised(factors) or (staying and anew and enough):
+        return 0 if make_anew(joints, condensed, factors, D) else -1
+    if staying and enough:
+        for p in range(len(D)):
+            if not is_equal(D[p], known[p]) and (few or is_equal(D[p], asked[p])):
+                weight = condensed.c * joints.weights[p]
+                if not update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], inverse):
+                    return 0 if make_anew(joints, condensed, factors, D) else -1
+                copy_rows(D[p], known[p])
+        left -= staying
+        factors.updates[0] += staying
+        spent[ALL] = 0.0
+    for p in range(len(D)):
+        copy_rows(D[p], asked[p])
+    return left
 
 
 @apart
@@ -90,12 +134,15 @@ def solve_tangent(
 
     `enough` is the relative residual up to which a solution is iterated.
     """
-    if len(factors.inverse.Y):
-        if not update_inverse(joints, condensed, D, factors.tangents, factors.inverse):
-            return False
-        solve_known(joints, condensed, factors, x)
-        return True
-    return solve_changing(joints, condensed, factors, D, x, enough)
+    known, same = factors.tangents, True
+    for p in range(len(D)):
+        same = same and is_equal(D[p], known[p])
+    left = 0 if same else follow_points(joints, condensed, factors, D)
+    if left > 0:
+        return solve_changing(joints, condensed, factors, D, x, enough)
+    if left == 0:
+        apply_inverse(joints, condensed, known, factors.inverse, x)
+    return left == 0
 
 
 @seldom
@@ -104,19 +151,14 @@ def solve_changing(
     joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray, x: FloatArray,
     enough: float,
 ) -> bool:  # fmt: skip
-    """`solve_tangent` of many jumps: corrected, or by a new Y where that is cheaper."""
-    known, changed, asked = factors.tangents, factors.changed, np.empty(len(x))
-    if is_factorised(factors) and changed.spent[0] <= WORTH * len(x) ** 3:
-        copy_state(x, asked)
-        solve_base(joints, condensed, known, changed, x)
-        if correct_changes(joints, condensed, D, known, changed, x, enough):
+    """`solve_tangent` of some other tangents: corrected, or by a new Y where that is cheaper."""
+    known, inverse, changed, asked = factors.tangents, factors.inverse, factors.changed, x.copy()
+    if changed.spent[LONG] <= LONG_WORTH * len(x) ** 3:
+        apply_inverse(joints, condensed, known, inverse, x)
+        if correct_changes(joints, condensed, D, known, inverse, changed, x, enough):
             return True
         copy_state(asked, x)
-    good, changed.spent[0] = make_by_blocks(joints, condensed, D, changed.Y), 0.0
-    for p in range(len(D)):
-        copy_rows(D[p], known[p])
-    if not good:
-        known[0, 0, 0] = np.nan
-        return False
-    solve_base(joints, condensed, known, changed, x)
-    return True
+    good = make_anew(joints, condensed, factors, D)
+    if good:
+        apply_inverse(joints, condensed, known, inverse, x)
+    return good

@@ -248,7 +248,7 @@ def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
 
 @pytest.mark.parametrize(
     ("jumps", "rooms"),
-    [(60, ["inverse"]), (100, ["blocks"]), (200, [])],
+    [(60, ["inverse"]), (100, ["blocks"]), (200, ["blocks"])],
 )
 def test_the_solver_of_a_model_is_told_where_another_process_compiles(monkeypatch, jumps, rooms):
     entered = []

@@ -6,12 +6,11 @@ import pytest
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
-    UPDATES,
     apply_inverse,
-    inverse_of,
-    update_inverse,
+    new_inverse,
     update_point,
 )
+from ssilang.kernel.interface.factors.kept import UPDATES, follow_points, new_factors
 from ssilang.kernel.interface.response import Joints, interface_stiffness
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
@@ -43,8 +42,9 @@ def test_response_follows_points_that_change(d):
     rng = np.random.default_rng(d)
     joints, S, D = interface(rng, d)
     condensed = Condensed(S, 0.1 * np.eye(len(S)), SHARE)
-    Y = np.linalg.solve(matrix(joints, condensed, D), S)
-    inverse = inverse_of(Y, d)
+    inverse = new_inverse(len(S), d)
+    Y = inverse.Y
+    Y[:] = np.linalg.solve(matrix(joints, condensed, D), S)
     for turn in range(40):
         p, new = turn % len(D), D.copy()
         new[p] = 0.0 if turn % 3 == 0 else 2.5 * np.eye(d) + 0.2 * rng.normal(size=(d, d))
@@ -68,18 +68,18 @@ def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
     rng = np.random.default_rng(n_pairs)
     joints, S, D = interface(rng, 2, n_pairs)
     R = excess * np.eye(len(S)) if excess else np.zeros((0, 0))
-    inverse = inverse_of(np.zeros_like(S), 2)
-    inverse.updates[0] = 1
-    known = np.full_like(D, np.nan)
-    assert update_inverse(joints, Condensed(S, R, SHARE), D, known, inverse)
+    factors = new_factors(D.shape[:2], len(S), few=10**6)
+    factors.updates[0] = 1
+    condensed = Condensed(S, R, SHARE)
+    assert follow_points(joints, condensed, factors, D) == 0
     truth = np.linalg.solve(matrix(joints, (S, excess * np.eye(len(S)), SHARE), D), S)
-    np.testing.assert_allclose(inverse.Y, truth, atol=1e-9 * np.abs(truth).max())
-    np.testing.assert_array_equal(known, D)
+    np.testing.assert_allclose(factors.inverse.Y, truth, atol=1e-9 * np.abs(truth).max())
+    np.testing.assert_array_equal(factors.tangents, D)
     counts = [0]
     for turn in range(UPDATES + 1):  # one point a turn, and none twice in the same way
         D[turn % len(D)] = (2.0 + 0.01 * turn) * np.eye(2)
-        assert update_inverse(joints, Condensed(S, R, SHARE), D, known, inverse)
-        counts.append(inverse.updates[0])
+        assert follow_points(joints, condensed, factors, D) == 0
+        counts.append(factors.updates[0])
     assert counts == [*range(UPDATES + 1), 0]
 
 
@@ -88,11 +88,9 @@ def test_no_response_is_made_of_a_singular_matrix(n):
     """S = 1, tangents of -1: `1 + S D` vanishes."""
     pairs = np.arange(n, dtype=np.int64)[:, None]
     joints = Joints(pairs, np.ones((n, 1, 1)), np.ones(n), np.zeros(n, np.int64), np.zeros((n, 1)))
-    inverse = inverse_of(np.zeros((n, n)), 1)
-    D, known = -np.ones((n, 1, 1)), np.full((n, 1, 1), np.nan)
-    condensed = Condensed(np.eye(n), np.zeros((0, 0)), 1.0)
-    assert not update_inverse(joints, condensed, D, known, inverse)
-    assert np.isnan(known).all()
+    factors, D = new_factors((n, 1), n), -np.ones((n, 1, 1))
+    assert follow_points(joints, Condensed(np.eye(n), np.zeros((0, 0)), 1.0), factors, D) < 0
+    assert np.isnan(factors.tangents[0]).all()
 
 
 def test_response_from_factors_with_row_exchanges():
@@ -109,6 +107,7 @@ def test_response_from_factors_with_row_exchanges():
 def test_change_that_makes_the_interface_singular_is_refused():
     """One jump, S = 1: a tangent of -1 makes `1 + S D` vanish; Y stays as it was."""
     pairs, one = np.zeros((1, 1), np.int64), np.ones((1, 1))
-    inverse = inverse_of(one.copy(), 1)
+    inverse = new_inverse(1, 1)
+    inverse.Y[:] = one
     assert not update_point(pairs[0], one, 1.0, -one, 0.0 * one, inverse)
     assert inverse.Y[0, 0] == 1.0

@@ -6,8 +6,8 @@ from references.iterations import KINDS, at_rest, compiled_newton, plain_newton,
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.factors.changed import WORTH
-from ssilang.kernel.interface.factors.kept import solve_changing
+from ssilang.kernel.interface.factors.changed import ALL, LONG
+from ssilang.kernel.interface.factors.kept import LONG_WORTH, solve_tangent
 from ssilang.kernel.interface.response import accept, interface_stiffness
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
@@ -60,16 +60,16 @@ def test_changed_tangents_of_no_symmetry_are_solved_with(kind, digits, held):
         interface_stiffness(joints, D, K)
         b = random.standard_normal(q)
         x, whole_K = b.copy(), 0.7 * K - (R if held else 0.0)
-        assert solve_changing(joints, condensed, factors, D, x, 0.1 * digits)
+        assert solve_tangent(joints, condensed, factors, D, x, 0.1 * digits)
         exact = np.linalg.solve(np.eye(q) + condensed.S @ whole_K, b)
         np.testing.assert_allclose(x, exact, atol=digits * np.abs(exact).max())
         made.append(factors.tangents.copy())
     assert all((first == D).all() for D in made)
-    factors.changed.spent[0] = WORTH * q**3 + 1.0  # long iterations have cost as much as a new Y
+    factors.changed.spent[LONG] = LONG_WORTH * q**3 + 1.0  # have cost as much as a new Y
     D = 2.0 * first
-    assert solve_changing(joints, condensed, factors, D, x, digits)
+    assert solve_tangent(joints, condensed, factors, D, x, digits)
     np.testing.assert_array_equal(factors.tangents, D)
-    assert factors.changed.spent[0] == 0.0
+    assert factors.changed.spent[LONG] == 0.0
 
 
 def test_what_takes_too_many_turns_gets_its_own_factors():
@@ -81,12 +81,46 @@ def test_what_takes_too_many_turns_gets_its_own_factors():
     changed = factors.changed._replace(V=np.zeros((3, q)))  # two turns
     factors, x, K = factors._replace(changed=changed), b.copy(), np.zeros((q, q))
     D = 1e9 * np.tile(np.eye(2), (len(joints.weights), 1, 1))
-    assert solve_changing(joints, condensed, factors, D, b.copy(), 1e-10)
+    assert solve_tangent(joints, condensed, factors, D, b.copy(), 1e-10)
     D *= random.uniform(0.1, 10.0, (len(D), 1, 1))
-    assert solve_changing(joints, condensed, factors, D, x, 1e-10)
+    assert solve_tangent(joints, condensed, factors, D, x, 1e-10)
     interface_stiffness(joints, D, K)
     np.testing.assert_allclose(x + condensed.S @ (K @ x), b, atol=1e-9)
     np.testing.assert_array_equal(factors.tangents, D)
+
+
+@pytest.mark.parametrize("size", [(24, 4, 22), (40, 4, 30)])
+def test_points_that_stay_are_taken_and_others_corrected_for(size):
+    """One asked for twice; one that turns each time; all, by then worth a new response."""
+    whole = soil_block(steps=2, size=size, joint=FRICTION).interface
+    joints, q, random = whole.points, whole.size, np.random.default_rng(2)
+    root = random.standard_normal((q, q))
+    condensed = Condensed(1e-9 * (root @ root.T / q + np.eye(q)), np.zeros((0, 0)), 1.0)
+    factors, K = room(joints, q, "usual").factors, np.zeros((q, q))
+    first = 3e8 * np.tile(np.eye(2), (len(joints.weights), 1, 1))
+
+    def solved(D):
+        b = random.standard_normal(q)
+        x = b.copy()
+        assert solve_tangent(joints, condensed, factors, D, x, 1e-10)
+        interface_stiffness(joints, D, K)
+        np.testing.assert_allclose(x + condensed.S @ (K @ x), b, atol=1e-9 * np.abs(b).max())
+        return int((factors.tangents != first).any(axis=(1, 2)).sum())
+
+    D = first.copy()
+    assert solved(D) == 0
+    D[7] = 0.0
+    assert solved(D) == 0  # corrected for
+    assert factors.changed.spent[ALL] >= q * q
+    assert solved(D) == 1  # asked for twice
+    assert (factors.updates[0], factors.changed.spent[ALL]) == (1, 0.0)
+    for turn in range(4):
+        D[3] = (turn + 1) * 5e7 * np.ones((2, 2))
+        assert solved(D) == 1
+    D[:] = 0.0
+    assert solved(D) == 1
+    assert solved(D) == len(D)
+    assert factors.updates[0] == 0  # made anew
 
 
 @pytest.mark.parametrize("n", [9, 32, 33, 100, 600])
