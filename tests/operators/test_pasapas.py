@@ -405,3 +405,21 @@ def test_pressure_in_large_displacements_is_that_of_charmeca(tmp_path):
     ]
     assert found[0].min() == pytest.approx(-1.0 / 1e5 * 2.0, rel=1e-4)
     np.testing.assert_allclose(found[1], found[0], atol=1e-12)
+
+
+@pytest.mark.parametrize(("law", "large"), [("", False), ("", True), ("PLASTIQUE PARFAIT", True)])
+def test_strains_of_large_displacements_are_not_kept_which_is_told(law, large, tmp_path):
+    script = f"""OPTI DIME 3 ELEM CUB8 ;
+    S = ((DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.)) ; V = S VOLU 1 TRAN (0. 0. 1.) ;
+    M = MODE V MECANIQUE ELASTIQUE ISOTROPE {law} ; A = MATE M YOUN 10. NU 0. {law and "SIGY 5."} ;
+    P = BLOQ UZ (FACE 2 V) ; T = TABL PASAPAS ; T . MODELE = M ; T . CARACTERISTIQUES = A ;
+    T . BLOCAGES_MECANIQUES = P ET (BLOQ UZ S) ET (BLOQ UX UY V) ;
+    T . CHARGEMENT = CHAR DIMP (DEPI P 0.1) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;
+    T . TEMPS_CALCULES = PROG 0. 1. ; T . MES_SAUVEGARDES = TABL ;
+    T . MES_SAUVEGARDES . DEFTO = VRAI ; T . GRANDS_DEPLACEMENTS = {"VRAI" if large else "FAUX"} ;
+    PASAPAS T ; MESS (EXIS T DEFORMATIONS) ;"""
+    result = ran(script, output_directory=tmp_path)
+    assert result.exit_code == 0, result.message
+    codes = [w.code for w in result.session.warnings]
+    assert ("operators.statics.strains-of-large-displacements" in codes) is large
+    assert result.output.split()[-1] == ("FAUX" if large else "VRAI")

@@ -119,7 +119,7 @@ def viscosity(zone: Zone, material: CellField) -> ElementMatrices:
     whole = family.whole_matrices(zone, given, "AMORTISSEMENT")
     if whole is not None:
         return element_matrices(zone, whole[1], whole[0], "AMORTISSEMENT", keep_zone=False)
-    if "VISQ" not in given:
+    if "VISQ" not in given and "MATS" not in given:
         raise missing_parameter(zone, "VISQ", given.names)
     parameters = renamed(given, {"VISQ": "YOUN"})
     moduli = family.moduli(zone, parameters, "RIGIDITE")
@@ -256,7 +256,15 @@ def renamed(parameters: ZoneField, names: dict[str, str]) -> ZoneField:
     """The same field with some components under other names (others of that name are dropped)."""
     parts = []
     for block, rows in parameters.parts:
-        kept = {n: v for n, v in block.components.items() if n not in names.values()}
-        components = {names.get(n, n): v for n, v in kept.items()}
-        parts.append((replace(block, components=components), rows))
+        parts.append((_renamed(block, names), rows))
     return ZoneField(parameters.zone, tuple(parts))
+
+
+def _renamed(block: CellFieldBlock, names: dict[str, str]) -> CellFieldBlock:
+    """The same block under other names, in the sections of its beams (MATS) as well."""
+    kept = {names.get(n, n): v for n, v in block.components.items() if n not in names.values()}
+    if "MATS" in kept:
+        inside = kept["MATS"].flat[0]
+        section = replace(inside, blocks=tuple(_renamed(b, names) for b in inside.blocks))
+        kept["MATS"] = np.full(kept["MATS"].shape, section, dtype=object)
+    return replace(block, components=kept)

@@ -28,6 +28,8 @@ class Directions:
         Turn about the third axis, degrees.
     outside : array (3,), optional
         Side of a shell to which its normal counts positive for the angle.
+    roll : float
+        Turn of the second and third axis about the first, degrees.
     """
 
     first: FloatArray
@@ -35,6 +37,7 @@ class Directions:
     radial: bool = False
     angle: float = 0.0
     outside: FloatArray | None = None
+    roll: float = 0.0
 
 
 def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray], Support]:
@@ -45,7 +48,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     MaterialError
         If a vector is missing, zero or parallel to the other.
     """
-    if is_flat_shell(zone):
+    if is_flat_shell(zone) or zone.element == "COQ2":
         return _on_shell(zone, given), "GRAVITE"
     if ELEMENTS[zone.element].family == "joint" and zone.element != "JOI1" and given.second is None:
         return _on_joint(zone, given), "GRAVITE"
@@ -58,13 +61,21 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
         first = np.broadcast_to(given.first, (n, 1, 3))
         second = _second(given, flat, first)
     v1, v2 = _turned(two_axes(first, second), given.angle)
+    if given.roll:
+        v2, _ = _turned((v2, np.cross(v1, v2)), given.roll)
     out = {f"V{i}{a}": v[..., k] for i, v in ((1, v1), (2, v2)) for k, a in enumerate("XYZ")}
     return out, support
 
 
 def _on_shell(zone: Zone, given: Directions) -> dict[str, FloatArray]:
     """Cosines V1X V1Y of the first axis in the own frame of each shell cell."""
-    frames, _ = flat_frames(zone)
+    if zone.element == "COQ2":  # along the meridian, around, normal
+        along = np.diff(zone.cells.coordinates[:, :2], axis=1)[:, 0]
+        along /= np.linalg.norm(along, axis=1, keepdims=True)
+        around = np.broadcast_to([0.0, 0.0, 1.0], along.shape)
+        frames = np.stack([along, around, np.cross(along, around)], axis=1)
+    else:
+        frames, _ = flat_frames(zone)
     vector = np.broadcast_to(given.first, (len(frames), 3))
     if given.radial:
         vector = zone.cells.coordinates.mean(axis=1) - given.first

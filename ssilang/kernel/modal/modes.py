@@ -38,7 +38,7 @@ class Mode:
     mass : float
         Generalised mass `x^T M x`.
     shape : NodeField
-        Largest displacement component 1; with the multipliers LX of the conditions.
+        Largest displacement component 1, real or imaginary; with the multipliers LX.
     along : tuple of 3 floats
         Generalised displacements `x^T M d` for a unit translation d along X, Y, Z.
     moving : tuple of 3 floats
@@ -103,7 +103,7 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
     squares, found = problem.stiffness.multiply(problem.stiffness), []
     free = directions * (abs(problem.T).sum(axis=1) > 0.0)[:, None]
     moving = tuple((free * (problem.mass @ free)).sum(axis=0).tolist())
-    named = set().union(*TRANSLATIONS)
+    named = {part + name for name in set().union(*TRANSLATIONS) for part in ("", "I")}
     codes = [c for c, name in enumerate(problem.numbering.unknowns) if name in named]
     translates = np.isin(problem.numbering.codes, codes)
     for value, q in zip(pairs.values, pairs.shapes.T, strict=True):

@@ -60,6 +60,9 @@ def call_procedure(evaluator: Runner, procedure: Procedure, call: Call) -> list[
             if jump.name != procedure.name:
                 raise
         results = [o.value for o in evaluator.operands_of(procedure.definition.results)]
+        if session.options.get("LOCA") is True and procedure.origin != "stdlib":
+            own = {n: v for n, v in frame.variables.items() if v is not ANNULE}
+            caller.assign(f"&{procedure.name}", Table.of(own))
         return [*frame.results, *(r for r in results if r is not ANNULE)]
     except SsiError as error:
         if error.span is None:

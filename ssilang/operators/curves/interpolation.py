@@ -185,7 +185,7 @@ _PLACE = ("ENTIER", "LISTENTI")
 def integrate(
     call: Call,
     curve: Curve = Main("EVOLUTIO", en="curves"),
-    absolute: bool = Flag("ABS", en="of the absolute value"),
+    absolute: bool = Flag("ABS", length=3, en="of the absolute value"),
     bounds: Any = Key(
         "BORN",
         arg("low", *_BOUND, en="lower ones", range=ANY_NUMBER),

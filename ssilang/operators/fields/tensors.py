@@ -27,6 +27,7 @@ from ssilang.kernel.elements.results.tensors import (
     tresca,
     von_mises,
 )
+from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.solids.gradients import (
     gradient_names,
     gradient_values,
@@ -250,10 +251,15 @@ def jaco(model: Model = MODEL) -> CellField:
     """Jacobians."""
 
     def make(zone: Zone) -> CellFieldBlock:
-        if not is_solid(zone):
+        if is_solid(zone):
+            geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
+            weights = support_rule(zone.element, "RIGIDITE").weights
+            return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
+        if not (is_shell(zone) or is_structural(zone)):
             raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
-        geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
-        weights = support_rule(zone.element, "RIGIDITE").weights
-        return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
+        points = support_rule(zone.element, "RIGIDITE").points
+        slopes = shape_gradients(zone.cells.cell_type, points)
+        J = np.einsum("pki,ckd->cpid", slopes, zone.cells.coordinates)
+        return _scalar(zone, np.sqrt(np.linalg.det(J @ np.swapaxes(J, 2, 3))), "RIGIDITE")
 
     return on_zones(model, "SCALAIRE", make)

@@ -6,7 +6,7 @@ from ssilang.operators.prelude import *
 _FIXED = 1.0 / 3.0  # T0: asymptotes x T0 and x / T0
 _MOVING = 0.7  # S0: they come nearer by it where a variable swings, else go off by 1/sqrt(S0)
 _GIVEN_UP = 50.0  # DELTA0: cost of giving up a condition, beside the change of F over the range
-_NEAREST, _FIRST, _FARTHEST = 0.01, 0.5, 10.0  # distances of moving ones, shares of the range
+_NEAREST, _FARTHEST = 0.01, 10.0  # distances of moving ones, shares of the range
 _METHODS = ("STA", "MOV", "LIN")
 _HISTORY = "EXCE_ASYMPTOTES"
 
@@ -62,15 +62,13 @@ def _asymptotes(
     """Lower and upper asymptotes (n,)."""
     extent = bounds[1] - bounds[0]
     history = table.get(_HISTORY)
-    if method == "STA" or (table.has("T0") and not isinstance(history, Table)):
-        t = _share(call, table, "T0", _FIXED, 0.0, 1.0)
+    s = _share(call, table, "S0", _MOVING, 0.0, 1.0)
+    if method == "STA" or not isinstance(history, Table):
+        t = _share(call, table, "T0", _FIXED if method == "STA" else s, 0.0, 1.0)
         near, far = np.abs(x) * t, np.abs(x) / t
         wide = (bounds[0] < 0.0) & (bounds[1] > 0.0) | (x == 0.0)
         lower = np.where(wide, x - 2.0 * extent, np.where(x > 0.0, near, -far))
         return lower, np.where(wide, x + 2.0 * extent, np.where(x > 0.0, far, -near))
-    s = _share(call, table, "S0", _MOVING, 0.0, 1.0)
-    if not isinstance(history, Table):
-        return x - _FIRST * extent, x + _FIRST * extent
     last, older, lower, upper = (_numbers(call, history.get(i), _HISTORY, len(x)) for i in range(4))
     turn = (x - last) * (last - older)
     factor = np.where(turn < 0.0, s, np.where(turn > 0.0, 1.0 / np.sqrt(s), 1.0))

@@ -60,5 +60,7 @@ def cori(
 def gyro(call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = PARAMETERS) -> Matrix:
     """Turning beams."""
     shown, material = present(call, model), joined(fields)
+    if not any("OMEG" in b.components for b in material.blocks):
+        call.warn("operators.matrices.speed-of-rotation-missing")
     blocks = tuple(gyroscopic(z, material) for z in shown.zones)
     return Matrix(shown.mesh.nodes, blocks, (), "AMORTISSEMENT")

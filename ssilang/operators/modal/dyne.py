@@ -346,14 +346,14 @@ _FORM = operator(
 @_FORM.form()
 def _of_models(
     call: Call,
-    scheme: bool = Choice(("DE_VOGELAERE",), optional=False, en="how time is stepped"),
+    scheme: str = Choice(SCHEMES, optional=False, en="how time is stepped"),
     table: Table = Arg("TABLE", en="table PASAPAS"),
 ) -> None:
     """Step what a table PASAPAS describes; results go into it, by number of the saved step."""
     entries = Entries(call, table, "DYNE", "TAB11")
     entries.check()
     steps, h = entries.needed("NOMBRE_PAS"), entries.needed("PAS_DE_TEMPS")
-    plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"))
+    plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"), scheme)
     results, named = results_of_models(call, entries, plan)
     made = {name: Table() for name in ("TEMPS", "DEPLACEMENTS", "VITESSES", "LIAISONS")}
     times = results.get(Mot("TEMPS_DE_SORTIE"))

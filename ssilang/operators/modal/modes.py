@@ -42,7 +42,7 @@ def _vibr(
     highest: int,
     matrices: tuple[Matrix, ...],
     signed: bool,
-    **_: bool,
+    **_: Any,
 ) -> "Table | Solution":
     made = _modes(call, method, lowest, highest, matrices, signed)
     if not solution:
@@ -242,6 +242,7 @@ operator(
     flag("table", "TBAS", en="a table: the default"),
     flag("largest", "LM", en="accepted, changes nothing"),
     many("matrices", "RIGIDITE", en="stiffness, mass, and damping", distinct=True),
+    opt("first", "LISTCHPO", en="shapes to begin with: accepted, change nothing"),
     opt(
         "signed",
         "LOGIQUE",

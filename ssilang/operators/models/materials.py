@@ -71,7 +71,17 @@ def _tables(language: str) -> Sequence[HelpTable]:
         {
             "PARALLELE": [],
             "PERPENDICULAIRE": [],
-            "INCLINE": [arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER)],
+            "INCLINE": [
+                arg("angle", "FLOTTANT", en="angle", unit="deg", range=ANY_NUMBER),
+                opt(
+                    "roll",
+                    "FLOTTANT",
+                    default=0.0,
+                    en="angle about the first axis, in mode FOUR",
+                    unit="deg",
+                    range=ANY_NUMBER,
+                ),
+            ],
         },
         en="how the axes lie to that direction",
     ),
@@ -287,7 +297,10 @@ def _set_axes(
         raise call.error("operators.models.no-zone-has-axes")
     vectors = [None if p is None else p.coordinates for p in (*axes["others"], None, None)]
     first, radial = axes["first"].coordinates, axes.word == "RADIAL"
-    told = Directions(first, vectors[0], radial, _angle(turn), vectors[1])
+    roll = float(turn["roll"]) if turn is not None and turn.word == "INCLINE" else 0.0
+    if roll and any(model.zones[i].mode is not Mode.FOURIER for i in taking):
+        raise call.error("operators.models.roll-in-fourier-alone", turn["roll"])  # type: ignore[index]
+    told = Directions(first, vectors[0], radial, _angle(turn), vectors[1], roll)
     for i in taking:
         values, support = axis_parameters(model.zones[i], told)
         given[i].update({n: (v, support) for n, v in values.items()})

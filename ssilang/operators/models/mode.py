@@ -73,6 +73,7 @@ _SETTINGS = (
     ),
     choice("rule", ("GAUSS", "LOBATTO"), length=8, en="integration of joints"),
     choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
+    key("measure", "EPSI", arg("name", "MOT"), en="LINEAIRE or QUADRATIQUE: changes nothing"),
 )
 MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
 
@@ -197,8 +198,11 @@ def _wish(
     layers: int | None,
     rule: str | None,
     bound: str | None,
+    measure: str | None,
 ) -> Wish:
     """What words and settings say."""
+    if measure is not None and measure.upper()[:4] not in ("LINE", "QUAD"):
+        raise call.error("operators.models.strains-not-measured-so", measure, said=measure.upper())
     section = section or workspace(call.session).options.get("DPGE")
     given = {"DPGE": section, "INTEGRE": layers, "FRAME": bound}
     wish = Wish(

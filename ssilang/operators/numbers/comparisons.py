@@ -58,7 +58,7 @@ def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | Non
     kinds = type_of(a), type_of(b)
     if isinstance(a, str) and isinstance(b, str):
         return a.rstrip() == b.rstrip()
-    if "MOT" in kinds and {*kinds} & {"ENTIER", "FLOTTANT"}:
+    if "MOT" in kinds and {*kinds} & {"ENTIER", "FLOTTANT", "LOGIQUE"}:
         # they differ, which is told since the word may be a name misspelt
         call.session.warn(
             "operators.numbers.word-and-number",

@@ -58,7 +58,7 @@ _RESIDUAL = opt(
 _SCALES = arg("NORM", "LISTREEL", en="scales of unknowns", range=POSITIVE)
 _ENGLISH = {"STRESS": "CONT", "STRAIN": "DEFO"}  # behind MODE PLAN
 _UNNUMBERED = 5  # what an error without a number of Cast3M's counts as
-_KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI", "FREQ"})
+_KNOWN_BY_SESSION = frozenset({"ECHO", "ERRE", "DEBU", "VERI", "FREQ", "LOCA"})
 
 
 def reader(*words: str) -> Callable[[Reader], Reader]:

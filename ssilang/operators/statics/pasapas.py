@@ -120,7 +120,8 @@ def _strained(given: Entries, finite: bool) -> CellField | None:
     if asked is None or not asked.flag("DEFTO"):
         return None
     if finite:
-        raise given.error("operators.statics.strains-of-large-displacements")
+        given.warn("operators.statics.strains-of-large-displacements")
+        return None
     material: CellField = given.needed("CARACTERISTIQUES")
     return material
 

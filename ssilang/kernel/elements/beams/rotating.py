@@ -139,7 +139,7 @@ def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> E
         raise FieldError("kernel.elements.corotational-damping-beams-space", element=zone.element)
     parameters = zone_field(zone, material)
     axes = beam_frame(zone, parameters).axes
-    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE")[:, 0], (len(axes),))
+    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE", 1.0)[:, 0], len(axes))
     turn = np.zeros((len(axes), *damping.values.shape[1:]))
     w = speed[:, None] * axes[:, 0]
     for start in range(0, turn.shape[1], 3):
@@ -167,7 +167,7 @@ def gyroscopic(zone: Zone, material: CellField) -> ElementMatrices:
     family, parameters = family_of(zone), zone_field(zone, material)
     frame = beam_frame(zone, parameters)
     _, moments = family.linear_mass(zone, parameters)  # type: ignore[attr-defined]
-    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE")[:, 0], (len(frame.lengths),))
+    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE", 1.0)[:, 0], len(frame.lengths))
     local = np.zeros((len(frame.lengths), 12, 12))
     scale = speed * moments[:, 0] * frame.lengths
     for s, w in zip(0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS, strict=True):

@@ -1,7 +1,9 @@
 """What flat shells of triangles and quadrangles share: own frames, membrane, masses, KSIG.
 
-The own frame has z along the (mean) normal and x along the side from node 1 to node 2; a small warp
-of four nodes is neglected. Translations follow the shapes of the cell.
+The own frame has z along the (mean) normal and x along the side from node 1 to node 2. Four nodes
+may be warped: the membrane is then a shallow shell over the mean plane (Marguerre 1938), which no
+rigid motion strains; curvatures and shears are those of the plane. Translations follow the shapes
+of the cell.
 """
 
 from abc import abstractmethod
@@ -15,6 +17,7 @@ from ssilang.kernel.elements.family import Layout, ShellFamily, StrainOperator
 from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.shells.shell_section import (
+    DRILLING,
     drilled,
     inertia_off_mesh,
     own_to_global,
@@ -23,6 +26,10 @@ from ssilang.kernel.elements.shells.shell_section import (
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
+
+WARPED = 100.0
+"""Stiffness about the normal over that in bending, per square of the warp: nothing else takes
+moments that kinks between twisted cells turn about it."""
 
 
 def flat_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, FloatArray]:
@@ -44,6 +51,13 @@ def flat_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, Flo
     e1 /= np.linalg.norm(e1, axis=1, keepdims=True)
     frames = np.stack([e1, np.cross(e3, e1), e3], axis=1)
     return frames, np.einsum("cij,ckj->cki", frames[:, :2], x - x[:, :1])
+
+
+def rises(zone: Zone, cells: slice, frames: FloatArray, slopes: FloatArray) -> FloatArray:
+    """Slopes (n, p, 2) of warped cells against their mean plane."""
+    x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+    found: FloatArray = np.einsum("cpik,ckj,cj->cpi", slopes, x, frames[:, 2], optimize=True)
+    return found
 
 
 def surface_slopes(zone: Zone, local: FloatArray, rule: Rule) -> tuple[FloatArray, FloatArray]:
@@ -79,6 +93,9 @@ class FlatShell(ShellFamily):
         B[:, 0, ..., 0] = B[:, 2, ..., 1] = slopes[:, :, 0]
         B[:, 1, ..., 1] = B[:, 2, ..., 0] = slopes[:, :, 1]
         B[:, 3:, ..., 2:5] = bent.reshape(*bent.shape[:3], k, 3)
+        rise = np.moveaxis(rises(zone, cells, frames, slopes), 2, 0)[..., None]
+        B[:, 0, ..., 2], B[:, 1, ..., 2] = rise[0] * slopes[:, :, 0], rise[1] * slopes[:, :, 1]
+        B[:, 2, ..., 2] = rise[0] * slopes[:, :, 1] + rise[1] * slopes[:, :, 0]
         own = own_to_global(B.reshape(*B.shape[:3], 6 * k), frames)
         return StrainOperator(strains_off_mesh(own, zone, parameters, cells), weights)
 
@@ -90,8 +107,12 @@ class FlatShell(ShellFamily):
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the normal, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
-        normals = np.repeat(flat_frames(zone)[0][:, None, 2], zone.cells.kind.n_nodes, axis=1)
-        return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1), normals)
+        frames, local = flat_frames(zone)
+        slopes, _ = surface_slopes(zone, local, support_rule(zone.element, "RIGIDITE"))
+        steep = (rises(zone, slice(None), frames, slopes) ** 2).sum(axis=2).mean(axis=1)
+        turned = np.clip(WARPED * steep / DRILLING, 1.0, 0.1 / DRILLING)
+        normals = np.repeat(frames[:, None, 2], zone.cells.kind.n_nodes, axis=1)
+        return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1) * turned, normals)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """By the shapes of the cell: RHO EPAI of translations, RHO EPAI^3 / 12 of rotations."""

@@ -29,7 +29,8 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
     """
     if "V1X" not in parameters:
         raise MaterialError("kernel.elements.orthotropic-material-needs-axes")
-    flat = parameters.zone.mode is not Mode.THREE_DIMENSIONAL
+    rolled = parameters.zone.mode is Mode.FOURIER and "V2Z" in parameters
+    flat = parameters.zone.mode is not Mode.THREE_DIMENSIONAL and not rolled
     first = np.stack(
         np.broadcast_arrays(*(parameters.at(f"V1{a}", support, 0.0) for a in "XYZ")), axis=-1
     )

@@ -68,9 +68,9 @@ def check(parameters: PointParameters) -> None:
     Raises
     ------
     MaterialError
-        Unless AF1 >= 0, AF2 >= 1 and 0 < AF3 <= 1.
+        Unless AF1 >= 0, AF2 >= 1 and 0 < AF3 <= AF2, so that strains are convex in the stress.
     """
-    limits = (("AF1", 0.0, np.inf), ("AF2", 1.0, np.inf), ("AF3", 1e-6, 1.0))
+    limits = (("AF1", 0.0, np.inf), ("AF2", 1.0, np.inf), ("AF3", 1e-6, parameters["AF2"]))
     for name, low, high in limits:
         wrong = (parameters[name] < low) | (parameters[name] > high)
         if wrong.any():

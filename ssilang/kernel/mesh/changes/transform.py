@@ -192,6 +192,28 @@ def straighten_middles(mesh: Mesh) -> None:
         mesh.nodes.coordinates[block.connectivity[:, 1]] = m - off * chord
 
 
+def quarter_middles(mesh: Mesh, tip: IntArray, at: float) -> None:
+    """Move middle nodes of the edges that leave a crack's tip or front, in place (Barsoum 1976).
+
+    Parameters
+    ----------
+    tip : array of int
+        Nodes of the tip; edges between two of them keep theirs.
+    at : float
+        Coordinate along the edge, 0 in its middle and 1 at the tip; 0.5 is the quarter point.
+    """
+    from ssilang.kernel.mesh.boundary import edges
+
+    for block in edges(mesh).blocks:
+        if block.cell_type != "SEG3":
+            continue
+        held = np.isin(block.connectivity[:, [0, 2]], tip)
+        leaving = held[:, 0] != held[:, 1]
+        a, _, b = np.moveaxis(block.coordinates[leaving], 1, 0)
+        share = np.where(held[leaving, :1], 1.0 - at, 1.0 + at) / 2.0
+        mesh.nodes.coordinates[block.connectivity[leaving, 1]] = a + share * (b - a)
+
+
 def to_cylindrical(origin: FloatArray, axis: FloatArray, zero: FloatArray) -> PointMap:
     """Map to (r, theta in degrees within -180..180, z) about an axis.
 

@@ -10,6 +10,7 @@ from ssilang.kernel.mesh.changes.transform import (
     mirror_plane,
     mirror_point,
     move,
+    quarter_middles,
     scaling,
     shift,
     straighten_middles,
@@ -35,6 +36,7 @@ _MIRRORS: Mapping[str, Callable[..., PointMap]] = {
     "DROIT": mirror_line,
     "PLAN": mirror_plane,
 }
+_MOVED_MESH = arg("moved", "MAILLAGE", en="what is moved")
 _MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved")
 
 
@@ -168,6 +170,21 @@ def straightened(moved: Mesh | Point = _MOVED) -> None:
     """Put middle nodes onto the mediator planes of their edges."""
     if isinstance(moved, Mesh):
         straighten_middles(moved)
+
+
+@depl.form(said("BARS"))
+def quartered(
+    moved: Mesh = _MOVED_MESH,
+    tip: Mesh | Point = Arg("POINT", "MAILLAGE", en="tip or front of the crack"),
+    at: float = Opt(
+        "FLOTTANT",
+        range=Range(0.0, 1.0, open_high=True),
+        default=0.495,
+        en="place of the middle node, 0 in the middle, 1 at the tip",
+    ),
+) -> None:
+    """Put middle nodes of cells at a crack near the quarter of their sides."""
+    quarter_middles(moved, _ids(tip), at)
 
 
 @depl.form(said("DEDU"))

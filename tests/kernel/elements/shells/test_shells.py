@@ -278,6 +278,44 @@ def test_ring_of_shell_cells_under_pressure_grows_evenly(element):
     assert grown.mean() == pytest.approx(p * radius**2 / (E * H), rel=0.01)
 
 
+def twisted(x):
+    """A blade along x, 1.1 wide, that turns by 90 degrees over its length of 12."""
+    angle, across = np.pi / 2 * x[:, 0] / 12, x[:, 1] - 0.55
+    return np.column_stack([x[:, 0], across * np.cos(angle), across * np.sin(angle)])
+
+
+@pytest.mark.parametrize(
+    ("h", "P", "in_plane", "out_of_plane"),
+    [(0.32, 1.0, 5.424e-3, 1.754e-3), (0.0032, 1e-6, 5.256e-3, 1.294e-3)],
+)
+def test_twisted_blade_of_warped_cells_bends_as_published(h, P, in_plane, out_of_plane):
+    """MacNeal and Harder (1985), and the thin one of Belytschko and others (1989)."""
+    zone, x, _ = quadrangles("COQ4", 24, 4, 12.0, 1.1, twisted)
+    end = np.flatnonzero(x[:, 0] > 12 - 1e-9)
+    shares = np.where(np.abs(x[end, 1] - 0.55) > 0.5, 0.5, 1.0) / 4
+    for name, force, exact in (("UZ", "FZ", in_plane), ("UY", "FY", out_of_plane)):
+        load = NodeField.of(zone.cells.nodes, end, {force: P * shares}, "DISCRET")
+        mat = material(zone, YOUN=29e6, NU=0.22, EPAI=h)
+        u = solved(zone, mat, lambda m: x[m.nodes, 0] < 1e-9, load)
+        assert u.values_at(name, end).mean() == pytest.approx(exact, rel=0.03)
+
+
+def test_warped_cells_follow_any_rigid_motion_without_a_force():
+    zone, _, _ = quadrangles("COQ4", 3, 2, 12.0, 1.1, twisted)
+    places = zone.cells.nodes.coordinates
+    turn, shift = np.array([0.3, -0.2, 0.5]), np.array([1.0, 2.0, -0.4])
+    moved = shift + np.cross(turn, places)
+    nodes = np.arange(len(places))
+    parts = dict(zip(("UX", "UY", "UZ"), moved.T, strict=True))
+    parts |= {n: np.full(len(nodes), t) for n, t in zip(("RX", "RY", "RZ"), turn, strict=True)}
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, material(zone, **PLATE)),))
+    numbering = numbering_of(K)
+    A = assemble(K, numbering)
+    u = field_to_vector(NodeField.of(zone.cells.nodes, nodes, parts, "DIFFUS"), numbering, False)
+    assert np.abs(u).max() > 5
+    assert np.abs(A @ u).max() < 1e-12 * (abs(A) @ np.abs(u)).max()
+
+
 def test_skin_stresses_of_a_bent_and_pulled_plate():
     zone, _ = plate(1, 1, 1.0, 1.0)
     forces = {"N11": 3.0, "N22": 1.0, "N12": 0.5, "M11": 2.0, "M22": -1.0, "M12": 0.25}
