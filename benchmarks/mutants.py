@@ -23,8 +23,10 @@ server get a process of their own, since its tests speak to a server that import
 
 `--ran DATA` asks the suite itself. DATA is what coverage kept of a run of it, with a context a test
 (`pytest --cov --cov-context=test`): of tests, those that ran the lines are tried, the nearest
-first, and a line that none ran is a survivor. Compiled functions are not seen that way, nor what
-only an import runs: these stay with the nearest.
+first, and a line that none ran is a survivor. Where fewer than `SHARED` ran them, others may use
+what these made and kept (caches, fixtures of a session): all tests of their files and the nearest
+are tried. Compiled functions are not seen that way, nor what only an import runs: these stay with
+the nearest.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
@@ -72,6 +74,7 @@ COMPILES = 3.0  # times the limit: what a fault changes, and all that calls it, 
 DATA = (".forms", ".ssi", ".toml", ".txt")
 WRITES = "_code.py"  # LLVM's code of functions that are `written`
 SERVED = "ssilang/cli/editor/"  # its tests speak to a server, a process that imports the copy
+SHARED = 3  # tests, below which others may use what they made
 CASE = 4  # files whose tests go before one more case of a test
 NONE = "none is near"
 NOT_SO = "untried: it is in no function of a process"
@@ -640,7 +643,10 @@ def try_all(
         ran = data.tests(fault) if data else None
         own = {test.split("::")[0] for test in ran or ()} & set(files)
         if own:
-            tests = [*(f for f in tests if f in own), *sorted(own - set(tests))]
+            few = len(ran or ()) < SHARED
+            others = [f for f in tests if f not in own and few]
+            tests = [*(f for f in tests if f in own), *sorted(own - set(tests)), *others]
+            ran = frozenset() if few else ran
         reason = same.get((fault.path, fault.old.strip(), fault.new.strip()))
         if reason or not fault.source() or not tests:
             tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else NONE)

@@ -1,7 +1,8 @@
 """Elastic block on a soil block with a no-tension interface, in ssilang and in OpenSeesPy.
 
     pip install '.[bench]'          (OpenSeesPy needs the system's libblas3 and liblapack3)
-    OMP_NUM_THREADS=1 python benchmarks/uplift_openseespy.py [unknowns ...]      default 2000 7500 30000 116000
+    OMP_NUM_THREADS=1 python benchmarks/uplift_openseespy.py [unknowns ...]
+                                                 default 2000 7500 30000 116000
 
 The same plane-strain quads, lumped masses, springs (compression only along the normal, elastic in
 shear), loads (weight of the block, a sine at the base) and step (average acceleration, 5 ms) in

@@ -5,8 +5,6 @@ write for `pwrite`. Modules and functions that a system may lack are looked up w
 loaded, so that a type checker accepts them for every system.
 """
 
-from __future__ import annotations
-
 import errno
 import importlib
 import os
@@ -183,7 +181,7 @@ def shared_memory(size: int) -> int:
 # ---- processes of this machine -------------------------------------------------------------------
 
 
-def local_socket() -> socket.socket | None:
+def local_socket() -> "socket.socket | None":
     """A socket by which processes of this machine hand each other open files, if it has such."""
     net = _module("socket")
     if not hasattr(net, "AF_UNIX") or not hasattr(net, "send_fds"):
@@ -192,7 +190,7 @@ def local_socket() -> socket.socket | None:
     return made
 
 
-def is_of_user(connection: socket.socket) -> bool:
+def is_of_user(connection: "socket.socket") -> bool:
     """Whether this user's process is at the other end, as far as the system tells."""
     net = _module("socket")
     if not hasattr(net, "SO_PEERCRED"):  # not on macOS; the folder keeps others out
@@ -201,7 +199,7 @@ def is_of_user(connection: socket.socket) -> bool:
     return int.from_bytes(told[4:8], sys.byteorder) == user_number()
 
 
-def end_group(process: subprocess.Popen[bytes]) -> None:
+def end_group(process: "subprocess.Popen[bytes]") -> None:
     """End a process that was started in a session of its own, and those that it started."""
     if hasattr(os, "killpg"):
         with suppress(ProcessLookupError):

@@ -5,8 +5,6 @@ libraries read the environment when they load, so this runs before numpy is impo
 program imported numpy first, its OpenBLAS is told directly.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterable, Iterator
@@ -52,7 +50,7 @@ def blas(package: Path) -> tuple[str, int]:
     return "", 0
 
 
-def _openblas(package: Path) -> Iterator[CDLL]:
+def _openblas(package: Path) -> "Iterator[CDLL]":
     from ctypes import CDLL
 
     folders = (package.parent / f"{package.name}.libs", package / ".dylibs")
@@ -61,5 +59,5 @@ def _openblas(package: Path) -> Iterator[CDLL]:
             yield CDLL(str(path))
 
 
-def _first_of(library: CDLL, names: Iterable[str]) -> Any:
+def _first_of(library: "CDLL", names: Iterable[str]) -> Any:
     return next((getattr(library, name) for name in names if hasattr(library, name)), None)

@@ -1,7 +1,5 @@
 """Curves, as Python sees them: arrays, a Series, a picture."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -63,7 +61,7 @@ class CurveView(View[Curve]):
     def __len__(self) -> int:
         return len(self.held.parts)
 
-    def __getitem__(self, place: int) -> CurveView:
+    def __getitem__(self, place: int) -> "CurveView":
         """One of the curves."""
         return CurveView(
             Curve((self.held.parts[place],), self.held.title, self.held.kind), self.language
@@ -73,13 +71,13 @@ class CurveView(View[Curve]):
         """Ordinates of its only curve."""
         return np.asarray(self.y, dtype)
 
-    def series(self) -> pandas.Series[float]:
+    def series(self) -> "pandas.Series[float]":
         """Its only curve as a Series over the abscissas."""
         part, pd = self._only, library("pandas", self.language)
         index = pd.Index(part.abscissas, name=part.abscissa_name or None)
         return pd.Series(part.ordinates, index, name=_name(part))
 
-    def frame(self) -> pandas.DataFrame:
+    def frame(self) -> "pandas.DataFrame":
         """All curves as columns over the abscissas; NaN where a curve has no such abscissa."""
         pd = library("pandas", self.language)
         curves = [self[i].series() for i in range(len(self))]

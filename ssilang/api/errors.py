@@ -10,13 +10,13 @@ from ssilang.language.say.errors import SsiError
 
 @dataclass(frozen=True)
 class Notice:
-    """One error or warning of a script.
+    """One error, warning or note of a script.
 
     Attributes
     ----------
     code : str
         Which it is, the same in every language and version: 'unknown-operator'.
-    severity : 'error' or 'warning'
+    severity : 'error', 'warning' or 'note'
     text, hint : str
         What is wrong, and what to change ('' if nothing is known).
     file : str

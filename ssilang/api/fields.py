@@ -1,7 +1,5 @@
 """Points, meshes and fields, as Python sees them: arrays, frames, grids."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -78,7 +76,7 @@ class MeshView(View[Mesh]):
     def __len__(self) -> int:
         return self.held.n_cells
 
-    def pyvista(self, **fields: FieldView | CellFieldView) -> UnstructuredGrid:
+    def pyvista(self, **fields: "FieldView | CellFieldView") -> "UnstructuredGrid":
         """The mesh as an UnstructuredGrid of pyvista.
 
         Parameters
@@ -156,13 +154,13 @@ class FieldView(View[NodeField]):
         found = np.column_stack(columns) if columns else np.zeros((0, 0))
         return np.asarray(found, dtype)
 
-    def frame(self) -> pandas.DataFrame:
+    def frame(self) -> "pandas.DataFrame":
         """A DataFrame: a row a node, its number as index, coordinates and components as columns."""
         made = dict(zip(AXES, self.points.T, strict=True)) | {n: self[n] for n in self.components}
         pd = library("pandas", self.language)
         return pd.DataFrame(made, index=pd.Index(self.nodes, name="node"))
 
-    def xarray(self) -> Dataset:
+    def xarray(self) -> "Dataset":
         """A Dataset over `node`, with the coordinates x, y, z."""
         return library("xarray", self.language).Dataset(
             {name: ("node", self[name]) for name in self.components},
@@ -216,7 +214,7 @@ class CellFieldView(View[CellField]):
 
         return point_coordinates(self.held)[zone - 1][1]
 
-    def frame(self) -> pandas.DataFrame:
+    def frame(self) -> "pandas.DataFrame":
         """A DataFrame: a row a point, by zone, cell and point; components that are numbers."""
         pd = library("pandas", self.language)
         parts = []

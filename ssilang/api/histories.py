@@ -1,7 +1,5 @@
 """Histories out of tables of results: one curve, or all of them at once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -64,7 +62,7 @@ def full_word(table: Table, word: str, language: str) -> str:
     raise refused("api.no-such-result", language, MissingKey, word=word, near=near, known=known)
 
 
-def over_time(table: Table, word: str, language: str) -> xarray.DataArray:
+def over_time(table: Table, word: str, language: str) -> "xarray.DataArray":
     """All values of nodal fields in time, (time, node, component)."""
     fields, times = results_in_time(table, full_word(table, word, language), unmade=True)
     nodes, names, values, points = _arrays(fields)

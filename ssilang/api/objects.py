@@ -3,8 +3,6 @@
 `seen` turns an object of the language into what Python sees, `held` gives the object back.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -73,7 +71,7 @@ class TableView(View[Table], Mapping[Any, Any]):
             index=repr(index), near=repr(str(near)) if near else "", known=shown,
         )  # fmt: skip
 
-    def frame(self) -> pandas.DataFrame:
+    def frame(self) -> "pandas.DataFrame":
         """Its lists of numbers as columns of a DataFrame (RESULTATS_CSV, ENERGIES ...)."""
         lists = {
             str(i): v.values
@@ -82,7 +80,7 @@ class TableView(View[Table], Mapping[Any, Any]):
         }
         return library("pandas", self.language).DataFrame(lists)
 
-    def xarray(self, word: str) -> DataArray:
+    def xarray(self, word: str) -> "DataArray":
         """All values in time of nodal fields of a table of results: (time, node, component).
 
         Parameters

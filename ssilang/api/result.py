@@ -1,7 +1,5 @@
 """What a run leaves, for Python: objects by name, histories, pictures, checks, warnings, files."""
 
-from __future__ import annotations
-
 import shutil
 import weakref
 from collections.abc import Iterator, Mapping, Sequence
@@ -121,7 +119,7 @@ class Checks(Sequence[Check]):
     def __len__(self) -> int:
         return len(self._found)
 
-    def frame(self) -> pandas.DataFrame:
+    def frame(self) -> "pandas.DataFrame":
         """A DataFrame: a row a figure."""
         return library("pandas", self._language).DataFrame([vars(c) for c in self._found])
 

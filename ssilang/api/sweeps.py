@@ -1,7 +1,5 @@
 """One script over many values and ground motions, from Python: a DataFrame of what it reports."""
 
-from __future__ import annotations
-
 import io
 import os
 import sys
@@ -44,7 +42,7 @@ def sweep(
     quiet: bool = True,
     report: bool = False,
     **values: Any,
-) -> pandas.DataFrame:
+) -> "pandas.DataFrame":
     """Run a script for all combinations of values and ground motions, as `ssilang sweep` does.
 
     Parameters

@@ -6,8 +6,6 @@ out: it is printed as ignored, and the library fails later over what is missing,
 arrival of a signal is therefore kept until somebody has seen it.
 """
 
-from __future__ import annotations
-
 import signal
 import sys
 import threading
@@ -79,6 +77,6 @@ def interrupt(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _quiet_about_interruptions(lost: sys.UnraisableHookArgs) -> None:
+def _quiet_about_interruptions(lost: "sys.UnraisableHookArgs") -> None:
     if not issubclass(lost.exc_type, KeyboardInterrupt):  # that one is not lost: see `take`
         sys.__unraisablehook__(lost)

@@ -1,7 +1,5 @@
 """The command line: `ssilang FILE`, `run`, `check`, `help`, `sweep`, `view`, `repl` ..."""
 
-from __future__ import annotations
-
 import argparse
 import errno
 import gc
@@ -186,7 +184,7 @@ def _run(options: argparse.Namespace) -> int:
     return result.exit_code
 
 
-def _compile_ahead(source: Source) -> None:
+def _compile_ahead(source: "Source") -> None:
     """Let the other process begin with joints, if the script steps some and there is no code yet.
 
     It compiles while this one reads and meshes.
@@ -201,7 +199,7 @@ def _compile_ahead(source: Source) -> None:
         tell_ahead("interface")
 
 
-def _run_options(options: argparse.Namespace) -> RunOptions:
+def _run_options(options: argparse.Namespace) -> "RunOptions":
     from ssilang.cli.run import RunOptions
     from ssilang.language.run.session import Limits
     from ssilang.language.say.errors import SsiError

@@ -1,7 +1,5 @@
 """Runs a script from its file or text: the session, the outputs, the messages, the exit code."""
 
-from __future__ import annotations
-
 import io
 import os
 import re
@@ -380,7 +378,7 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
         raise SsiError.of(problem, None) from problem
 
 
-def deck_of(source: Source, given: Mapping[str, Any]) -> Deck:
+def deck_of(source: Source, given: Mapping[str, Any]) -> "Deck":
     """What tells a run from others, but for the files that it reads."""
     from ssilang.io.checkpoint import Deck
 

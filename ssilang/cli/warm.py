@@ -4,8 +4,6 @@ The decks are run, one after the other in this process: what compiled code they 
 they hold, and no list of it is kept. Their files go to a folder that is removed.
 """
 
-from __future__ import annotations
-
 import io
 import sys
 import tempfile

@@ -76,7 +76,7 @@ def put(aside: Path, path: Path, keep: bool = True) -> None:
 def write_text(path: Path, text: str) -> None:
     """Write `text` (UTF-8) to `path`, whole or not at all."""
     with replacing(path) as stream:
-        stream.write(text.encode("utf-8"))
+        stream.write(text.encode("utf-8", "replace"))
 
 
 def cannot_write(path: Path, error: OSError) -> OutputError:

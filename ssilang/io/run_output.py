@@ -1,7 +1,5 @@
 """What one run reads and writes: its folders, its pictures, its series, the list of its files."""
 
-from __future__ import annotations
-
 import errno
 import json
 import os
@@ -186,13 +184,13 @@ class RunOutput:
     inputs: Path
     allowed: tuple[Path, ...] = ()
     files: list[Path] = field(default_factory=list)
-    series: dict[Path, Series] = field(default_factory=dict)
+    series: "dict[Path, Series]" = field(default_factory=dict)
     opened: dict[str, Any] = field(default_factory=dict)
     lock: RunLock | None = None
-    deck: Callable[[], Deck] | None = None
+    deck: "Callable[[], Deck] | None" = None
     resume: bool = False
     read: list[Path] = field(default_factory=list)
-    recording: Recording | None = None
+    recording: "Recording | None" = None
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
     _flushed_at: float = 0.0
 
@@ -259,7 +257,7 @@ class RunOutput:
         return any(path.is_relative_to(root) for root in roots)
 
     @cached_property
-    def checkpoints(self) -> Checkpoints | None:
+    def checkpoints(self) -> "Checkpoints | None":
         """Where the run keeps calculations on their way; None if it runs no deck."""
         from ssilang.io.checkpoint import FOLDER, Checkpoints
 
@@ -297,7 +295,7 @@ class RunOutput:
 
     def begin_series(
         self, path: Path, constants: Mapping[str, float], *, one_file: bool = False
-    ) -> Series:
+    ) -> "Series":
         """A new VTK series, finished when the run ends: one .vtkhdf, or .vtu files and a list."""
         from ssilang.io.vtk.series import SeriesWriter
         from ssilang.io.vtk.vtkhdf import VtkHdfWriter
@@ -307,7 +305,7 @@ class RunOutput:
         self.keep_series(writer)
         return writer
 
-    def keep_series(self, writer: Series) -> None:
+    def keep_series(self, writer: "Series") -> None:
         """Let a series be finished when the run ends, in place of one of that name."""
         before = self.series.get(writer.base)
         if before is not None and before is not writer:

@@ -18,6 +18,7 @@ from ssilang.kernel.base.arrays import FloatArray
 
 _TITLE_WIDTH = 12
 _GAP = 3  # blank lines between two groups of columns
+MOST_COLUMNS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,12 @@ def read_csv(path: Path, separator: str = ";", first_line: int = 1) -> Rows:
     Raises
     ------
     InputError
-        If the file cannot be read, or a cell is no number.
+        If the file cannot be read, a line is too wide, or a cell is no number.
     """
     text = text_of(path)
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.count(separator) >= MOST_COLUMNS and number >= first_line:
+            raise InputError("io.line-too-wide", name=path.name, line=number, most=MOST_COLUMNS)
     regular = _regular(text, separator, first_line)
     if regular is not None:
         return regular

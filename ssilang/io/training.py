@@ -46,11 +46,15 @@ class TrainingFile:
             return None
         try:
             with np.load(self.path, allow_pickle=False) as f:
+                if sum(i.file_size for i in f.zip.infolist()) > self.path.stat().st_size:
+                    raise ValueError("packed")
                 model, dt, taught = str(f["model"]), float(f["dt"]), f["taught"]
-                vectors, answers = (np.asarray(f[name], float) for name in ("vectors", "answers"))
+                vectors, answers = f["vectors"], f["answers"]
                 for part in (vectors, answers):
-                    if (taught.ndim, part.ndim) != (1, 2) or not np.isfinite(part).all():
-                        raise ValueError(f"taught {taught.shape}, vectors {part.shape}")
+                    sound = (taught.ndim, part.ndim, part.dtype) == (1, 2, float)
+                    if not (sound and np.isfinite(part).all()):
+                        kind, shape = part.dtype, part.shape
+                        raise ValueError(f"taught {taught.shape}, vectors {shape} {kind}")
                 return Training(model, dt, tuple(map(str, taught.tolist())), vectors, answers)
         except DAMAGES as error:
             raise InputError("io.damaged", name=self.name, error=str(error)) from error

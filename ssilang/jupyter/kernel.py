@@ -28,6 +28,7 @@ from ssilang.cli.interactive import UNFINISHED, listed, run_shown
 from ssilang.cli.interrupts import listening
 from ssilang.cli.run import RunOptions, make_session
 from ssilang.cli.terminal.loop_progress import follow_loops
+from ssilang.io.run_output import link_to
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError, interruption
@@ -163,6 +164,8 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         session.was_interrupted()  # what came before this cell is over
         before, sys.stderr = sys.stderr, cast(TextIO, self._progress)
         try:
+            if (link := link_to(Path(session.output_directory))) is not None:
+                raise SsiError("io.folder-is-link", None, path=link)
             with listening(own=False):
                 for node in parse(source).body:
                     run_shown(session, (node,), self._show, self._print)

@@ -4,8 +4,6 @@ An index tells which modules fill which key. Where there is one, these modules a
 key is first looked for; without one a table holds what was imported, whoever did it.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from importlib import import_module
@@ -29,7 +27,7 @@ class Filled(MutableMapping[K, V]):
         Modules that have filled each key so far, in order.
     """
 
-    tables: ClassVar[dict[str, Filled[Any, Any]]] = {}
+    tables: ClassVar[dict[str, "Filled[Any, Any]"]] = {}
     index: ClassVar[Index] = {}
 
     def __init__(self, name: str) -> None:

@@ -18,8 +18,6 @@ table of a file is a `Message`; its data fill the templates:
 One is singular in English; in French nought is, too.
 """
 
-from __future__ import annotations
-
 from collections.abc import (
     Callable,
     Collection,
@@ -35,7 +33,7 @@ from pathlib import Path, PurePath
 from string import Formatter
 from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeGuard, runtime_checkable
 
-Severity = Literal["error", "warning"]
+Severity = Literal["error", "warning", "note"]
 
 _LAST = {"and": {"en": " and ", "fr": " et "}, "or": {"en": " or ", "fr": " ou "}}
 _SINGULAR = {"en": (1,), "fr": (0, 1)}

@@ -1,7 +1,5 @@
 """What OPTI sets and operators share during a session: nodes, dimension, mode, element, density."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 from weakref import WeakKeyDictionary
@@ -70,7 +68,7 @@ class Workspace:
     title: str = ""
     options: dict[str, Any] = field(default_factory=dict)
     output: RunOutput | None = None
-    petsc: PetscServer | None = None
+    petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
 
@@ -84,7 +82,7 @@ class Workspace:
         """Whether OPTI 'MODE' 'FREQ' is in force: PASAPAS sweeps frequencies."""
         return bool(self.options.get("FREQ"))
 
-    def weighed(self, made: Matrix, *constituents: str) -> Matrix:
+    def weighed(self, made: "Matrix", *constituents: str) -> "Matrix":
         """A matrix of MASS, its masses remembered: those made last of the same cells.
 
         Of points that are given masses once more, nothing is known: they may be others beside.

@@ -27,7 +27,7 @@ from ssilang.report.html import (
     text,
 )
 from ssilang.report.results import Results, read_results
-from ssilang.report.scenes import SceneError, packed_scene
+from ssilang.report.scenes import SceneError, guarded_scene
 from ssilang.report.sweep_page import sweep_page
 from ssilang.report.sweep_table import is_sweep, read_sweep
 from ssilang.report.verdict import verdict_html
@@ -380,7 +380,7 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
     each = int(0.98 * room / max(min(len(wanted), MOST_SCENES), 1))
     for name, kind, path, frequencies in wanted[:MOST_SCENES]:
         try:
-            scene, packed = packed_scene(path, each)
+            scene, packed = guarded_scene(path, each)
         except SceneError as problem:
             faults.append(told(problem.code, **problem.data))
             continue

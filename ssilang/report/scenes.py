@@ -6,9 +6,14 @@ next, deflated. pyvista reads the series and finds the surface.
 """
 
 import base64
+import faulthandler
+import multiprocessing
+import os
+import re
+import warnings
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -20,8 +25,13 @@ from numpy.typing import NDArray
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.system import CAN_FORK, limit_memory
 
 FRAMES = 60
+MOST_PARTS = 1000
+"""Files of one instant."""
+_ROOM, _DENSEST, _LONGEST = 10**9, 50, 600.0
+"""What a series may take: bytes, and times the bytes of its files; seconds."""
 LARGEST = 32767
 """Of a number in 16 bits; the one below its negative says that there is none."""
 _UPPER = {9: (0, 1), 30: (0, 1), 3: (0, 1), 13: (0, 1, 2), 31: (0, 1, 2), 12: (0, 1, 2, 3)}
@@ -69,6 +79,51 @@ class _Steps:
 
     times: FloatArray
     grid: Callable[[int], Any]
+
+
+def guarded_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
+    """As `packed_scene`, in a fork where there are any: VTK makes what a file declares, or ends.
+
+    A few kB may declare more than all memory.
+    """
+    if not CAN_FORK:
+        return packed_scene(path, most_bytes)
+    with suppress(ImportError):  # shared with the forks
+        import pyvista  # noqa: F401
+    context = multiprocessing.get_context("fork")
+    answers, answer = context.Pipe(duplex=False)
+    worker = context.Process(target=_answer, args=(answer, path, most_bytes), daemon=True)
+    with warnings.catch_warnings():  # threads: VTK starts none here, and the fork no other
+        warnings.simplefilter("ignore", DeprecationWarning)
+        worker.start()
+    answer.close()
+    try:
+        found = answers.recv() if answers.poll(_LONGEST) else None
+    except EOFError:  # ended by VTK
+        found = None
+    worker.kill()
+    worker.join()
+    answers.close()
+    if isinstance(found, SceneError):
+        raise found
+    if found is None:
+        raise SceneError("report.series-damaged", name=path.name)
+    scene: tuple[dict[str, Any], str] = found
+    return scene
+
+
+def _answer(answer: Any, path: Path, most_bytes: int) -> None:
+    """In the fork: the scene, or why there is none."""
+    faulthandler.disable()
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what a library says when it ends
+    size = sum(p.stat().st_size for p in path.parent.glob("*") if p.is_file())
+    status = Path("/proc/self/status")
+    held = re.search(r"VmData:\s*(\d+) kB", status.read_text() if status.is_file() else "")
+    limit_memory((1024 * int(held[1]) if held else 0) + _ROOM + _DENSEST * size)
+    try:
+        answer.send(packed_scene(path, most_bytes))
+    except SceneError as problem:
+        answer.send(problem)
 
 
 def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
@@ -350,12 +405,18 @@ def _of_list(path: Path, pyvista: Any) -> _Steps:
         entries = read_pvd(path)
     except (OSError, ValueError, InputError, OutputError):
         raise SceneError("report.series-damaged", name=path.name) from None
-    files = [e for e in entries if e.file.endswith(".vtu") and inside(path.parent, e.file)]
-    times = sorted({e.time for e in files})
+    files: dict[float, dict[str, None]] = {}  # each once
+    for entry in entries:
+        if entry.file.endswith(".vtu"):
+            files.setdefault(entry.time, {})[entry.file] = None
+    times = sorted(files)
 
     def grid(step: int) -> Any:
-        names = [path.parent / e.file for e in files if e.time == times[step]]
-        return _one(pyvista.MultiBlock([pyvista.read(n) for n in names]))
+        names = list(files[times[step]])
+        if len(names) > MOST_PARTS:
+            raise SceneError("report.series-damaged", name=path.name)
+        parts = {p.resolve(): p for n in names if (p := inside(path.parent, n))}
+        return _one(pyvista.MultiBlock([pyvista.read(p) for p in parts.values()]))
 
     return _Steps(np.array(times, float), grid)
 

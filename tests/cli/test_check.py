@@ -111,6 +111,29 @@ def test_warns(text, code):
     assert problems[0].severity == "warning"
 
 
+def test_signs_in_an_order_that_is_no_other_language_s_are_noted_once():
+    text = (
+        "A = 3. ;\nX = 1. + A * 0.5 ;\nY = PROG (A - (X / 2.) / A) ((A * X) ** 2) ;\n"
+        "SI (X > (A * X ** 2)) ; MESS X ; FINSI ;\nMESS (A * X / 2. + 1.) Y (X + (A * 2.)) ;\n"
+    )
+    (note,), _ = check_source(Source("test", text))
+    assert (note.code, note.severity, note.span.text) == ("left-to-right", "note", "1. + A * 0.5")
+    assert note.data["places"] == [
+        "1. + A * 0.5 = (1. + A) * 0.5 (2)",
+        "A - (X / 2.) / A = (A - (X / 2.)) / A (3)",
+        "A * X ** 2 = (A * X) ** 2 (4)",
+    ]
+    assert "note: operations go from left to right: 1. + A" in render(note)
+    assert "remarque : les opérations vont de gauche à droite : 1. + A" in render(note, "fr")
+
+
+@pytest.mark.parametrize(
+    "text", ["X = RELA 1. 'UX' P - 2. 'UX' Q * 3. ;", "X = 2. * 3. + 4. ;", "X = 1. - 2. + 3. ;"]
+)
+def test_signs_in_the_order_of_other_languages_are_not_noted(text):
+    assert "left-to-right" not in codes(text)
+
+
 @pytest.mark.parametrize("given", ["SI (Y > 0.) ; {} FINSI ;", "SI (X > 0.) ; FINSI ; {}", "{}"])
 def test_values_known_where_no_condition_asks_for_them_are_checked(given):
     entry = given.format("T . 'REDUCTION' = X ;")
@@ -165,6 +188,46 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
 )
 def test_raises_no_false_alarm(text):
     assert errors(Source("test", text)) == []
+
+
+_UNKNOWN = (
+    "OPTI DIME 2 ; T = TABL ; T . 1 = 3. ; T . 2 = MOT 'DIME' ; A = 2. ; N = 2 ; W = MOT 'FOO' ; "
+    "E = TEXT '1. 2.' ; F = TEXT '+ 1.' ; L = PROG 1. 2. ; "
+)
+_EITHER = "SI VRAI ; OPTI DIME 2 ; SINO ; OPTI DIME 3 ; FINS ; "
+
+
+@together(
+    "phrase, code",
+    [
+        *((phrase, "unknown-operator") for phrase in (
+            "X = FOO T . 1", "X = 'FOO' T . 1", "X = FOO E", "X = FOO F", "X = FOO (T . 2 L)",
+            "X = (EXTR L 1) FOO T . 1", "X = COOR 1 (FOO T . 1)", "SI (FOO T . 1) ; FINS",
+            "X = P T . 1", "X = 'FOO' 1. 2.", "X = (1. 2.) FOO", "X = (A + 1.) FOO",
+        )),
+        *((phrase, "excess") for phrase in (
+            "X = 1. 2. 3.", "X = (1. 2.) 3.", "X = 2. W", "X = VRAI 2.", "X = COOR 1 (1. 2. 3.)",
+            f"{_EITHER} X = 1. 2. 3. 4.", "OPTI DIME 3 ; X = 1. 2. 3. 4.", "X = W W W",
+        )),
+        *((phrase, "") for phrase in (
+            "X Y = W T . 1", "X Y Z = W FOO T . 1", "X Y = (T . 2 L) FOO", "X = T . 2 L", "X = E",
+            "X = T . 1", "X = T . 1 T . 1", "X = (A + 1.) N", "X = (A + 1.) T . 1", "X = 2. F",
+            "X Y = VRAI 2.",
+            "X Y = A N ; Z = X + Y", "X = 1. 2. ; Y = COOR 2 X", "X = COOR 1 (T . 1 T . 1)",
+            f"{_EITHER} X = 1. 2. ; Y = COOR 1 X", f"{_EITHER} X Y = 1. 2. ; Z = X + Y",
+            "OPTI DIME 3 ; X Y = 1. 2. ; Z = X + Y", "OPTI DIME 3 ; X = 1. 2. 3. ; Y = COOR 3 X",
+        )),
+        ("SI (1. 2.) ; FINS", "condition"), ("X = COOR 1 (1.)", "wrong-argument"),
+        ("OPTI DIME 3 ; X = A N", "third-coordinate"), ("X Y = 3.", "no-result"),
+    ],
+)  # fmt: skip
+def test_what_a_phrase_leaves_is_judged_as_by_a_run(phrase, code):
+    text = f"{_UNKNOWN}{phrase} ;"
+    problems, _ = check_source(Source("test", text))
+    done = run_text(text)
+    for told in (problems, done.errors):
+        assert [p.code for p in told if p.severity == "error"] == [code][: bool(code)]
+    assert done.exit_code == bool(code)
 
 
 _BODY = "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "

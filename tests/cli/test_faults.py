@@ -89,6 +89,20 @@ def test_a_deck_s_name_that_no_file_can_have_is_told(shell):
     assert "the name is too long" in told
 
 
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="names there are characters")
+@pytest.mark.parametrize("command", ["", "--report"])
+def test_a_name_that_is_no_utf_8_is_shown_with_a_mark(shell, tmp_path, command):
+    with open(os.fsencode(tmp_path) + b"/n\xff.ssi", "w", encoding="ascii") as file:
+        file.write(WRONG)
+    code, _, told = shell(f"$S run n*.ssi --out results/n {command}")
+    assert (code, "Traceback" in told) == (1, False)
+    assert summary(tmp_path, "n")["deck"].endswith("n?.ssi")
+    if command:
+        page = (tmp_path / "results" / "n" / "report.html").read_text(encoding="utf-8")
+        assert "n?.ssi" in page
+        assert "Damaged" not in page
+
+
 def test_a_word_that_fills_the_memory_is_told(shell, tmp_path):
     (tmp_path / "large.ssi").write_text("X = CHAI '" + "b" * (6 * 10**7) + "' ;")
     code, _, told = shell("$S large.ssi --max-memory 150")

@@ -4,10 +4,12 @@ import csv
 import gc
 import io
 import os
+import sys
 import time
 import weakref
 from dataclasses import replace
 from multiprocessing.context import SpawnContext
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -121,6 +123,52 @@ def test_each_motion_is_a_run_that_may_read_its_file(tmp_path):
     assert "1 of 3 runs are done already" in said
     rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
     assert [(r["run"], r["peak"]) for r in rows] == [(1, 5.5), (2, 1.5), (3, 4.5)]
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="names there are characters")
+def test_motions_whose_names_are_no_utf_8_are_runs_that_are_kept(tmp_path):
+    folder = os.fsencode(tmp_path) + b"/m\xff"
+    os.mkdir(folder)
+    for name, top in ((b"a\xfe.csv", 1.5), (b"a\xff.csv", 2.5)):
+        with open(folder + b"/" + name, "w", encoding="ascii") as file:
+            file.write(f"0.;0.\n1.;{top}\n")
+    deck = tmp_path / "case.ssi"
+    deck.write_text("A = LIRE 'SIGNAL' MOTION 1. ; SORT 'BILA' 'peak' (MAXI (EXTR A 'ORDO')) ;")
+    motions, limits = Path(os.fsdecode(folder)), ["peak>2"]
+    options = SweepOptions(deck, motions=motions, out=tmp_path / "out", jobs=1, fragility=limits)
+    code, _, wrong = run(options)
+    assert code == 0, wrong
+    rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
+    assert [r["peak"] for r in rows] == [1.5, 2.5]
+    assert [r["MOTION"][-11:] for r in rows] == [r"a\udcfe.csv", r"a\udcff.csv"]
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "the table was edited" not in page
+    assert "2 of 2 runs are done already" in run(options)[1]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+def test_motions_that_lead_out_of_their_folder_are_refused(tmp_path):
+    motions, private = tmp_path / "motions", tmp_path / "private"
+    for folder in (motions, private):
+        folder.mkdir()
+    (private / "theirs.csv").write_text("0. 0.\n1. 2.5\n")
+    (motions / "a.csv").write_text("0. 0.\n1. 1.5\n")
+    (motions / "b.csv").symlink_to(motions / "a.csv")
+    deck = tmp_path / "case.ssi"
+    deck.write_text("A = LIRE 'SIGNAL' MOTION 1. ; SORT 'BILA' 'peak' (MAXI (EXTR A 'ORDO')) ;")
+    options = SweepOptions(deck, motions=motions, out=tmp_path / "out", jobs=1)
+    assert run(options)[0] == 0
+    rows = pq.read_table(tmp_path / "out" / "sweep.parquet").to_pylist()
+    assert [(r["peak"], r["folder"]) for r in rows] == [(1.5, "a"), (1.5, "b")]
+    (motions / "c.csv").symlink_to(private / "theirs.csv")
+    code, _, wrong = run(options)
+    assert code == 2
+    assert "c.csv is a link out of" in wrong
+    with pytest.raises(ssilang.Error, match="is a link out of"):
+        ssilang.sweep(deck, records=motions)
+    link = tmp_path / "named"  # by the user, as the folder itself
+    link.symlink_to(private)
+    assert run(replace(options, motions=link))[0] == 0
 
 
 def test_files_that_are_no_motions_are_told_once_and_left(tmp_path):

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from ssilang.io import tables
 from ssilang.io.errors import InputError
 from ssilang.io.tables import Column, as_columns, csv_lines, read_csv
 
@@ -83,3 +84,17 @@ def test_digits_that_python_alone_reads_are_no_number(tmp_path: Path) -> None:
     path.write_text("1;1_0\n2;3\n")
     with pytest.raises(InputError, match="1_0"):
         read_csv(path)
+
+
+@pytest.mark.parametrize("separator", [";", " "])
+def test_a_line_of_too_many_columns_is_refused(
+    separator: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tables, "MOST_COLUMNS", 1000)
+    path = tmp_path / "wide.csv"
+    path.write_text("\n" + separator.join(["1."] * 1000) + "\n")
+    assert len(as_columns(read_csv(path, separator))) == 1000
+    path.write_text("\n" + separator.join(["1."] * 1001) + "\n")
+    with pytest.raises(InputError, match=r"wide\.csv, line 2: more than 1000 columns"):
+        read_csv(path, separator)
+    assert read_csv(path, separator, 3) == []

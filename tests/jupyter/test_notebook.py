@@ -4,6 +4,7 @@ import asyncio
 import base64
 import json
 import os
+import shutil
 import sys
 from pathlib import Path
 
@@ -228,3 +229,37 @@ def test_the_kernel_is_told_to_jupyter_with_its_language(tmp_path, capsys):
     assert spec["argv"][:4] == [sys.executable, "-P", "-m", "ssilang.jupyter"]
     assert spec["env"] == {"SSILANG_LANGUAGE": "fr"}
     assert spec["interrupt_mode"] == "signal"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+@pytest.mark.parametrize("name", ["results", "results/notebook"])
+def test_results_that_lead_elsewhere_are_not_followed(tmp_path, monkeypatch, name):
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "theirs" / name).parent.mkdir(parents=True)
+    monkeypatch.chdir(tmp_path / "theirs")
+    kernel = Kernel()
+    assert kernel.run(CELLS["draws"])[1]["status"] == "ok"
+    shutil.rmtree(tmp_path / "theirs" / "results")
+    (tmp_path / "theirs" / name).parent.mkdir(exist_ok=True)
+    (tmp_path / "theirs" / name).symlink_to(tmp_path / "elsewhere")
+    answer = Kernel().run(CELLS["draws"])[1]
+    assert (answer["status"], answer["ename"]) == ("error", "io.folder-is-link")
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+
+
+def test_what_a_script_says_is_no_html(tmp_path, monkeypatch):
+    """In a notebook it would run with the rights of whoever reads it."""
+    monkeypatch.chdir(tmp_path)
+    word = "<img src=x onerror=alert(1)>"
+    sent, answer = Kernel().run(
+        f"T = TABL '{word}' ; T . '{word}' = '{word}' ; T ; W = MOTS '{word}' ; W ;\n"
+        f"L = PROG 1. 2. ; E = EVOL 'MANU' 'LEGE' '{word}' '{word}' L '{word}' L ; E ;"
+        f"DESS E 'TITR' '{word}' ;"
+    )
+    assert answer["status"] == "ok"
+    shown = [
+        t for s in sent for kind, t in s["data"].items() if kind in ("text/html", "image/svg+xml")
+    ]
+    assert len(shown) >= 3
+    assert sum("&lt;img src=x" in t for t in shown) >= 3
+    assert not any("<img src=x" in t for t in shown)

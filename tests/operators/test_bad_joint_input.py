@@ -142,34 +142,6 @@ def test_curve_of_a_load_with_a_gap_is_refused(refused):
     assert "the curve has inf at abscissa 1" in refused(text)
 
 
-@pytest.mark.parametrize(
-    ("law", "reason"),
-    [("JOINT_SOFT", "BETA (unloading) and CPLG"), ("JOINT_COAT", "BETA (unloading) and CPLG"),
-     ("ISS_GRANGE", "no public text says how")],
-)  # fmt: skip
-def test_a_law_that_no_public_text_describes_is_refused_with_that_reason(refused, law, reason):
-    assert reason in refused(SIDES + f"M = MODE J 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' '{law}' ;")
-
-
-def test_comp_has_no_answer_for_ground_that_yields_at_many_places(refused):
-    assert "at many places" in refused(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; PB = 0. 0. ; J = MANU 'SEG2' (0. -1.) PB ;"
-        " M = MODE J 'MECANIQUE' 'ELASTIQUE' 'MACRO_SEMELLE' 'JOI1' ;"
-        " A = MATE M 'KN' 8.E7 'KS' 4.E7 'LARG' 4. 'COHE' 5.E4 ;"
-        " U = MANU 'CHPO' PB 1 'UY' -1.E-3 ; Z = (ZERO M 'CONTRAIN') ET (ZERO M 'DEFORMAT') ;"
-        " C = COMP M (A ET Z) (A ET (EPSI M U)) ;"
-    )
-
-
-def test_contradictory_supports_are_named_in_time_too(refused):
-    assert "one on UX at node 1 (0. 0.) cannot take the value" in refused(
-        "OPTI DIME 2 ; P = 0. 0. ; B1 = BLOQ 'UX' P ; B2 = BLOQ 'UX' P ; T = TABL ;"
-        " T . 'RIGI' = (APPU 'UY' 1. P) ET B1 ET B2 ; T . 'MASS' = MASS 'DEPL' 1. P ;"
-        " EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; T . 'CHAR' = CHAR 'DIMP' (DEPI B1 1.) EV ;"
-        " T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; T2 = DYNAMIC T ;"
-    )
-
-
 BLOCK = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
 C = DROI 4 (0. 0.) (1. 0.) ; SOL = C TRAN 2 (0. -1.) ;

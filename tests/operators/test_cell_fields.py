@@ -60,9 +60,3 @@ def test_a_field_reduced_strictly_is_the_same_without_mixtures(found):
     a, b = found(LINE + "X = REDU 'STRI' C (L ELEM 1) ; Y = REDU C (L ELEM 1) ;", "X", "Y")
     assert a.blocks[0].components.keys() == b.blocks[0].components.keys()
     assert [len(p.cells) for p in a.blocks] == [1]
-
-
-def test_what_does_not_combine_in_cells_is_refused(refused):
-    lists = "(MOTS 'A' 'B') (MOTS 'B' 'B') (MOTS 'Y' 'Z')"
-    assert "1 factor for 2 names" in refused(LINE + f"D = C * C {lists} (PROG 3.) ;")
-    assert "points add up" in refused(LINE + "P = MANU 'CHML' L 'SCAL' PB ; Q = P «*» P ;")

@@ -3,6 +3,7 @@
 import gc
 import weakref
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +11,10 @@ from script_runs import ran, refused
 
 from ssilang.cli.run import RunResult, run_text
 from ssilang.io.errors import NoGraphicsError
+from ssilang.io.plots import animation
+from ssilang.io.plots.layers import PictureOptions
 from ssilang.io.plots.palette import index_of
+from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.view import View
 from ssilang.kernel.fields.deformed import Arrows, Deformed
 from tests.windows import needs_window
@@ -147,18 +151,6 @@ def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.Monkey
     np.testing.assert_allclose(third, [(0, 1, 0), (-1, 0, 0), (0, 0, 1)], atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (f"{SOLID} TRAC V 'DIRE' ;", "DIRE turns the picture after the plane of COUP"),
-        (f"{SOLID} TRAC V (0. 0.4 -9.) {DIRE} ;", "one looks along what is to go upwards"),
-        (f"{PLATE} TRAC S 'DIRE' 'COUP' (0. 0.) (1. 0.) (0. 1.) ;", "a picture in the plane"),
-    ],
-)
-def test_what_cannot_turn_is_said(text: str, said: str, tmp_path: Path) -> None:
-    assert said in refused(text, tmp_path)
-
-
 def test_deformed_shape_keeps_what_is_given() -> None:
     result = run("V = VECT U 'DEPL' ; D = (DEFO S U V 3. 'ROUG') ET (DEFO U S) ;")
     made = result.session.root.find("D")
@@ -217,6 +209,30 @@ def test_successive_shapes_become_an_animation(tmp_path: Path) -> None:
     apart = [(np.abs(one - other) > 60).mean() for one, other in ((a, b), (b, c))]
     same = [(np.abs(x - y) > 60).mean() for x, y in zip(seen[1], (c, b, a, b), strict=True)]
     assert max(same) < 0.3 * min(apart), (same, apart)  # titles are others
+
+
+@pytest.mark.parametrize(
+    ("number", "second", "levels"),
+    [("", "X - 1.", np.linspace(-1, 2, 14)), ("5", "3. * X", np.linspace(0, 6, 5)),
+     ("(PROG 1. 3. 4.)", "X", [1, 3, 4]), ("", "", None)],
+)  # fmt: skip
+def test_frames_share_the_iso_values_of_all_shapes(
+    number: str, second: str, levels: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """X goes from 0 to 2; without a second field both are 1 everywhere."""
+    seen = []
+
+    def drawn(layers: Any, views: Any, options: PictureOptions, *rest: Any) -> Any:
+        seen.append(options.levels)
+        return draw_scene(layers, views, options, *rest)
+
+    monkeypatch.setattr(animation, "draw_scene", drawn)
+    first = "X" if second else "((0. * X) + 1.)"
+    shapes = f"((DEFO S U 0. ({first})) ET (DEFO S U 10. ({second or first})))"
+    run(f"TRAC {number} {shapes} 'ANIME' ;", tmp_path)
+    assert len(seen) == 2
+    for found in seen:
+        assert found == pytest.approx(levels)
 
 
 def test_one_shape_makes_no_animation(tmp_path: Path) -> None:

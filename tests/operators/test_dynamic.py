@@ -42,16 +42,17 @@ def test_saved_instants(entry, times, tmp_path):
     assert len(found) == len(times)
 
 
-def test_older_entries_start_at_zero_and_keep_their_instants(tmp_path):
-    text = OSCILLATOR + "OUBL T1 'TEMPS_CALCULES' ; T1 . 'INST' = PROG 0.5 1. ;"
-    text += "T1 . 'FREQ' = 100. ; T2 = DYNAMIC T1 ; E = T1 . 'ENERGIES' . 'TEMPS' ;"
+@pytest.mark.parametrize(("entry", "step"), [("T1 . 'FREQ' = 100. ; ", 0.0025), ("", 0.5)])
+def test_older_entries_start_at_zero_and_keep_their_instants(entry, step, tmp_path):
+    text = OSCILLATOR + "OUBL T1 'TEMPS_CALCULES' ; T1 . 'INST' = PROG 0.5 1. ;" + entry
+    text += "T2 = DYNAMIC T1 ; E = T1 . 'ENERGIES' . 'TEMPS' ;"
     result = ran(text, tmp_path)
     found = table(result)
     assert [found.get(i).get("TEMP") for i in (1, 2)] == [0.5, 1.0]
     assert len(found) == 2
     times = table(result, "E").values
     assert times[0] == 0.0
-    assert np.diff(times) == pytest.approx(0.0025)
+    assert np.diff(times) == pytest.approx(step)
 
 
 def test_reactions_come_from_the_multipliers(tmp_path):

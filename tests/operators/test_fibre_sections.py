@@ -216,12 +216,6 @@ def test_wrong_sections_are_refused(refused, change, said):
     assert said in refused(script.replace(*change))
 
 
-def test_section_that_cannot_carry_its_normal_force_is_refused(refused):
-    script = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 4)
-    script += "C = PROG 0.01 ; N = PROG 1.E8 ; MY MZ E = MOCU C C N MS AS 1.E-6 ; "
-    assert "does not find the normal force" in refused(script)
-
-
 # ---- concrete -------------------------------------------------------------------------------
 
 CONCRETE = section("PLASTIQUE BETON_BAEL", "'FC' 30.E6", 1, 400).replace("2.E11", "3.E10")

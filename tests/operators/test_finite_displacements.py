@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from script_runs import ran, refused
+from script_runs import finder, ran, refused
 
 from ssilang.operators.statics.bodies import warn_of_strains
 
@@ -87,16 +87,6 @@ def test_pressure_in_a_ring_of_bars_goes_on_with_its_sides(sign):
     half = np.pi / 16
     assert root.find("N") == pytest.approx(200.0 * radius * np.cos(half), rel=1e-6)
     assert root.find("K") == pytest.approx(root.find("N"), rel=1e-6)
-
-
-def test_plates_are_refused_by_name():
-    assert "finite displacements are not built for COQ4" in refused(
-        "OPTI DIME 3 ELEM QUA4 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. 0.) ;"
-        "M = MODE S MECANIQUE COQ4 ; A = MATE M 'YOUN' 1.E4 'NU' 0. 'EPAI' 0.1 ;"
-        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ;"
-        "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' L ;"
-        "T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ;"
-    )
 
 
 YIELDING = (
@@ -262,13 +252,23 @@ def test_a_yielding_body_goes_on_from_where_it_was(tmp_path):
     assert found[1] == pytest.approx(found[0], rel=1e-9)
 
 
-def test_yielding_bars_in_finite_displacements_are_refused(tmp_path):
-    assert "built for plastic laws of continuous elements, not for BARR" in refused(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; "
-        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' 'BARR' ; T = TABL ; "
-        "T . 'MODELE' = M ; "
-        "T . 'CARACTERISTIQUES' = MATE M 'YOUN' 1. 'NU' 0. 'SIGY' 1. 'SECT' 1. ; "
-        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'UX' (L POIN 1) ; T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
-        "T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ;",
+def test_stresses_given_for_one_body_are_none_of_another(tmp_path):
+    """Two bodies stretched alike below yield: what one had before stays between them."""
+    law = "'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ; "
+    find = finder(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 2.) ; "
+        f"R = S PLUS (5. 0.) ; M = MODE S {law} N = MODE R {law} T = TABL ; "
+        "T . 'MODELE' = N ET M ; T . 'CARACTERISTIQUES' = MATE (M ET N) 'YOUN' 2.E5 'NU' 0.3 "
+        "'SIGY' 500. ; "
+        "B = BLOQ 'DEPL' (S ET R) ; U = (NOMC 'UX' (2.E-4 * (COOR 1 (S ET R)))) ET "
+        "(NOMC 'UY' (0. * (COOR 1 (S ET R)))) ; T . 'BLOCAGES_MECANIQUES' = B ; "
+        "T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B U) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "T . 'GRANDS_DEPLACEMENTS' = VRAI ; T . 'TEMPS_CALCULES' = PROG 0. 1. ; "
+        "T . 'CONTRAINTES' = TABL ; T . 'CONTRAINTES' . 0 = MANU 'CHML' M 'SMXX' 70. 'SMYY' 50. "
+        "'SMZZ' 30. 'SMXY' 0. 'TYPE' 'CONTRAINTES' 'STRESSES' ; PASAPAS T ; "
+        "C = T . 'CONTRAINTES' . 1 ; X = EXCO 'SMXX' (REDU C M) ; Y = EXCO 'SMXX' (REDU C N) ; "
+        "L = PROG (MINI X) (MAXI X) (MINI Y) (MAXI Y) ;",
         tmp_path,
-    )
+    )  # fmt: skip
+    alone = 2e5 * 0.7 / (1.3 * 0.4) * 2e-4
+    np.testing.assert_allclose(find("L").values, [alone + 70] * 2 + [alone] * 2, rtol=5e-4)

@@ -7,6 +7,8 @@ from script_runs import finder, refused
 from ssilang.cli.run import run_text
 from ssilang.kernel.statics.linear import product
 from ssilang.kernel.stepping.node_histories import NodeHistories
+from ssilang.kernel.stepping.problem import problem
+from ssilang.kernel.stepping.problem.problem import MOST_SMALL
 
 BLOCK = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
@@ -44,8 +46,13 @@ T . 'CARACTERISTIQUES' = AJ ET A2 ; T . 'RIGI' = (RIGI M1 A1) ET B1 ;
 T . 'MASS' = (MASS M1 A1) ET (MASS M2 A2) ;"""
 
 
-@pytest.mark.parametrize("step", [*LOOPS.values(), YIELDS], ids=[*LOOPS, "yielding ground"])
-def test_fields_at_a_few_nodes_are_those_of_the_body(step):
+@pytest.mark.parametrize(
+    ("step", "most"),
+    [*((step, MOST_SMALL) for step in [*LOOPS.values(), YIELDS]), (YIELDS, 0)],
+    ids=[*LOOPS, "yielding ground", "yielding ground of many unknowns"],
+)
+def test_fields_at_a_few_nodes_are_those_of_the_body(step, most, monkeypatch):
+    monkeypatch.setattr(problem, "MOST_SMALL", most)
     find = finder(BLOCK.format(step=step))
     whole, few = find("R1"), find("R2")
     node = find("P").node

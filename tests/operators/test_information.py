@@ -1,7 +1,7 @@
 """INFO, NOTI, AIDE, SOUC."""
 
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 
@@ -13,10 +13,6 @@ def test_info_prints_the_page_in_the_language_of_the_session(tmp_path):
 
 def test_info_of_a_procedure(tmp_path):
     assert "VERIFIE" in ran("INFO @VERIFIE ;", tmp_path).output
-
-
-def test_info_of_nothing_known_says_so(tmp_path):
-    assert "no help about ZZZZ" in refused("INFO ZZZZ ;", tmp_path)
 
 
 def test_noti_lists_operators_and_procedures(tmp_path):
@@ -107,16 +103,3 @@ def test_assi_takes_the_objects_of_two_tables_at_the_same_index(tmp_path):
     root = ran(text, tmp_path).session.root
     assert list(root.find("A").values) == [3.0, -4.0, 1.0, 2.0]
     assert list(root.find("B").values) == [5.0, 7.0]
-
-
-@pytest.mark.parametrize(
-    ("phrase", "said"),
-    [
-        ("X = ASSI 'TOUS' PROG 1. ;", "no table ESCLAVE"),
-        ("V = TABL 'ESCLAVE' ; V . 1 = 3 ; X = ASSI 'TOUS' ET T V ;", "different indices"),
-        ("DEBP P A*LISTREEL ; SI ((DIME A) > 1) ; RESP 1. ; FINSI ; FINP 2. ;"
-         "X = ASSI 'TOUS' P T ;", "another number of results"),
-    ],
-)  # fmt: skip
-def test_assi_for_all_tells_what_is_in_its_way(phrase, said, tmp_path):
-    assert said in refused(SLAVES + phrase, tmp_path)

@@ -46,10 +46,6 @@ def test_one_list_serves_all_nodes_of_a_cell_or_each_has_its_own():
     assert str(numbering_of(made).label(1)) == "RZ at node 2 (1. 0.)"
 
 
-def test_wrong_number_of_terms_is_said():
-    assert "4 or 3 terms" in refused(PLANE + "R = MANU 'RIGI' P0 (MOTS 'UX' 'UY') (PROG 1. 2.) ;")
-
-
 def test_field_on_the_diagonal_in_a_column_and_in_a_row():
     field = "(MANU 'CHPO' (P0 ET P1) 1 'UX' (PROG 2. 3.))"
     np.testing.assert_array_equal(dense(matrix(f"R = MANU 'RIGI' {field} ;")), np.diag([2.0, 3.0]))

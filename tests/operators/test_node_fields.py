@@ -109,15 +109,3 @@ def test_diffuse_fields_that_differ_are_joined_where_it_is_said(found, refused, 
     fields = "OPTI DIME 2 ; P = 0. 0. ; A = MANU 'CHPO' P 'T' 3. 'NATU' 'DIFFUS' ; B = A + 1. ; "
     assert found(fields + f"X = EXTR ({phrase}) 'T' P ;", "X") == 3.0
     assert "T" in refused(fields + "X = A «ET» B ;")
-
-
-@pytest.mark.parametrize(
-    ("script", "said"),
-    [
-        ("A = «EXCO» 'UZ' C ;", "components are: UX UY"), ("A = -2. «**» C ;", "powers of a field"),
-        ("D = INVE «(MANU 'CHPO' P 'UX' 0.)» ;", "UX is 0 at (0, 0"),
-        ("D = «MANU» 'CHPO' 'NATURE' 'DIFFUS' (MANU 'POI1' P Q P) 'T' (PROG 1. 2. 3.) ;", "twice"),
-    ],
-)  # fmt: skip
-def test_what_a_field_cannot_give_is_refused(refused, script, said):
-    assert said in refused(POINT + script)

@@ -7,7 +7,7 @@ import pytest
 from script_runs import failed, ran
 
 from ssilang.language.say.diagnostics import sentence
-from ssilang.operators.statics.path_following import strain_points
+from ssilang.operators.statics.path_following import ends_of, strain_points
 
 ES, HEIGHT, SPAN = 2.1e11 * 0.05, 1.0, 10.0
 TRUSS = """
@@ -185,6 +185,21 @@ def test_three_plastic_bars_are_pulled_to_collapse_by_their_greatest_strain(tmp_
     eta = find("T").get("COEFFICIENT_DE_PILOTAGE").values
     np.testing.assert_allclose(eta, three_bars(v), rtol=1e-9)
     assert eta[-1] == pytest.approx(SY * (1 + np.sqrt(2.0)))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
+    """The greatest of lines `a + x b` is least where one that rises meets one that falls."""
+    rng = np.random.default_rng(seed)
+    size = 10.0**-seed
+    b = size * rng.uniform(0.2, 3.0, 7) * [1, 1, 1, -1, -1, -1, -1]
+    a = size * rng.uniform(-1.0, 1.0, 7)
+    meet = ((a[3:] - a[:3, None]) / (b[:3, None] - b[3:])).ravel()
+    greatest = (a + meet[:, None] * b).max(axis=1)
+    least = greatest.min()
+    assert ends_of(a, b, least - 0.5 * size) == pytest.approx([meet[greatest.argmin()]])
+    for x in ends_of(a, b, least + 0.5 * size):
+        assert (a + x * b).max() == pytest.approx(least + 0.5 * size)
 
 
 def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):

@@ -35,6 +35,12 @@ def test_columns_and_lines_of_a_table(tmp_path: Path) -> None:
     assert [list(t.get(2).values) for t in (a, b, c)] == [[1.0, 3.0], [2.0, 3.0], [6.0]]
 
 
+def test_a_suffix_is_put_behind_a_name_that_is_no_file(tmp_path: Path) -> None:
+    text = "A = LIRE 'CSV' 'x' ; B = LIRE 'CSV' 'y' ;"
+    found = values(run(text, tmp_path, x_csv="1;2\n", y="3;4\n", y_csv="5;6\n"), "A", "B")
+    assert [list(t.get(1).values) for t in found] == [[1.0], [3.0]]  # type: ignore[attr-defined]
+
+
 def test_values_of_the_manual_s_kind(tmp_path: Path) -> None:
     text = (
         "OPTI ACQU 'v.txt' ; ACQU I*ENTIER MM*MOT J*FLOTTANT ; ACQU K*ENTIER ; "
@@ -119,7 +125,7 @@ def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
 # ---- ground motions
 
 AT2 = """A DATABASE OF RECORDS
-SOMEWHERE, 1/2/1990, A STATION, 090
+SOMEWHERE, 1/2/1990, A STATION WHOSE NAME IS LONG AND WHOSE LINE IS LONGER, 0901
 ACCELERATION TIME SERIES IN UNITS OF G
 {sizes}
    .1000000E-01  -.2000000E-01   .3000000E-01
@@ -132,6 +138,7 @@ def test_a_record_of_peer_in_metres(tmp_path: Path, sizes: str) -> None:
     result = run("E = LIRE 'PEER' 'a.AT2' 10. ;", tmp_path, a_AT2=AT2.format(sizes=sizes))
     (curve,) = values(result, "E")
     assert isinstance(curve, Curve)
+    assert curve.title == AT2.split("\n")[1][:72]
     (part,) = curve.parts
     assert list(part.abscissas) == pytest.approx([0.0, 0.005, 0.01, 0.015, 0.02, 0.025])
     assert list(part.ordinates) == pytest.approx([0.1, -0.2, 0.3, -0.4, -0.5, 0.0])

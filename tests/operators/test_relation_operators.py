@@ -107,10 +107,6 @@ def test_symmetry_holds_across_and_antisymmetry_within():
     assert [k[0] for r in rows(opposite)[0] for k in r] == ["UY"] * 3
 
 
-def test_symmetry_without_a_distance_says_what_to_give():
-    assert "OPTI DENS" in refused(PLANE + "L1 = DROI 2 P0 P1 ; S = SYMT 'DEPL' P0 P1 L1 ;")
-
-
 def test_rigid_body_keeps_its_shape_under_a_couple():
     script = PLANE + (
         "L1 = DROI 3 (0. 1.) (3. 1.) ; R = RELA 'CORI' 'DEPL' (P0 ET P2 ET L1) ;"

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 
 from ssilang.cli.run import RunOptions, run_file, run_text
 from ssilang.language.run.scopes import Frame
@@ -76,19 +76,6 @@ def test_procedures_and_objects_keep_working_after_two_savings(tmp_path: Path) -
     assert again.session.root.find("Z") == 6.0
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("SAUV NOSUCH ;", "no object 'NOSUCH'"),
-        ("OPTI REST 'none' ; REST ;", "no such file"),
-        ("SAUV I ; OPTI REST 'state' ; REST 'LABEL' 'x' ;", "no record labelled 'x'"),
-        ("OPTI SORT 't' ; SORT 'CHAI' 'a' ; OPTI REST 't' ; REST ;", "no file that SAUV"),
-    ],
-)
-def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
-    assert said in refused("I = 1 ; OPTI SAUV 'state' ; " + text, tmp_path)
-
-
 def test_a_mesh_and_its_named_parts_go_through_a_file(tmp_path: Path) -> None:
     ran(FIRST + "Q = 7. 7. ; OPTI SORT 'mesh' ; SORT S 'NOOP' ;", tmp_path)
     again = ran("OPTI DIME 2 ; X0 = 9. 9. ; OPTI LECT 'mesh' ; LIRE S ;", tmp_path)
@@ -132,10 +119,6 @@ def test_named_unknowns_come_back(tmp_path: Path) -> None:
     root = second.session.root
     assert root.find("OK")
     assert 0 not in root.find("PP").values
-
-
-def test_unequal_lists_of_unknowns_are_refused(tmp_path: Path) -> None:
-    assert "2 primal" in refused("OPTI INCO (MOTS 'A' 'B') (MOTS 'C') ;", tmp_path)
 
 
 def test_results_of_dynamic_are_saved_with_all_their_instants(tmp_path):

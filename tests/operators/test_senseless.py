@@ -25,6 +25,15 @@ TWICE = {
     "m.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n2 0 1 0\n"
     "$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 2\n$EndElements\n",
 }
+
+
+def cut(first: float) -> str:
+    """A table of a record, its first value this part of the largest."""
+    values = [first, *(math.sin(0.3 * i) * math.exp(-(((i - 60) / 30) ** 2)) for i in range(120))]
+    rows = (f"{0.01 * i:.2f};{value / max(values):.6f}\n" for i, value in enumerate(values))
+    return "time (s);acceleration (m/s2)\n" + "".join(rows)
+
+
 FILES = {
     **{
         f"a number borne twice, {name}": (
@@ -46,6 +55,15 @@ FILES = {
         RECORD,
         {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "G").replace("5 6", "5 60")},
         "operators.files.record-strong",
+    ),
+    "a record cut before its peak": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ;", {"a.csv": cut(0.4)}, "operators.files.record-begun",
+    ),
+    "a record of ESM cut behind its peak": (
+        "E = LIRE 'ESM' 'a.asc' ;",
+        {"a.asc": "SAMPLING_INTERVAL_S: 0.01\nDATA_TYPE: ACCELERATION\nUNITS: m/s^2\n"
+                  + "".join(f"{(0.9**i) * (-1) ** i}\n" for i in range(60))},
+        "operators.files.record-begun",
     ),
     "g by the factor of cm/s2": (
         RECORD.replace("1.", "0.01"),
@@ -150,6 +168,10 @@ FILES = {
 """Files that do not hold what they are read as."""
 
 SENSIBLE_FILES = {
+    "a record that begins at a fifth of its peak": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ;",
+        {"a.csv": cut(0.2)},
+    ),
     "surfaces": (
         "S = LIRE 'STL' 'm.stl' ; OPTI DIME 3 ; S = LIRE 'STL' 'n.stl' ;",
         {"m.stl": STL.format(0), "n.stl": STL.replace("0 1", "0 2", 1).format(1)},

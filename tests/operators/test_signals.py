@@ -5,7 +5,6 @@ import pytest
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.signals import (
-    constant_step,
     fourier,
     inverse_fourier,
 )
@@ -16,14 +15,6 @@ def test_transform_of_a_gaussian_is_a_gaussian():
     f, values = fourier(np.exp(-np.pi * (t - 5) ** 2), 0.01, 1024)
     # the continuous transform: exp(-pi f^2), delayed by 5
     np.testing.assert_allclose(values, np.exp(-np.pi * f**2 - 10j * np.pi * f), atol=1e-12)
-
-
-def test_uneven_times_are_refused(refused):
-    with pytest.raises(FieldError, match="regularly"):
-        constant_step(np.array([0.0, 1.0, 3.0]))
-    assert "regularly" in refused(
-        "F = «TFR» 2 (EVOL 'MANU' (PROG 0. 1. 3.) (PROG 1. 2. 3.)) 'REIM' ;"
-    )
 
 
 def test_power_of_the_circular_frequency_differentiates(found):

@@ -3,9 +3,7 @@
 import math
 
 import pytest
-from script_runs import found, refused
-
-from ssilang.cli.run import run_text
+from script_runs import found
 
 
 @pytest.mark.parametrize(
@@ -44,14 +42,6 @@ def test_size_is_given_cell_by_cell():
     assert str(name).strip() == "L"
 
 
-def test_other_elements_and_directions_are_refused():
-    line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; "
-    line += "M = MODE L MECANIQUE ELASTIQUE JOI1 ; "
-    assert "no smallest length" in refused(line + "A = TAIL 'DIAMETRE_MIN' M ;")
-    line = line.replace("JOI1", "BARR")
-    assert "only 'DIAMETRE_MIN'" in refused(line + "A = TAIL 'DIRECTION' M ;")
-
-
 def test_shells_and_beams_have_the_length_of_bending_waves():
     x, y, z = found(
         "OPTI DIME 3 ELEM QUA4 ; S = ((0. 0. 0.) DROI 1 (2. 0. 0.)) TRAN 1 (0. 0.5 0.) ; "
@@ -66,11 +56,3 @@ def test_shells_and_beams_have_the_length_of_bending_waves():
     assert x == pytest.approx(0.25 / 0.1)
     assert y == pytest.approx(1.0 / 0.3)
     assert z == pytest.approx(1.0)
-
-
-def test_bending_lengths_want_the_thickness():
-    result = run_text(
-        "OPTI DIME 3 ELEM QUA4 ; S = ((0. 0. 0.) DROI 1 (2. 0. 0.)) TRAN 1 (0. 0.5 0.) ; "
-        "A = TAIL 'DIAMETRE_MIN' (MODE S MECANIQUE ELASTIQUE COQ4) ;"
-    )
-    assert "thickness or section is needed" in result.message

@@ -1,7 +1,7 @@
 """SOLUTION: modes by hand, joined, read, as a table, with stresses."""
 
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 
 MODES = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; L = DROI 2 (0. 0.) (4. 0.) ;
@@ -36,15 +36,3 @@ def test_a_solution_of_vibr_is_the_table_of_vibr(tmp_path):
     assert root.find("S1") == pytest.approx(root.find("S2"))
     assert abs(root.find("Q1")) == pytest.approx(abs(root.find("Q2")))
     assert root.find("N") == 2
-
-
-@pytest.mark.parametrize(
-    ("said", "sentence"),
-    [
-        ("TIRE S 'FREQ' 'RANG' 3", "among 2"),
-        ("TIRE S 'CONT'", "FREQ"),
-        ("TIRE S 'FREQ' 'NUME' 3", "no such"),
-    ],
-)
-def test_what_a_solution_lacks_is_told(said, sentence, tmp_path):
-    assert sentence in refused(MODES + f"X = {said} ;", tmp_path)

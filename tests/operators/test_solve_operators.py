@@ -1,7 +1,7 @@
 """What RESO refuses or leaves out; parts of a matrix."""
 
 import pytest
-from script_runs import failed, ran, refused
+from script_runs import failed, ran
 from script_runs import found as objects
 
 BAR = """
@@ -27,10 +27,6 @@ def test_free_body_is_named_or_its_load_left_out_when_told():
     assert len(told.warnings) == 1
     u, w, x = (at(told.root.find(name), "UX", told.root.find("PB")) for name in "UWX")
     assert (w, x) == pytest.approx((u, -3.0 * u), rel=1e-12)
-
-
-def test_force_on_an_unknown_that_the_matrix_lacks_is_refused():
-    assert "MZ at node" in refused(BAR + "U = RESO K1 (F1 ET (MOME 'MZ' 1. PB)) ;")
 
 
 def test_parts_of_a_matrix():

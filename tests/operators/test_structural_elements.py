@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from script_runs import ran, refused
+from script_runs import ran
 
 STRIP = """OPTI DIME 3 ELEM CUB8 ;
 P1 = 0. 0. 0. ; P2 = 10. 0. 0. ;
@@ -37,11 +37,6 @@ def test_shell_of_bricks_balances_its_load_and_gives_skin_stress_at_nodes(tmp_pa
     # moment at the middle of the first cell, to which the node's value is carried
     skin = 1000.0 * 9.5**2 / 2 * 0.05 / (0.1**3 / 12)
     assert result.session.root.find("Y") == pytest.approx(skin, rel=0.01)
-
-
-def test_pressure_on_bricks_is_refused_for_other_elements(tmp_path):
-    text = STRIP.replace("SHB8", "CUB8") + "F = PRES 'SHB8' MO 1. 'EXTERNE' ;"
-    assert "is for models of elements SHB8" in refused(text, tmp_path)
 
 
 def test_tube_of_cubic_triangles_buckles_under_pressure_that_follows(tmp_path):

@@ -4,6 +4,7 @@ import copy
 import json
 import math
 import random
+import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -13,8 +14,10 @@ import pytest
 from ssilang.cli.main import main
 from ssilang.cli.run import write_report
 from ssilang.io.atomic import inside
+from ssilang.report import scenes
 from ssilang.report.page import page_of
 from ssilang.report.results import read_results
+from ssilang.system import CAN_FORK
 from tests.report.test_report_file import Sections, page
 
 SECRET = "ZQX"
@@ -138,6 +141,76 @@ def test_a_series_reads_its_own_parts_alone(rocking: Path, tmp_path: Path) -> No
         (folder / series.name).write_text(text)
         with pytest.raises(SceneError):
             packed_scene(folder / series.name, 10**7)
+
+
+def grid_of(numbers: int, *, last: int = 3) -> str:
+    """A triangle whose points have so many zeros each, packed as `write_vtu` packs."""
+    from ssilang.io.vtk.vtu import _packed
+
+    arrays = [
+        (f'Float64" Name="zeros" NumberOfComponents="{numbers}', bytes(24 * numbers)),
+        ('Float64" NumberOfComponents="3', struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)),
+        ('Int64" Name="connectivity', struct.pack("<3q", 0, 1, 2)),
+        ('Int64" Name="offsets', struct.pack("<q", last)),
+        ('UInt8" Name="types', b"\5"),
+    ]
+    made = [
+        f'<DataArray type="{head}" format="binary">{_packed(raw, True)}</DataArray>'
+        for head, raw in arrays
+    ]
+    return (
+        '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"'
+        ' header_type="UInt64" compressor="vtkZLibDataCompressor"><UnstructuredGrid>'
+        f'<Piece NumberOfPoints="3" NumberOfCells="1"><PointData>{made[0]}</PointData>'
+        f"<Points>{made[1]}</Points><Cells>{''.join(made[2:])}</Cells></Piece>"
+        "</UnstructuredGrid></VTKFile>"
+    )
+
+
+def listed(folder: Path, names: list[str]) -> Path:
+    """A series of files at one instant."""
+    entries = "".join(f'<DataSet timestep="0" file="{name}"/>' for name in names)
+    text = f'<VTKFile type="Collection"><Collection>{entries}</Collection></VTKFile>'
+    (folder / "a.pvd").write_text(text)
+    return folder / "a.pvd"
+
+
+@pytest.mark.skipif(not CAN_FORK, reason="nothing bounds VTK there")
+@pytest.mark.parametrize(
+    ("numbers", "last"), [(4_000_000, 3), (1, 2 * 10**10)], ids=["unpacks", "declares"]
+)
+def test_a_series_that_takes_all_memory_is_damaged(
+    numbers: int, last: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scenes, "_ROOM", 8 * 10**7)
+    (tmp_path / "a.vtu").write_text(grid_of(1000))
+    told, _ = scenes.guarded_scene(listed(tmp_path, ["a.vtu"]), 10**7)
+    assert told["arrays"]["points"][1] == 9
+    (tmp_path / "a.vtu").write_text(grid_of(numbers, last=last))
+    with pytest.raises(scenes.SceneError) as problem:
+        scenes.guarded_scene(tmp_path / "a.pvd", 10**7)
+    assert problem.value.code == "report.series-damaged"
+
+
+def test_a_part_of_a_series_is_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import pyvista
+
+    read, count = pyvista.read, 0
+
+    def counted(path: Path) -> Any:
+        nonlocal count
+        count += 1
+        return read(path)
+
+    monkeypatch.setattr(pyvista, "read", counted)
+    (tmp_path / "a.vtu").write_text(grid_of(1))
+    (tmp_path / "b.vtu").write_text(grid_of(1))
+    names = ["a.vtu", "./a.vtu", "b.vtu"] * 300
+    told, _ = scenes.packed_scene(listed(tmp_path, names), 10**7)
+    assert told["arrays"]["points"][1] == 18
+    assert count <= 4  # for the shape, and for its fields
+    with pytest.raises(scenes.SceneError):
+        scenes.packed_scene(listed(tmp_path, [f"{n}.vtu" for n in range(1001)]), 10**7)
 
 
 def leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:

@@ -64,9 +64,3 @@ def test_answer_of_a_mass_on_bearings(way):
     np.testing.assert_allclose(off, 0.0, atol=0.1)
     saved = result.session.root.find("T").get(Mot("SAUVDEFO")).get(2)
     assert saved.get(Mot("FREQROTA")) == 9.5
-
-
-def test_what_is_missing_is_said():
-    assert "no force" in run_text(ROTOR + "BALOURD T LW ;").message
-    script = ROTOR + WAYS["physical"] + "OUBL T 'MASSE' ; BALOURD T LW ;"
-    assert "no MASSE" in run_text(script).message

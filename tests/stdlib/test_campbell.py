@@ -71,12 +71,6 @@ def test_centrifugal_stiffness_goes_with_the_square_of_the_speed():
     np.testing.assert_allclose(ordinates(rows(script)[3], "FREQUENCE_REELLE"), exact)
 
 
-def test_what_is_missing_is_said():
-    assert "BASE_MODALE" in run_text("T = TABL ; CAMPBELL T (PROG 0. 1.) ;").message
-    script = DISC + BY_BASIS + "OUBL T 'MASSE' ; CAMPBELL T (PROG 0. 1.) ;"
-    assert "no MASSE" in run_text(script).message
-
-
 PLANE = DISC.replace("'RX' 'RY'", "'UX' 'UY'")
 
 

@@ -1,7 +1,7 @@
 """DESTRA: the curves of TRACHIS drawn, or their extremes written."""
 
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 
 _TABLE = (
     "OPTI DIME 2 ELEM SEG2 ; L1 = DROI 4 (0. 0.) (1. 0.) ; X1 = COOR 1 L1 ; T2 = TABL ; "
@@ -34,8 +34,3 @@ def test_extremes_are_written_a_line_a_curve(tmp_path):
     assert head.split() == ["Chill", "minimum", "maximum"]
     assert [[float(v) for v in row.split()[-2:]] for row in rows] == [[1.0, 2.0], [0.0, 3.0]]
     assert not list(tmp_path.rglob("*.svg"))
-
-
-def test_what_is_not_there_is_named():
-    for call, words in (("'CHOI' 9", "no curve 9"), ("'NONSENSE'", "NONSENSE is no option")):
-        assert words in refused(_TABLE + f"DESTRA T1 {call} ;")

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 
-from ssilang.cli.run import run_text
 from tests.windows import needs_window
 
 _BAND = (
@@ -110,10 +109,6 @@ def test_axes_have_the_lengths_asked_for():
     assert at.max(axis=0) == pytest.approx([3.0, 4.0, 5.0])
 
 
-def test_axes_refuse_sizes_that_do_not_come_by_dimension():
-    assert "come by 2" in refused("OPTI DIME 2 ; A = @REPERE (PROG 1. 2. 3.) ;")
-
-
 @needs_window
 def test_turned_skin_and_loaded_shape_are_drawn(tmp_path):
     script = _BAND + (
@@ -124,9 +119,3 @@ def test_turned_skin_and_loaded_shape_are_drawn(tmp_path):
     )
     ran(script, output_directory=tmp_path)
     assert len(list(tmp_path.rglob("*.png"))) == 2
-
-
-def test_a_view_without_direction_is_told():
-    script = "OPTI DIME 3 ELEM SEG2 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; "
-    script += "D = CINEMA L (MANU 'POI1' (5. 5. 5.)) (MANU 'POI1' (0. 0. 0.)) (0. 0. 1.) ;"
-    assert "direction of view 1 has no length" in run_text(script).message

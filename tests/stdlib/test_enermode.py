@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 
 from ssilang.operators.drawing import curves as drawing
 
@@ -93,11 +93,3 @@ def test_runs_one_after_the_other_are_one_run(drawn, tmp_path):
     )  # fmt: skip
     assert t[250] == t[251]
     np.testing.assert_allclose(np.delete(pieces, 251, axis=1), whole, atol=1e-9)
-
-
-def test_missing_works_and_other_tables_are_refused(tmp_path):
-    for rest, said in (
-        ("R = DYNE 'DE_VOGELAERE' B1 50 0.01 ; ENERMODE B1 R ;", "TRAVAIL_EXTERIEUR"),
-        ("ENERMODE (TABL 'LIAISON') B1 ;", "no modal basis"),
-    ):
-        assert said in refused(MASS + rest, tmp_path)

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from script_runs import ran
 
-from ssilang.cli.run import run_text
-
 PLANE = (
     "OPTI DIME 2 MODE FOUR 3 ELEM QUA8 ; L0 = DROI 2 (0. 0.) (2. 0.) ; S1 = TRAN 2 L0 (0. 1.) ;"
     "OPTI ELEM SEG3 ; L1 = DROI 2 (2. 1.) (2. 3.) ; G = S1 ET L1 ; ELIM 1.E-6 G ;"
@@ -76,14 +74,3 @@ def test_a_second_call_keeps_the_mesh():
         "N = T . 'MAILLAGE_3D' ; U = U1 + (T . 'DEPLACEMENTS_3D' . 1) ; Q = MAXI U ;"
     )
     assert result.session.root.find("M") is result.session.root.find("N")
-
-
-@pytest.mark.parametrize(
-    ("more", "said"),
-    [
-        ("T . 'ANGLES' = PROG 0. 10. 30. ;", "equal positive steps"),
-        ("OUBL T 'MAILLAGE' ;", "no MAILLAGE"),
-    ],
-)
-def test_what_is_wrong_is_said(more, said):
-    assert said in run_text(PLANE + more + "FOUR2TRI T ;").message

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.records.fragility import of_cloud, of_exceedances
 
 X = np.array([2.0, 1.0, 4.0, 3.0, 2.5, 3.0])
@@ -63,26 +62,6 @@ def test_counts_at_levels():
     )
     fit = of_exceedances(np.array([3.0, 1, 2]), np.array([9.0, 1, 4]), np.array([10.0, 12, 10]))
     assert found(text)[0] == pytest.approx(parts(fit))
-
-
-@pytest.mark.parametrize(
-    ("more", "code"),
-    [
-        ("T . 'SEUIL' = 9. ;", "kernel.records.fragility-none"),
-        ("T . 'SEUIL' = 0.5 ;", "kernel.records.fragility-all"),
-        ("T . 'SEUIL' = 2. ;", "kernel.records.fragility-separated"),
-        ("T . 'SENS' = 'DESSOUS' ;", "kernel.records.fragility-falls"),
-        ("T . 'INTENSITES' = PROG 1. 2. ;", "kernel.records.fragility-sizes"),
-        ("T . 'DEPASSEMENTS' = LECT 6 * 1 ;", "stdlib.fragilite-demands"),
-        ("T = TABL ; T . 'INTENSITES' = PROG 1. 2. 3. ;", "stdlib.fragilite-demands"),
-        ("OUBL T 'SEUIL' ;", "stdlib.fragilite-limit"),
-        ("OUBL T 'DEMANDES' ; T . 'DEPASSEMENTS' = LECT 6 * 1 ; T . 'METHODE' = 'NUAGE' ;",
-         "stdlib.fragilite-cloud"),
-    ],
-)  # fmt: skip
-def test_what_cannot_be_fitted_is_refused(more, code):
-    result = run_text(SUITE + more + "R = @FRAGILITE T ;")
-    assert result.errors[0].code == code
 
 
 @pytest.mark.parametrize(

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran, refused
-from together import together
+from script_runs import ran
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -181,37 +180,9 @@ def test_element_option_of_the_deck_is_left_as_it_was():
     assert str(result.session.root.find("E1")).rstrip() == "TRI6"
 
 
-@together(
-    "call, said",
-    [
-        ("'SOL' 24. 8.", "footing's width is missing"),
-        ("'SOL' 3. 8. 'SEMELLE' 4.", "does not stand inside"),
-        ("'SOL' 24. 8. 'SEMELLE' 4. 'ABSCISSE' 11.", "does not stand inside"),
-        ("'SEMELLE' -4.", "LARGEUR_SEMELLE must be positive"),
-        ("'SEMELLE' 4. 1. 'STRUCTURE' 5. 6.", "wider than its footing"),
-        ("'SEMELLE' 4. 'STRUCTURE' 2. 6.", "as wide as the structure"),
-        ("'SEMELLE' 4. 1. 'STRUCTURE' 2. 6. 'POTEAU' 6.", "exclude each other"),
-        ("'SEMELLE' 4. 1. 'TAILLE' 3.", "larger than half"),
-        ("'SEMELLE' 4. 1. 'TAILLE' 0.5 0.25", "TAILLE_LOIN"),
-        ("'SEMELLE' 4. 'SYMETRIE' 'ABSCISSE' 1.", "x = 0"),
-        ("'SEMELLE' 4. 'ELEMENT' 'HEXA'", "ELEMENT must be"),
-        ("'SEMELLE' 4. 1. 7.", "too many numbers"),
-        ("'SEMELE' 4. 'LARGEUR' 3.", "unknown keyword LARGEUR"),
-        ("4. 'SEMELLE' 4.", "behind its keyword"),
-    ],
-)
-def test_what_makes_no_sense_is_refused_with_its_reason(call, said):
-    assert said in refused(f"OPTI DIME 2 ELEM QUA4 ; T1 = MAILLER {call} ;")
-
-
 def test_unknown_or_mistyped_index_of_the_table_is_named():
     start = "OPTI DIME 2 ; T0 = TABL ; T0 . 'LARGEUR_SEMELLE' = 4. ;"
     unknown = run_text(f"{start} T0 . 'LARGUEUR_SOL' = 3. ; T1 = MAILLER T0 ;")
     assert unknown.session.warnings[0].data["near"] == "LARGEUR_SOL"
     mistyped = run_text(f"{start} T0 . 'TAILLE' = 'fine' ; T1 = MAILLER T0 ;")
     assert "'TAILLE' must be FLOTTANT, found MOT" in mistyped.message
-
-
-def test_only_plane_models_are_meshed():
-    result = run_text("OPTI DIME 3 ; T1 = MAILLER 'SEMELLE' 4. ;")
-    assert "OPTI DIME 2" in result.message

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from script_runs import found, refused
+from script_runs import found
 
 
 def test_regression_line_is_that_of_least_squares():
@@ -17,12 +17,6 @@ def test_regression_line_is_that_of_least_squares():
     slope, level = np.polyfit(x, y, 1)
     expected = (x.mean(), x.std(), y.mean(), y.std(), slope, level, np.corrcoef(x, y)[0, 1])
     assert values == pytest.approx(expected, rel=1e-10)
-
-
-def test_function_of_one_sign_has_no_zero():
-    assert "same sign" in refused(
-        "DEBP F X*FLOTTANT ; Y = (X * X) + 1. ; FINP Y ; A = FZERO F 0. 2. ;"
-    )
 
 
 @pytest.mark.parametrize(

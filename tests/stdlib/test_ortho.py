@@ -1,7 +1,7 @@
 """@ORTHO: orthotropic axes that follow a line, against MATE 'DIRECTION' and about a circle."""
 
 import pytest
-from script_runs import found, refused
+from script_runs import found
 
 VALUES = "(PROG 2.E9 1.E9 1.5E9 0.2 0.1 0.15 5.E8 4.E8 3.E8 0. 0. 0. 2000.)"
 NAMED = "'YG1' 2.E9 'YG2' 1.E9 'YG3' 1.5E9 'NU12' 0.2 'NU23' 0.1 'NU13' 0.15 'G12' 5.E8 'RHO' 2000."
@@ -51,10 +51,3 @@ def test_a_ring_of_hoops_is_stiff_along_them():
         "W",
     )
     assert worst < 2e-3
-
-
-def test_what_is_missing_is_said():
-    plate = "OPTI DIME 2 ELEM QUA4 ; L = DROI 5 (0. 0.) (1. 0.) ; S = L TRAN 1 (0. 1.) ; "
-    assert "13 characteristics" in refused(
-        plate + "T N B = @FRENET L ; A M = @ORTHO S L T N 0. (PROG 1. 2.) ;"
-    )

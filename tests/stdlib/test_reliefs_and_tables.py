@@ -32,12 +32,6 @@ def test_tables_are_drawn_and_leave_the_options_alone(call, tmp_path):
     assert [result.session.root.find(n) for n in "ABC"] == [True, True, 2]
 
 
-def test_tables_want_as_many_values_as_cells():
-    assert "2 rows of 2 values, 3 were given" in refused("TABLO2D 2 2 (PROG 1. 2. 3.) ;")
-    assert "no logarithm" in refused("TABLO2D 'LOGA' 1 2 (PROG 0. 0.) ;")
-    assert "2 rows of 2 values, 3 were given" in refused("TABLO3D 2 2 (PROG 1. 2. 3.) ;")
-
-
 @pytest.mark.parametrize("word", ["'VOLUME'", "'VOLUME' 'CACHE'", "'FLECHE'", "'SUPER'"])
 @needs_window
 def test_reliefs_are_drawn_and_leave_the_options_alone(word, tmp_path):

@@ -4,8 +4,6 @@ import numpy as np
 import pytest
 from script_runs import found, ran
 
-from ssilang.cli.run import run_text
-
 # a density like that of a filtered noise, and its response spectrum
 NOISE = (
     "LF = PROG 0.1 'PAS' 0.05 25. ; LD = (((LF * LF / -9.) + 1.) ** 2) + (LF * LF * (0.8 / 9.)) ;"
@@ -55,11 +53,6 @@ def test_two_dampings_are_met_together():
         assert np.sqrt(((ratio - 1) ** 2).mean()) < 0.02
 
 
-def test_what_is_wrong_is_said():
-    script = NOISE + "E = PSRS S0 15. (PROG 0.05) LT ; S = RESPOWSP E 15. (PROG 0.05 0.1) ;"
-    assert "1 spectra for 2 dampings" in run_text(script).message
-
-
 def test_a_picture_every_few_points(tmp_path):
     ran(
         "T = PROG 0. PAS 6. 360. ; E1 = EVOL 'ROUG' 'MANU' (COS T) (SIN (T * 2.)) ;"
@@ -70,8 +63,3 @@ def test_a_picture_every_few_points(tmp_path):
         output_directory=tmp_path,
     )
     assert sorted(p.suffix for p in tmp_path.glob("*essai*")) == [".png"] * 2 + [".svg"] * 2
-
-
-def test_a_start_beyond_the_end_is_an_error():
-    script = "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; T = TABL ; T . 'IDEB' = 5 ; ORBITE E T ;"
-    assert "IDEB" in run_text(script).message

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, refused
+from script_runs import found
 
 TABLE = (
     "SP0 = EVOL 'MANU' 'FREQ' (PROG 0.1 0.5 1. 2.5 5. 33. 50.) 'ACCE' "
@@ -47,7 +47,3 @@ def test_white_noise_has_unit_deviation_and_a_flat_spectrum():
     )  # fmt: skip
     assert np.sqrt(np.mean(noise.values**2)) == pytest.approx(1.0)
     np.testing.assert_allclose(module.values[1:-1], module.values[1], rtol=1e-9)
-
-
-def test_unknown_kind_is_refused():
-    assert "FABR or BLANC" in refused("T = TABL ; E = SIGNSYNT 'AUTRE' T ;")

@@ -5,8 +5,6 @@ import pytest
 from scipy import stats
 from script_runs import found
 
-from ssilang.cli.run import run_text
-
 
 def curve(value, part=0):
     return np.asarray(value.parts[part].abscissas), np.asarray(value.parts[part].ordinates)
@@ -124,10 +122,6 @@ def test_laws_are_those_of_scipy(law):
     density, distribution = found(script, "D", "F")
     np.testing.assert_allclose(density.values, exact.pdf(points), atol=1e-12, rtol=1e-9)
     np.testing.assert_allclose(distribution.values, exact.cdf(points), atol=1e-12, rtol=1e-9)
-
-
-def test_unknown_law_is_an_error():
-    assert "LOI_X" in run_text("T = TABL ; T . 'TYPVA' = 'LOI_X' ; X = FDENS T 1. ;").message
 
 
 def test_moments_of_a_gaussian_by_quadrature():

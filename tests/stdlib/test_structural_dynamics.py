@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 from script_runs import found
 
-from ssilang.cli.run import run_text
-
 TWO_MASSES = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 1. 0. ; P3 = 2. 0. ;"
     "G1 = MANU 'SEG2' P1 P2 ; G2 = MANU 'SEG2' P2 P3 ;"
@@ -70,10 +68,6 @@ def test_modes_left_out_are_damped_by_stiffness_only_with_m_damp_k():
     x, y, w1, w2 = found(script, "X", "Y", "W1", "W2")
     assert x == pytest.approx(0, abs=1e-9)
     assert y == pytest.approx(0.02 * w2 / w1)
-
-
-def test_too_many_dampings_is_an_error():
-    assert "3 dampings" in run_text(TWO_MASSES + "C = M_DAMPIN T1 (PROG 1. 2. 3.) K1 ;").message
 
 
 def direct(f, force, ground=False):

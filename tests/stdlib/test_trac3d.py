@@ -80,14 +80,6 @@ def test_creer_3d_is_the_same():
     assert "model" in run_text(plane + "T = CREER_3D E 90. 3 0 ;").message
 
 
-def test_unknown_components_are_named():
-    script = (
-        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (1. 0.) (1. 1.) ;"
-        "T = TRAC3D_2 L (NOMC 'ZUT' (COOR 1 L)) 360. 8 0 ;"
-    )
-    assert "ZUT" in run_text(script).message
-
-
 @needs_window
 def test_the_picture_is_drawn_and_options_come_back(tmp_path):
     result = ran(

@@ -5,10 +5,6 @@ from script_runs import found, ran, refused
 from together import together
 
 
-def test_unknown_units_are_named():
-    assert "no unit of time" in refused("T = CONVT 1. 2 'FORTNIGHT' ;")
-
-
 @together("count", range(21))
 def test_palette_has_different_colours_that_the_picture_knows(count):
     colours = [str(c).strip() for c in found(f"L = @PALETTE {count} ;", "L").values]

@@ -35,7 +35,7 @@ from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.language.text.tree import heading
-from ssilang.language.values import Mot, Procedure, Texte
+from ssilang.language.values import Mot, Procedure
 from ssilang.operators.dispatch import WORDS_OF_UNION, joining
 from ssilang.operators.numbers.arithmetic import RULES, SIGNS
 
@@ -51,11 +51,9 @@ class AbstractCall(Call):
 
     def _read(self, types: Sequence[str], after: int) -> Operand | None:
         for operand in self.operands:
-            if operand.value is UNKNOWN or isinstance(operand.value, Texte):
-                raise Ambiguous
-            if operand.value is SOMETHING:
-                if types == ("PROCEDUR",):
-                    continue
+            if operand.value is SOMETHING and types == ("PROCEDUR",):
+                continue
+            if operand.value is UNKNOWN or operand.value is SOMETHING:
                 raise Ambiguous
             late = after < 0 or operand.span.start >= after
             if (late and accepts(types, operand.value)) or isinstance(
@@ -98,7 +96,7 @@ class AbstractCall(Call):
 
     def word_index(self) -> int | None:
         for i, operand in enumerate(self.operands):
-            if operand.value is UNKNOWN or isinstance(operand.value, AnyWord | Texte):
+            if operand.value is UNKNOWN or isinstance(operand.value, AnyWord):
                 raise Ambiguous
             if isinstance(operand.value, Mot | Procedure):
                 return i
@@ -239,7 +237,7 @@ class PhraseReader:
     ) -> None:
         """An operator that reads for itself, with words of its own: known if no other follows."""
         for other in call.operands:
-            if other.value is UNKNOWN or isinstance(other.value, Texte | Procedure | AnyWord):
+            if other.value is UNKNOWN or isinstance(other.value, Procedure | AnyWord):
                 raise Ambiguous
             ours = isinstance(other.value, Mot) and str(other.value).upper()[:4] in own
             if isinstance(other.value, Mot) and not ours and find_operator(str(other.value)):
@@ -344,17 +342,13 @@ class PhraseReader:
 
     def _finish(self, call: AbstractCall, scope: Scope, one_name: bool) -> list[Operand]:
         left = call.operands
-        made = any(o.value is SOMETHING for o in left)
-        if made or any(o.value is UNKNOWN for o in left[1:]):
-            if one_name and (made or not left[0].result):
+        if any(o.value in (SOMETHING, UNKNOWN) for o in left):
+            if one_name:
                 self.session.evaluator.refuse_leftovers(
                     [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
                 )
-            if len(left) == 1:
-                return left
-            raise Ambiguous
-        if any(o.value is UNKNOWN or isinstance(o.value, Texte) for o in left) and len(left) > 1:
-            raise Ambiguous
+            if len(left) > 1:
+                raise Ambiguous
         numbers = [o for o in left if kind_word(o.value) in _SCALARS]
         if one_name and len(numbers) == len(left) and len(numbers) in (2, 3):
             span = numbers[0].span.to(numbers[-1].span)

@@ -60,7 +60,8 @@ def _note(source: Source, problem: Problem) -> str:
     if last == line:  # columns of several lines are not shown
         place += f",endColumn={behind}"
     message = "\n".join(p for p in (problem.text, problem.hint) if p)
-    return f"::{problem.severity} {place},title={_property(problem.code)}::{_data(message)}"
+    level = "notice" if problem.severity == "note" else problem.severity
+    return f"::{level} {place},title={_property(problem.code)}::{_data(message)}"
 
 
 def _data(text: str) -> str:

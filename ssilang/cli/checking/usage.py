@@ -8,6 +8,8 @@ from ssilang.language.search import VERY_LIKE, nearest
 from ssilang.language.text import tree
 
 _NAME = re.compile(r"[@&!]?[^\W\d]\w*")
+_RANK = {"+": 0, "-": 0, "*": 1, "/": 1, "**": 2}  # of signs, in other languages
+_NAMED = 5  # places that a note names
 _SHORTEST = 4  # letters of a word that may be a misspelt name
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
@@ -68,6 +70,37 @@ def misspelt_names(
                     "perhaps-misspelt", item.span, name=item.text, like=near
                 )
     return list(found.values())
+
+
+def left_to_right(script: tree.Script) -> Iterator[SsiError]:
+    """A note, at the first, of places where a sign comes before one that elsewhere goes first."""
+    found = [
+        five
+        for statement in statements_of(script.body)
+        for items in _phrases((*statement.targets, *statement.items))
+        for five in zip(*(items[k:] for k in range(5)), strict=False)
+        if _RANK.get(_sign(five[1]), 3) < _RANK.get(_sign(five[3]), 0)
+    ]
+    said = []
+    for five in found[:_NAMED]:
+        line = five[0].span.source.position(five[0].span.start)[0]
+        a, first, b, then, c = (" ".join(item.span.text.split()) for item in five)
+        said.append(f"{a} {first} {b} {then} {c} = ({a} {first} {b}) {then} {c} ({line})")
+    if found:
+        told = {"places": said, "more": len(found) - len(said)}
+        yield SsiError("left-to-right", found[0][0].span.to(found[0][4].span), **told)
+
+
+def _sign(item: tree.Item) -> str:
+    return item.text if isinstance(item, tree.Symbol) else ""
+
+
+def _phrases(items: Sequence[tree.Item]) -> Iterator[Sequence[tree.Item]]:
+    """A phrase and those in its parentheses."""
+    yield items
+    for item in items:
+        inside = item.items if isinstance(item, tree.Paren) else ()
+        yield from _phrases(item.indices if isinstance(item, tree.Path) else inside)
 
 
 def bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:

@@ -45,6 +45,7 @@ _TRIGGERS = ["'", ".", " "]
 _SEVERITY = {
     "error": lsp.DiagnosticSeverity.Error,
     "warning": lsp.DiagnosticSeverity.Warning,
+    "note": lsp.DiagnosticSeverity.Information,
 }
 _FADED = frozenset({"unused-name"})
 _CANDIDATES: dict[complete.Kind, lsp.CompletionItemKind] = {

@@ -4,8 +4,6 @@ What stands in a statement does not depend on where it stands: after a change, t
 and behind it are taken over, and only what lies between is read.
 """
 
-from __future__ import annotations
-
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from ssilang.io.atomic import inside
 from ssilang.messages.message import Refusal
 
 Value = int | float | bool | str
@@ -115,7 +116,7 @@ def _name(case: Case, *, whole: bool) -> str:
     plain = _UNFIT.sub("-", name)
     if plain == name and len(name) <= _LONGEST_NAME:
         return name
-    digest = hashlib.sha256(name.encode()).hexdigest()[:6]
+    digest = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:6]
     return f"{plain[:_LONGEST_NAME]}_{digest}"
 
 
@@ -189,7 +190,7 @@ def motions_in(folder: Path, left: list[Path]) -> list[str]:
     Raises
     ------
     GivenError
-        If it is no folder, or has none.
+        If it is no folder, has none, or one that is a link out of it.
     """
     if not folder.is_dir():
         raise GivenError("cli.not-folder-ground-motions", folder=folder)
@@ -198,7 +199,10 @@ def motions_in(folder: Path, left: list[Path]) -> list[str]:
     left += [p for p in files if p not in motions]
     if not motions:
         raise GivenError("cli.no-file", folder=folder)
-    return [str(p.resolve()) for p in motions]
+    for path in motions:  # the script may read where its motion is
+        if inside(folder, path.name) is None:
+            raise GivenError("cli.motion-leads-out", name=path.name, folder=folder)
+    return [str(folder.resolve() / p.name) for p in motions]
 
 
 def is_motion(path: Path) -> bool:

@@ -1,7 +1,5 @@
 """One run of a sweep, in a process of its own."""
 
-from __future__ import annotations
-
 import gc
 import json
 import time
@@ -86,12 +84,19 @@ def run_task(task: Task) -> Row:
         **{check.name: check.value for check in result.session.checks},
         "folder": task.folder.name,
     }
+    row = _written(row)
     kept = {**_inputs(result, wall), "row": row, "seal": _seal(row)}
-    write_text(task.folder / ROW, json.dumps(kept, ensure_ascii=False) + "\n")
+    write_text(task.folder / ROW, json.dumps(kept) + "\n")
     return row
 
 
-def _inputs(result: RunResult, started: float) -> dict[str, Any]:
+def _written(row: Row) -> Row:
+    r"""A row as tables hold it: names of files that are no UTF-8 have `\udcff` where that is."""
+    texts = {k: v.encode("utf-8", "backslashreplace") for k, v in row.items() if isinstance(v, str)}
+    return {**row, **{name: text.decode() for name, text in texts.items()}}
+
+
+def _inputs(result: "RunResult", started: float) -> dict[str, Any]:
     """What a run computed with; a file that changed meanwhile holds for no later run."""
     from ssilang.operators.files.outputs import digests_of_read, run_output
 
@@ -104,7 +109,7 @@ def _inputs(result: RunResult, started: float) -> dict[str, Any]:
     return {**output.deck().kept(), "files": files} if output.deck is not None else {}
 
 
-def row_of(task: Task, deck: Deck) -> Row | Sentence | None:
+def row_of(task: Task, deck: "Deck") -> Row | Sentence | None:
     """The row of a run that ended well, with its number in this sweep.
 
     Returns
@@ -152,11 +157,5 @@ def row_anyhow(task: Task, work: Work = run_task) -> Row:
 
 def lost_row(task: Task, reason: str) -> Row:
     """The row of a run whose process died."""
-    return {
-        "run": task.number,
-        **task.values,
-        "exit_code": 1,
-        "seconds": None,
-        "error": f"the run was lost: {reason}",
-        "folder": task.folder.name,
-    }
+    told = {"exit_code": 1, "seconds": None, "error": f"the run was lost: {reason}"}
+    return _written({"run": task.number, **task.values, **told, "folder": task.folder.name})

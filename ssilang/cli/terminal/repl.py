@@ -3,8 +3,6 @@
 Lines are read by prompt_toolkit when it is installed, else by readline, else by input().
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import os
@@ -62,7 +60,7 @@ def _toolkit(complete: Complete, kept: bool) -> Ask:
     from prompt_toolkit.history import FileHistory, InMemoryHistory
 
     class Candidates(Completer):
-        def get_completions(self, document: Any, complete_event: Any) -> Iterator[Completion]:
+        def get_completions(self, document: Any, complete_event: Any) -> "Iterator[Completion]":
             prefix, found = complete(document.text_before_cursor)
             for word in found:
                 yield Completion(word, start_position=-len(prefix))
@@ -122,7 +120,7 @@ def completions(text: str, session: Session) -> tuple[str, list[str]]:
     return prefix, sorted(w for w in words if w.lstrip("'").upper().startswith(typed))
 
 
-def _written(candidate: Candidate, prefix: str) -> str:
+def _written(candidate: "Candidate", prefix: str) -> str:
     """A candidate as it is typed: keywords need no quotes where none was opened."""
     bare = candidate.kind in ("keyword", "word") and candidate.label.isidentifier()
     return candidate.label if bare and prefix[:1] != "'" else candidate.text

@@ -28,7 +28,7 @@ VERSION = 1
 _OBJECTS = "objects.json"
 DAMAGES = (
     OSError, LookupError, ValueError, TypeError, AttributeError, OverflowError, EOFError,
-    RecursionError, SyntaxError, NotImplementedError, zipfile.BadZipFile, zlib.error, TokenError,
+    RuntimeError, MemoryError, SyntaxError, zipfile.BadZipFile, zlib.error, TokenError,
 )  # fmt: skip
 """What Python and its libraries raise over bytes that are no archive of ours."""
 
@@ -91,6 +91,8 @@ class Archive:
                 raise _too_large(self.path)
             raw = self.file.read(f"arrays/{number}.npy")
             array: NDArray[Any] = np.load(io.BytesIO(raw), allow_pickle=False)
+            if array.dtype.kind not in "buif":  # objects hold no complex numbers, words, dates
+                raise ValueError(f"{array.dtype}, {array.shape}")
         except DAMAGES as error:
             raise _unreadable(self.path, error) from error
         return array

@@ -199,13 +199,13 @@ def _mapping(value: object, inside: tuple[Any, ...]) -> bool:
 
 
 def _array(value: object, inside: tuple[Any, ...]) -> bool:
-    """An array of the kind of numbers; whole ones are real and real ones complex, as needed."""
+    """An array of the kind of numbers; whole ones are real, as needed."""
     if not isinstance(value, np.ndarray):
         return False
     (wanted,) = get_args(inside[1])
     if wanted is Any:
         return True
-    return value.dtype.kind in ("bui" if issubclass(wanted, np.integer) else "buifc")
+    return value.dtype.kind in ("bui" if issubclass(wanted, np.integer) else "buif")
 
 
 _RULES: dict[Any, Callable[[object, tuple[Any, ...]], bool]] = {
@@ -293,11 +293,19 @@ def _relations(values: Mapping[str, Any]) -> str:
     return next((name for name, n in sizes.items() if values[name].shape != (n,)), "")
 
 
+def _arrows(values: Mapping[str, Any]) -> str:
+    count = len(values["origins"])
+    shapes = {"origins": (count, 3), "vectors": (count, 3), "nodes": (count,)}
+    there = {n: shape for n, shape in shapes.items() if values.get(n) is not None}
+    return next((n for n, shape in there.items() if values[n].shape != shape), "")
+
+
 def _between(numbers: Any, stop: int) -> bool:
     return bool(((numbers >= 0) & (numbers < stop)).all())
 
 
 _AGREEMENTS: dict[str, Callable[[Mapping[str, Any]], str]] = {
+    "ArrowPart": _arrows,
     "CellBlock": _cell_block,
     "NodeValues": _node_values,
     "CellFieldBlock": _cell_field_block,

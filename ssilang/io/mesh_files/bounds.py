@@ -3,8 +3,6 @@
 A few bytes may say that thousands of millions of lines follow, or unpack to all memory.
 """
 
-from __future__ import annotations
-
 import io
 import zlib
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What stands around and over a picture: arrows, numbers, names, frame, colour bar."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -75,7 +73,7 @@ class Labels:
         """Add texts at places (n, 3)."""
         self.asked.append((places, texts, colour, size))
 
-    def write(self, axes: Axes, photograph: Photograph | None, bounds: FloatArray) -> None:
+    def write(self, axes: "Axes", photograph: Photograph | None, bounds: FloatArray) -> None:
         """Write what is seen on a photograph of the sheet `bounds`; all without one."""
         from matplotlib.patheffects import withStroke
 
@@ -93,7 +91,7 @@ class Labels:
 
 
 def labels_of(
-    view: View, prepared: list[tuple[Layer, list[Faces]]], options: PictureOptions
+    view: View, prepared: "list[tuple[Layer, list[Faces]]]", options: "PictureOptions"
 ) -> Labels:
     """Node numbers, cell numbers, values and names, as asked for."""
     made = Labels(view)
@@ -115,7 +113,7 @@ def labels_of(
     return made
 
 
-def _add_values(made: Labels, layer: Layer, f: Faces, positions: FloatArray) -> None:
+def _add_values(made: Labels, layer: "Layer", f: Faces, positions: FloatArray) -> None:
     assert layer.field is not None
     values = values_on(f, layer.field, layer.component).ravel()
     ids, first = np.unique(f.nodes.ravel(), return_index=True)
@@ -123,7 +121,7 @@ def _add_values(made: Labels, layer: Layer, f: Faces, positions: FloatArray) -> 
     made.add(positions[ids[known]], [f"{v:.4g}" for v in values[first][known]])
 
 
-def frame(axes: Axes, view: View, bounds: FloatArray, names: tuple[str, str]) -> None:
+def frame(axes: "Axes", view: View, bounds: FloatArray, names: tuple[str, str]) -> None:
     """Limits, equal scales; coordinates along the sides in the plane, a triad in space.
 
     `names` stand at the two sides of the plane, if they say something.
@@ -142,7 +140,7 @@ def frame(axes: Axes, view: View, bounds: FloatArray, names: tuple[str, str]) ->
         axes.spines[side].set_color("#c9ced4")
 
 
-def _triad(axes: Axes, view: View) -> None:
+def _triad(axes: "Axes", view: View) -> None:
     """The directions x, y, z in the lower left corner."""
     corner = axes.inset_axes((0.0, 0.0, 0.13, 0.13))
     corner.set_axis_off()
@@ -163,7 +161,7 @@ Ends = dict[str, FloatArray]
 
 
 def mark_extremes(
-    axes: Axes, view: View, ends: Ends, photograph: Photograph | None, bounds: FloatArray
+    axes: "Axes", view: View, ends: Ends, photograph: Photograph | None, bounds: FloatArray
 ) -> None:
     """Mark where the extreme values are, if they are seen."""
     for name, marker in (("min", "v"), ("max", "^")):
@@ -180,7 +178,7 @@ def mark_extremes(
 
 
 def colour_bar(
-    axes: Axes,
+    axes: "Axes",
     levels: Levels,
     name: str,
     extremes: tuple[float, float] | None,

@@ -1,7 +1,5 @@
 """Faces of a layer given to the painter: plain, shaded, or coloured by bands."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,7 +22,7 @@ _DEFAULT_FILL = np.array([0.72, 0.76, 0.81])
 
 
 def add_faces(
-    painter: Painter, faces: list[Faces], layer: Layer, options: PictureOptions, size: float
+    painter: Painter, faces: list[Faces], layer: "Layer", options: "PictureOptions", size: float
 ) -> None:
     """Add the faces in their own colours.
 
@@ -48,7 +46,7 @@ def add_faces(
             painter.add(points, fill, edge, width, rank=1, light=light)
 
 
-def add_points(painter: Painter, faces: list[Faces], layer: Layer, levels: Levels | None) -> None:
+def add_points(painter: Painter, faces: list[Faces], layer: "Layer", levels: Levels | None) -> None:
     """Add cells of one node, as dots."""
     for f in faces:
         if f.kind != "POI1":
@@ -59,7 +57,7 @@ def add_points(painter: Painter, faces: list[Faces], layer: Layer, levels: Level
         painter.add_dots(layer.positions()[f.nodes[:, 0]], inks, 4.25)
 
 
-def _paint(f: Faces, inks: Inks, solid: bool, options: PictureOptions) -> tuple[Any, Inks]:
+def _paint(f: Faces, inks: Inks, solid: bool, options: "PictureOptions") -> tuple[Any, Inks]:
     """Inks of faces and of their edges."""
     edge = inks.copy()
     if options.filled:
@@ -73,7 +71,7 @@ def _paint(f: Faces, inks: Inks, solid: bool, options: PictureOptions) -> tuple[
     return _mixed(inks, 0.10), edge
 
 
-def _inks(f: Faces, layer: Layer) -> Inks:
+def _inks(f: Faces, layer: "Layer") -> Inks:
     from matplotlib.colors import to_rgba
 
     own = f.colours if layer.colour is None else np.full(len(f.nodes), layer.colour)
@@ -100,7 +98,7 @@ def _shrunk(points: FloatArray, ratio: float | None) -> FloatArray:
     return np.asarray(centre + ratio * (points - centre))
 
 
-def band_values(prepared: list[tuple[Layer, list[Faces]]]) -> FloatArray | None:
+def band_values(prepared: "list[tuple[Layer, list[Faces]]]") -> FloatArray | None:
     """All nodal values of the coloured layers, None if no layer is coloured."""
     parts = [
         values_on(f, layer.field, layer.component).ravel()
@@ -116,9 +114,9 @@ def band_values(prepared: list[tuple[Layer, list[Faces]]]) -> FloatArray | None:
 def add_bands(
     painter: Painter,
     faces: list[Faces],
-    layer: Layer,
+    layer: "Layer",
     levels: Levels,
-    options: PictureOptions,
+    options: "PictureOptions",
     size: float,
 ) -> None:
     """Add the faces coloured by a field; faces without a value are grey."""
@@ -151,7 +149,7 @@ def add_bands(
 
 
 def add_section(
-    painter: Painter, layer: Layer, plane: Plane, levels: Levels | None, options: PictureOptions
+    painter: Painter, layer: "Layer", plane: Plane, levels: Levels | None, options: "PictureOptions"
 ) -> None:
     """Add what a plane cuts of a layer, in its colours or coloured by its field."""
     from matplotlib.colors import to_rgb

@@ -1,7 +1,5 @@
 """New figures in one style, and their files."""
 
-from __future__ import annotations
-
 import io
 import logging
 import os
@@ -65,7 +63,7 @@ def _style() -> dict[Any, Any]:
 
 
 @contextmanager
-def drawing(width: float = 7.2, height: float = 4.6) -> Iterator[Figure]:
+def drawing(width: float = 7.2, height: float = 4.6) -> "Iterator[Figure]":
     """A new figure of `width` x `height` inches; the style holds inside the block."""
     # where the user has no home matplotlib tells of a cache that it makes elsewhere
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
@@ -89,20 +87,20 @@ def _share_what_is_read() -> None:
     """
     from matplotlib.mathtext import MathTextParser
 
-    def kind(reader: MathTextParser[Any]) -> object:
+    def kind(reader: "MathTextParser[Any]") -> object:
         return getattr(reader, "_output_type", id(reader))
 
-    def equal(reader: MathTextParser[Any], other: object) -> bool:
+    def equal(reader: "MathTextParser[Any]", other: object) -> bool:
         return isinstance(other, MathTextParser) and kind(reader) == kind(other)
 
-    def key(reader: MathTextParser[Any]) -> int:
+    def key(reader: "MathTextParser[Any]") -> int:
         return hash(kind(reader))
 
     MathTextParser.__eq__ = equal  # type: ignore[method-assign, assignment]
     MathTextParser.__hash__ = key  # type: ignore[method-assign, assignment]
 
 
-def head(figure: Figure, title: str) -> None:
+def head(figure: "Figure", title: str) -> None:
     """Write a title over a figure, on several lines if it is long."""
     from ssilang.io.plots.markup import cut, to_mathtext
 
@@ -126,7 +124,7 @@ class Pictures:
         self._count = 0
 
     @cached_property
-    def stage(self) -> Stage:
+    def stage(self) -> "Stage":
         """Draws what stands in space, for all pictures of the run."""
         from ssilang.io.plots.stage import Stage
 
@@ -137,7 +135,7 @@ class Pictures:
         if "stage" in vars(self):
             self.stage.close()
 
-    def save(self, figure: Figure, name: str, formats: tuple[str, ...] = ("png",)) -> list[Path]:
+    def save(self, figure: "Figure", name: str, formats: tuple[str, ...] = ("png",)) -> list[Path]:
         """Write `figure` under the next number in each format; the files appear whole.
 
         Raises
@@ -152,7 +150,7 @@ class Pictures:
         return made
 
 
-def save_figure(figure: Figure, path: Path) -> Path:
+def save_figure(figure: "Figure", path: Path) -> Path:
     """Write `figure` in the format of the extension of `path`, whole or not at all."""
     content = figure_bytes(figure, path.suffix.lstrip("."))
     with replacing(path) as stream:
@@ -160,7 +158,7 @@ def save_figure(figure: Figure, path: Path) -> Path:
     return path
 
 
-def figure_bytes(figure: Figure, form: str) -> bytes:
+def figure_bytes(figure: "Figure", form: str) -> bytes:
     """`figure` as a file of a format: 'png', 'svg' or 'pdf'; its parts are placed once.
 
     Left to `savefig` each format places them twice and draws twice.
@@ -178,7 +176,7 @@ def figure_bytes(figure: Figure, form: str) -> bytes:
     return buffer.getvalue()
 
 
-def _number_plainly(figure: Figure) -> None:
+def _number_plainly(figure: "Figure") -> None:
     """Let axes have plain numbers, not formulas: reading those took a fifth of a picture's time."""
     from matplotlib.ticker import ScalarFormatter
 

@@ -3,8 +3,6 @@
 Numbers written by a Fortran edit descriptor: '(F5.1)', '(I4)', '(1PE12.5)', '(G10.2)'.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -60,18 +58,18 @@ class Annotation:
     categories: tuple[Category, ...] = ()
     tags: tuple[Tag, ...] = ()
 
-    def joined(self, other: Annotation) -> Annotation:
+    def joined(self, other: "Annotation") -> "Annotation":
         """Both together."""
         return Annotation(self.categories + other.categories, self.tags + other.tags)
 
 
-def draw_tags(axes: Axes, view: View, annotation: Annotation, size: float) -> None:
+def draw_tags(axes: "Axes", view: View, annotation: Annotation, size: float) -> None:
     """Write the tags of a panel."""
     for tag in annotation.tags:
         _draw_tag(axes, view, tag, size)
 
 
-def draw_categories(figure: Figure, annotation: Annotation) -> None:
+def draw_categories(figure: "Figure", annotation: Annotation) -> None:
     """Write the categories as a legend on the right of a picture."""
     from matplotlib.patches import Patch
 
@@ -86,7 +84,7 @@ def draw_categories(figure: Figure, annotation: Annotation) -> None:
         )
 
 
-def _draw_tag(axes: Axes, view: View, tag: Tag, size: float) -> None:
+def _draw_tag(axes: "Axes", view: View, tag: Tag, size: float) -> None:
     x, y = view.project(tag.point.coordinates)
     right, up = PLACES[tag.place]
     reach = (tag.distance if tag.distance is not None else 0.05 * size) if (right or up) else 0.0

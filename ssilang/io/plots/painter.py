@@ -1,7 +1,5 @@
 """What a panel shows, gathered from its layers: drawn as paths in the plane, by VTK in space."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -73,7 +71,7 @@ class Painter:
         else:
             self.add(np.stack([start, start + step], axis=1), edge=ink, width=1.8, rank=3)
 
-    def draw(self, axes: Axes) -> None:
+    def draw(self, axes: "Axes") -> None:
         """Draw what was added in the plane, in the order of adding."""
         if self._batches:
             _draw_paths(axes, self.view, self._batches)
@@ -84,7 +82,7 @@ class Painter:
             elif isinstance(thing, Darts):
                 _draw_darts(axes, self.view, thing)
 
-    def photograph(self, axes: Axes, stage: Stage, bounds: FloatArray, deep: bool) -> Photograph:
+    def photograph(self, axes: "Axes", stage: Stage, bounds: FloatArray, deep: bool) -> Photograph:
         """Draw what was added in space: the sheet `bounds`, which fills the axes.
 
         `deep` asks for the depths of the photograph too.
@@ -103,7 +101,7 @@ class Painter:
         return seen
 
 
-def _put_pixels(axes: Axes, image: NDArray[np.uint8], bounds: FloatArray) -> None:
+def _put_pixels(axes: "Axes", image: NDArray[np.uint8], bounds: FloatArray) -> None:
     """Show an image that has as many pixels as the axes: matplotlib need not make them anew."""
     from matplotlib.image import AxesImage
 
@@ -164,7 +162,7 @@ def _flat(polygons: FloatArray, inks: Inks) -> tuple[FloatArray, Inks]:
     return parts[real], inks[real]
 
 
-def _draw_paths(axes: Axes, view: View, batches: list[_Batch]) -> None:
+def _draw_paths(axes: "Axes", view: View, batches: list[_Batch]) -> None:
     """One path for all polygons of a batch that have the same ink: they do not overlap."""
     from matplotlib.collections import PathCollection
 
@@ -202,7 +200,7 @@ def _compound(polygons: FloatArray) -> Any:
     return Path(polygons.reshape(-1, 2), np.tile(np.array(codes, dtype=np.uint8), n))
 
 
-def _draw_darts(axes: Axes, view: View, darts: Darts) -> None:
+def _draw_darts(axes: "Axes", view: View, darts: Darts) -> None:
     axes.quiver(
         *view.project(darts.start).T,
         *view.project(darts.step).T,

@@ -4,8 +4,6 @@ A picture is a list of layers seen from one or several eyes; each layer is a mes
 coloured by its own colours or by a field.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
@@ -50,7 +48,7 @@ def draw_scene(
     arrows: Arrows | None = None,
     components: Sequence[str] = (),
     stage: Stage | None = None,
-) -> Figure:
+) -> "Figure":
     """A figure with one panel a view, or a component of the coloured layer.
 
     Parameters
@@ -161,7 +159,7 @@ def _sheet(bounds: FloatArray, panels: int) -> tuple[float, float, int, int]:
 class _Panel:
     """One drawing of a picture: its axes, its eye, its sheet (2, 2), its layers with faces."""
 
-    axes: Axes
+    axes: "Axes"
     view: View
     bounds: FloatArray
     prepared: list[tuple[Layer, list[Faces]]]

@@ -13,8 +13,6 @@ time, the first that is wrong (Murty's rule, which is finite). The set starts fr
 before.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

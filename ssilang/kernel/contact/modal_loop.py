@@ -10,8 +10,6 @@ so the reactions are those of any other order. Velocities are corrected as `impa
 say.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -222,55 +220,36 @@ def _stays(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, i: int) -> 
 @compiled_fused
 def _strike(stops: Stops, Q: FloatArray, x: Motion, rate: FloatArray, closing: np.ndarray) -> float:
     """Bodies that are struck while they are held; their rows no longer count as `closing`."""
-    m, r, by, W = len(x.contact), len(x.v), stops.struck.by, stops.struck.on
-    v, c, impulse, change = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
-    held, body, struck = np.zeros(m, np.bool_), np.zeros(m, np.bool_), np.zeros(m, np.bool_)
-    strikes = closing.copy()
+    m, G, W, n = len(x.contact), stops.G, stops.struck.on, stops.newmark
+    body, struck, strikes = np.zeros(m, np.bool_), np.zeros(m, np.bool_), closing.copy()
+    impulse, change = np.zeros(m), np.zeros(m)
+    v = np.dot(G, x.v) - rate
+    c = v - n.v_du * np.dot(Q, x.contact)
+    held = stops.closed & ~closing & (c <= 0.0)
     for i in range(m):
-        v[i] = c[i] = -rate[i]
-        for j in range(r):
-            v[i] += stops.G[i, j] * x.v[j]
-        c[i] = v[i]
-        for j in range(m):
-            c[i] -= stops.newmark.v_du * Q[i, j] * x.contact[j]
-        held[i] = stops.closed[i] and not closing[i] and c[i] <= 0.0
         if held[i] and x.contact[i] > 0.0:
             strikes[i] = _stays(stops, Q, x, rate, i)
-    step = np.array([1.0 / stops.newmark.v_du, stops.newmark.a_du / stops.newmark.v_du])
-    a = np.zeros(m)
-    _rows_of(stops.G, x.a, a)
+    step = np.array([1.0 / n.v_du, n.a_du / n.v_du])
+    a = np.dot(G, x.a)
     if strike(W, Q, c, v, a, step, strikes, held, body, struck, impulse) == 0:
         return np.nan
     _push(stops, x, impulse)
-    a[:] = 0.0
-    _rows_of(stops.G, x.a, a)
-    press(W, a, struck, x.contact, change)
-    work = 0.0
-    for i in range(m):
-        closing[i] = closing[i] and not body[i]
-        work += rate[i] * (impulse[i] - 0.5 * stops.newmark.dt * change[i])
-        x.contact[i] += change[i]
-        for j in range(r):
-            x.a[j] += by[j, i] * change[i]
-        c[i], v[i], a[i] = v[i] * step[0], -rate[i], 0.0
-    _rows_of(stops.G, x.v, v)
-    _rows_of(stops.G, x.a, a)
-    slow_down(W, v, a, c, body, struck, impulse)
+    press(W, np.dot(G, x.a), struck, x.contact, change)
+    x.a[:] += np.dot(stops.struck.by, change)
+    x.contact[:] += change
+    closing &= ~body
+    work = np.dot(rate, impulse - 0.5 * n.dt * change)
+    slow_down(W, np.dot(G, x.v) - rate, np.dot(G, x.a), v * step[0], body, struck, impulse)
     _push(stops, x, impulse)
-    for i in range(m):
-        work += rate[i] * impulse[i]
-    return work
+    return float(work + np.dot(rate, impulse))
 
 
 @compiled_fused
 def _push(stops: Stops, x: Motion, impulse: FloatArray) -> None:
     """Velocities and accelerations after impulses (m,) on the rows."""
-    for j in range(len(x.v)):
-        move = 0.0
-        for i in range(len(impulse)):
-            move += stops.struck.by[j, i] * impulse[i]
-        x.v[j] += move
-        x.a[j] -= stops.slowing[j] * move
+    move = np.dot(stops.struck.by, impulse)
+    x.v[:] += move
+    x.a[:] -= stops.slowing * move
 
 
 @compiled_fast

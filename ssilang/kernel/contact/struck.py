@@ -18,8 +18,6 @@ constant accelerations kinetic energies are right where the rows meet and where 
 step's end, whatever the step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

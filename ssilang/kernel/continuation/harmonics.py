@@ -7,8 +7,6 @@ Nonlinear forces are sampled over one period (Cameron and Griffin 1989).
 Forces of links at instants of a period, with their derivatives by small differences.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

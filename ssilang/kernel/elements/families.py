@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.beams.bar import Bar, Hoop
 from ssilang.kernel.elements.beams.beam import Beam, FibreBeam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_section import Fibre
@@ -36,7 +36,7 @@ from ssilang.kernel.elements.zone_fields import (
 )
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
 
 FAMILIES: dict[str, ElementFamily] = {
@@ -222,6 +222,8 @@ def compliance_of(zone: Zone, parameters: ZoneField) -> FloatArray:
     family = family_of(zone)
     if isinstance(family, Solid) and "MAHO" not in parameters:
         return solid_compliance(zone, parameters, "STRESSES")
+    if isinstance(family, Solid) and zone.mode is Mode.PLANE_STRESS:
+        raise MaterialError("kernel.elements.hooke-matrix-of-plane-stress", element=zone.element)
     return inverted(zone, moduli_of(zone, parameters, "STRESSES"))
 
 

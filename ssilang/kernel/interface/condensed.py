@@ -8,8 +8,6 @@ stiffness that keeps it regular, taken back here). With the compliance `S = J A^
 and then `x = A^-1 r - A^-1 J^T h`.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small loops for compiled code: what numba makes of whole arrays takes it seconds to compile."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 

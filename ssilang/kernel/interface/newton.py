@@ -3,8 +3,6 @@
 The laws are piecewise smooth, so two or three turns reach rounding errors.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What a user wants to know of each point of a joint: open or closed, energies stored and lost."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Forces and stiffness of an interface by its jumps, compiled; tractions that conserve energy."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

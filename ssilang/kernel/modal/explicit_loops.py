@@ -1,7 +1,5 @@
 """Compiled loops of the time stepping on modes."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

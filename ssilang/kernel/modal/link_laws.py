@@ -1,7 +1,5 @@
 """Forces of links, compiled: contacts, friction, plastic springs, couplings of modes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

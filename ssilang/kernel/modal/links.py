@@ -5,8 +5,6 @@ it is `P^T f`. Forces of contact act along `-n`, n from the point to the obstacl
 or lines touch, P is that of the place where they are (`Points`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple

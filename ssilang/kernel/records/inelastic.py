@@ -1,7 +1,5 @@
 """Largest responses of bilinear oscillators to ground motion, at given or wanted ductility."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """Dense products and factors in compiled code: LU with row exchanges, one right side or many."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -1,7 +1,5 @@
 """What every solver of sparse systems gives, takes, and raises."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -44,11 +42,11 @@ class Solver:
     """
 
     name: str | None = None
-    petsc: PetscServer | None = field(default=None, compare=False)
+    petsc: "PetscServer | None" = field(default=None, compare=False)
     tolerance: float = RESIDUAL
 
     @classmethod
-    def of(cls, asked: Solver | str | None) -> Solver:
+    def of(cls, asked: "Solver | str | None") -> "Solver":
         """The solver with a name, if only that is said."""
         return asked if isinstance(asked, Solver) else cls(asked)
 
@@ -69,7 +67,7 @@ class Ordering:
     # whether a few solves follow rather than thousands: the factor must then pay at once
     once: bool = False
 
-    def of(self, kept: IntArray) -> Ordering:
+    def of(self, kept: IntArray) -> "Ordering":
         """The ordering of some of the unknowns (increasing)."""
         place = np.full(len(self.points), -1, np.int64)
         place[kept] = np.arange(len(kept))
@@ -78,7 +76,7 @@ class Ordering:
         nodes = None if self.nodes is None else self.nodes[kept]
         return Ordering(self.points[kept], last[last >= 0], rigid, nodes, self.once)
 
-    def scaled(self, scale: FloatArray) -> Ordering:
+    def scaled(self, scale: FloatArray) -> "Ordering":
         """The ordering of the unknowns `u / scale`."""
         rigid = None if self.rigid is None else self.rigid / scale[:, None]
         return replace(self, rigid=rigid)

@@ -220,7 +220,7 @@ def face_keys(nodes: IntArray) -> IntArray:
     return np.asarray(np.sort(nodes, axis=1) @ odd, dtype=np.int64)
 
 
-def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
+def bodies_apart(matrix: Matrix, zones: Iterable[Zone] = ()) -> IntArray:
     """Nodes (n,) of bodies at the places of another body's, with nothing between the two.
 
     Bodies are cells that hang together by nodes, joints, conditions of several terms or matrices
@@ -228,13 +228,13 @@ def bodies_apart(matrix: Matrix, joints: Iterable[Zone] = ()) -> IntArray:
 
     Parameters
     ----------
-    joints : zones
-        Joints whose law stands beside the matrix.
+    zones : zones
+        Joints and bodies that yield, whose law stands beside the matrix.
     """
-    tables = [b.nodes for b in matrix.blocks]
-    tables += [matrix.table.resolve(z.cells.raw) for z in joints]
-    body = bodies_of_nodes(matrix, tables)
-    solid = [b.nodes.ravel() for b in matrix.blocks if b.zone is not None and b.nodes.shape[1] > 1]
+    cells = [(matrix.table.resolve(z.cells.raw), not is_joint(z)) for z in zones]
+    cells += [(b.nodes, b.zone is not None) for b in matrix.blocks]
+    body = bodies_of_nodes(matrix, [n for n, _ in cells])
+    solid = [n.ravel() for n, own in cells if own and n.shape[1] > 1]
     nodes = np.unique(np.concatenate([np.zeros(0, np.int64), *solid]))
     if len(np.unique(body[nodes])) < 2:
         return nodes[:0]

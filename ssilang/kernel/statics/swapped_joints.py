@@ -144,10 +144,14 @@ def _beside(
     points = stiffness.table.coordinates
     n, m = side.shape
     count, total = np.zeros(n), np.zeros((n, 3))
+    sides = _incidence(side, len(points))
     for block in stiffness.blocks:
         cells = block.nodes
-        held = _incidence(side, len(points)) @ _incidence(cells, len(points)).T
-        both = _incidence(np.hstack([upper, lower]), len(points)) @ _incidence(cells, len(points)).T
+        at_nodes = _incidence(cells, len(points)).T
+        held = sides @ at_nodes
+        if not (held.data == m).any():
+            continue
+        both = _incidence(np.hstack([upper, lower]), len(points)) @ at_nodes
         whole = sp.csr_array(held.multiply(held == m))
         whole = sp.csr_array(whole - whole.multiply(both == 2 * m))
         whole.data[:] = np.minimum(whole.data, 1.0)

@@ -1,7 +1,5 @@
 """Yield criteria of stresses: negative inside, zero on the surface, in the unit of the stress."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -70,7 +68,7 @@ FAR, MOST, MANY = 5.0, 0.5, 0.1
 """Times what points bear without pressure; shares of points that yield, and go so far."""
 
 
-def unconfined(problem: Problem, bulk: Bulk, state: State) -> tuple[str, float, float] | None:
+def unconfined(problem: "Problem", bulk: "Bulk", state: "State") -> tuple[str, float, float] | None:
     """Points that forces of an elastic first step take beyond what they bear without pressure.
 
     Returns

@@ -5,8 +5,6 @@ system, the modes) is made once, when a rule asks for it. A problem loads the lo
 each brings compiled functions, a hundredth of a second or two.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -20,7 +18,6 @@ from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
-from ssilang.kernel.stepping.problem.equilibrium import supports_are_still
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.iterated import (
@@ -35,7 +32,6 @@ from ssilang.messages.message import Sentence
 
 if TYPE_CHECKING:
     from ssilang.kernel.contact.modal import ContactLoop
-    from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
     from ssilang.kernel.stepping.rests.modal.modes import SmallLoop
 
 
@@ -80,25 +76,22 @@ class Case:
         return effective_of(p, effective_matrix(p, self.dt), self.dt, 1 - p.scheme.alpha_f)
 
     @cached_property
+    def rooted(self) -> Effective:
+        """The same by a factor with the interface at its root, of small problems too."""
+        p, share = self.problem, 1 - self.problem.scheme.alpha_f
+        if p.numbering.size > SMALL:
+            return self.effective
+        return effective_of(p, effective_matrix(p, self.dt), self.dt, share, least=0)
+
+    @cached_property
     def iterated(self) -> bool:
         """Whether multigrid solves each step."""
         return pays(self.problem, effective_matrix(self.problem, self.dt))
 
     @cached_property
-    def small(self) -> bool:
-        """Whether dense matrices serve."""
-        p = self.problem
-        return p.small and (p.numbering.size <= SMALL or supports_are_still(p))
-
-    @property
-    def dense(self) -> bool:
-        """Whether dense matrices of all unknowns serve."""
-        return self.small and self.problem.numbering.size <= SMALL
-
-    @cached_property
-    def modal(self) -> SmallLoop | None:
+    def modal(self) -> "SmallLoop | None":
         """The loop on all modes of a small problem, if it has some."""
-        if not self.small:
+        if not self.problem.small:
             return None
         from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
 
@@ -108,7 +101,7 @@ class Case:
         return SmallLoop(self.problem, self.motion, self.effective, modes)
 
     @cached_property
-    def stops(self) -> ContactLoop | None:
+    def stops(self) -> "ContactLoop | None":
         """The compiled loop of unilateral relations, if it can run the problem."""
         if self.problem.contact is None:
             return None
@@ -122,27 +115,10 @@ class Case:
 def _adaptive(case: Case) -> Loop:
     from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 
-    def part(dt: float) -> DenseLoop | SparseSteps:
-        own = case if dt == case.dt else replace(case, dt=dt)
-        return _dense(own) if own.dense else _condensed(own)
+    def part(dt: float) -> SparseSteps:
+        return _condensed(case if dt == case.dt else replace(case, dt=dt))
 
     return AdaptiveLoop(case.problem, case.motion, case.dt, case.closed, part)
-
-
-def _by(way: str) -> Callable[[Case], Loop]:
-    """One of the ways to step on modes."""
-
-    def make(case: Case) -> Loop:
-        assert case.modal is not None
-        return case.modal.using(way)
-
-    return make
-
-
-def _dense(case: Case) -> DenseLoop:
-    from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
-
-    return DenseLoop(case.problem, case.motion, case.effective)
 
 
 def _iterated(case: Case) -> Loop:
@@ -205,7 +181,7 @@ RULES = (
         "the energy-conserving step",
         "kernel.stepping.loop-conserving",
         lambda c: c.problem.scheme.conserving,
-        lambda c: _dense(c) if c.dense else _condensed(c), renewable=True,
+        _condensed, renewable=True,
     ),
     Rule(
         "full Newton", "full Newton",
@@ -233,28 +209,21 @@ RULES = (
         "small, diagonal damping, one mode that moves and at most one joint that only opens",
         "kernel.stepping.loop-one-mode",
         lambda c: c.modal is not None and c.modal.line is not None,
-        _by("one_mode"), light=True,
+        lambda c: cast("SmallLoop", c.modal).using("one_mode"), light=True,
     ),
     Rule(
         "springs", "compiled",
         "small, diagonal damping, joints that only push",
         "kernel.stepping.loop-springs",
         lambda c: c.modal is not None and c.modal.springs is not None,
-        _by("springs"),
+        lambda c: cast("SmallLoop", c.modal).using("springs"),
     ),
     Rule(
         "modes", "compiled",
         "small, supports at rest",
         "kernel.stepping.loop-modes",
         lambda c: c.modal is not None,
-        _by("modes"),
-    ),
-    Rule(
-        "dense", "compiled",
-        "small",
-        "kernel.stepping.loop-dense",
-        lambda c: c.dense,
-        _dense,
+        lambda c: cast("SmallLoop", c.modal).using("modes"),
     ),
     Rule(
         "multigrid", "multigrid",
@@ -267,8 +236,8 @@ RULES = (
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
-        lambda c: fits(c.problem, c.effective),
-        lambda c: InterleavedLoop(c.problem, c.motion, c.effective),
+        lambda c: fits(c.problem, c.rooted),
+        lambda c: InterleavedLoop(c.problem, c.motion, c.rooted),
     ),
     Rule(
         "condensed", "condensed",
@@ -312,8 +281,11 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     loop = rule.make(case)
     if rule.make is _iterated:
         solver = MULTIGRID
+    elif rule.factorises:
+        solver = _each_time(case.problem)
     else:
-        solver = _each_time(case.problem) if rule.factorises else case.effective.inverse.factor.name
+        used = case.rooted if isinstance(loop, InterleavedLoop) else case.effective
+        solver = used.inverse.factor.name
     return Choice(rule, loop, solver)
 
 

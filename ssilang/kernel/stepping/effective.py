@@ -71,8 +71,9 @@ def effective_matrix(problem: Problem, dt: float) -> sp.csr_array:
 
 
 def effective_of(
-    problem: Problem, A: sp.csr_array, dt: float, share: float, free: bool = False
-) -> Effective:
+    problem: Problem, A: sp.csr_array, dt: float, share: float, free: bool = False,
+    least: int = SMALL,
+) -> Effective:  # fmt: skip
     """Factorise A (n, n) and condense it on the interface.
 
     Parameters
@@ -81,6 +82,8 @@ def effective_of(
         c in `c J^T f`: the stiffness of closed joints enters with it.
     free : bool
         True leaves motions free that unilateral relations may hold (statics).
+    least : int
+        Unknowns beyond which the factor has the interface at its root.
 
     Raises
     ------
@@ -92,7 +95,7 @@ def effective_of(
     q = joints.size if joints else 0
     R = np.zeros((q, q))
     right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(V.T @ joints.J.T)
-    order = ordering_of(problem, right)
+    order = ordering_of(problem, right, least)
     inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
     if inverse.singular and joints is not None:
         R = share * joints.closed_stiffness()
@@ -123,9 +126,9 @@ def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> Floa
     return problem.interface.J @ _responses(problem.constraints, inverse, right)
 
 
-def ordering_of(problem: Problem, right: sp.csc_array) -> Ordering | None:
+def ordering_of(problem: Problem, right: sp.csc_array, least: int = SMALL) -> Ordering | None:
     """Places of the unknowns of a large symmetric problem, its interface last."""
-    if problem.numbering.size <= SMALL or not problem.constraints.associated:
+    if problem.numbering.size <= least or not problem.constraints.associated:
         return None
     own = _heaviest_rows(problem.constraints.T)
     nodes = problem.numbering.nodes[own]

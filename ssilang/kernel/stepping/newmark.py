@@ -10,8 +10,6 @@
 record `Newmark` and the verbs `advanced` and `from_past`, compiled in `verbs`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple, TypeVar
 

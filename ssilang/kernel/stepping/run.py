@@ -1,7 +1,5 @@
 """The time integration of a problem: chooses the loop, runs it, hands instants to observers."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -96,7 +94,7 @@ class History:
     solver: str = ""
     loop: str = ""
     seconds: float = 0.0
-    reduction: Reduction | None = None
+    reduction: "Reduction | None" = None
     again: Callable[[], FloatArray] | None = None
     worst: float = 0.0
     seen: float = 0.0
@@ -152,7 +150,7 @@ class Integration:
     observers: Sequence[Observer] = ()
     progress: Progress | None = None
     full_newton: bool = False
-    driver: Driver | None = None
+    driver: "Driver | None" = None
     light: bool = True
     keeper: Keeper | None = None
     motion: Motion = field(init=False)
@@ -427,7 +425,7 @@ def integrate(
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
     full_newton: bool = False,
-    driver: Driver | None = None,
+    driver: "Driver | None" = None,
     keeper: Keeper | None = None,
 ) -> History:
     """Integrate a problem over its times.

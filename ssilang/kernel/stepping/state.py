@@ -1,7 +1,5 @@
 """The state of a motion under way, and what is kept of its steps: the two containers of loops."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple

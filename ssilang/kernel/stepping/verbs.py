@@ -1,7 +1,5 @@
 """The verbs of a step that all loops share, compiled: Newmark's formulas, rows that are kept."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.base.compiled.apart import apart, later

@@ -4,8 +4,7 @@ A load shakes where it is the mass times an acceleration of the whole: what move
 the ground then.
 """
 
-from __future__ import annotations
-
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING
@@ -14,11 +13,14 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.kernel.statics.cells_amiss import bordered_solids
 from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
+    from ssilang.kernel.materials.model import Zone
     from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
     from ssilang.kernel.stepping.problem.problem import Problem
 
@@ -33,12 +35,12 @@ SIDEWAYS = ((0, "UX"), (0, "UR"), (1, "UY"))
 ALIKE = (0.75, 6.0)  # impedances of sides over that of their cells; rock beside soil has some
 
 
-def axes_of(problem: Problem) -> list[str]:
+def axes_of(problem: "Problem") -> list[str]:
     """Displacements that the problem knows."""
     return [a for a in AXES if a in problem.numbering.unknowns]
 
 
-def translations(problem: Problem) -> FloatArray:
+def translations(problem: "Problem") -> FloatArray:
     """Motions (n, d) of the whole along its axes."""
     numbering = problem.numbering
     rows = [numbering.codes == numbering.code(a) for a in axes_of(problem)]
@@ -52,12 +54,12 @@ def shares(parts: FloatArray, wholes: FloatArray) -> FloatArray:
     return np.where(off > SAME * np.abs(wholes).max(axis=0, initial=0.0), 0.0, found)
 
 
-def changing(problem: Problem) -> BoolArray:
+def changing(problem: "Problem") -> BoolArray:
     """Which loads (k,) change."""
     return np.asarray(np.ptp(problem.loading.at(problem.times), axis=0) > 0.0)
 
 
-def accelerations(problem: Problem) -> FloatArray:
+def accelerations(problem: "Problem") -> FloatArray:
     """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others.
 
     Where one node has all the mass, any force on it is some: one of -1 alone, or of -g, is meant.
@@ -72,7 +74,7 @@ def accelerations(problem: Problem) -> FloatArray:
     return found
 
 
-def is_shaken(problem: Problem, name: str) -> bool:
+def is_shaken(problem: "Problem", name: str) -> bool:
     """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
     axes = axes_of(problem)
     shaking = accelerations(problem) * changing(problem)
@@ -119,7 +121,9 @@ class Long:
     usual: int
 
 
-def unlike_sides(stiffness: Matrix, mass: Matrix, damping: Matrix) -> tuple[int, float] | None:
+def unlike_sides(
+    stiffness: "Matrix", mass: "Matrix", damping: "Matrix"
+) -> tuple[int, float] | None:
     """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
 
     A uniform strain s across a face of area A and a translation t tell the impedance of cells of
@@ -150,8 +154,8 @@ def unlike_sides(stiffness: Matrix, mass: Matrix, damping: Matrix) -> tuple[int,
 
 
 def _strained(
-    block: ElementMatrices,
-    mass: ElementMatrices,
+    block: "ElementMatrices",
+    mass: "ElementMatrices",
     some: slice | IntArray,
     x: FloatArray,
     name: str,
@@ -164,29 +168,50 @@ def _strained(
 
 
 def longest_cell(
-    stiffness: Matrix, mass: Matrix, axis: str, frequency: float, upwards: bool = True
+    stiffness: "Matrix", mass: "Matrix", axis: str, frequency: float, upwards: bool = True
 ) -> Long | None:
     """The cell that is longest for shear waves of a frequency (Hz), None without cells.
 
     Their speed is that of the cell's matrices: `s K s / t M t` of a shear s of one and a
     translation t. The length is that of waves that go `upwards`, else the longest side.
     """
-    heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
     found: list[Long] = []
+    for block, zone, some, stiff, whole in _sheared(stiffness, mass, axis):
+        speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
+        up = block.table.coordinates[block.nodes[some], zone.cells.kind.dimension - 1]
+        length = np.ptp(up, axis=1) if upwards else longest_sides(zone)[some]
+        times = length / np.where(speed > 0.0, speed, np.inf)
+        i, usual = int(times.argmax()), ELEMENTS_A_WAVE[zone.cells.kind.degree]
+        if cells := 1.0 / (times[i] * frequency or np.inf):
+            told = float(length[i]), float(speed[i]), float(speed[i] / frequency / usual)
+            found.append(Long(int(block.nodes[some][i, 0]), *told, float(cells), usual))
+    return min(found, key=lambda c: c.cells / c.usual, default=None)
+
+
+def _sheared(
+    stiffness: "Matrix", mass: "Matrix", axis: str
+) -> "Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]":
+    """Some cells of solids with mass: `s K s` and `t M t` of a shear of one and a translation."""
+    heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
     for block in stiffness.blocks:
         zone = block.zone
         if zone is None or is_joint(zone) or id(block.raw_nodes) not in heavy:
             continue
-        kind = zone.cells.kind
-        if axis in block.unknowns and len({*block.unknowns}) == kind.dimension > 1:
+        d = zone.cells.kind.dimension
+        if axis in block.unknowns and len({*block.unknowns}) == d > 1:
             some = slice(None, None, 1 + len(block.values) // LOOKED_AT)
-            up = block.table.coordinates[block.nodes[some], kind.dimension - 1]
-            stiff, whole = _strained(block, heavy[id(block.raw_nodes)], some, up, axis)
-            speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
-            length = np.ptp(up, axis=1) if upwards else longest_sides(zone)[some]
-            times = length / np.where(speed > 0.0, speed, np.inf)
-            i, usual = int(times.argmax()), ELEMENTS_A_WAVE[kind.degree]
-            if cells := 1.0 / (times[i] * frequency or np.inf):
-                told = float(length[i]), float(speed[i]), float(speed[i] / frequency / usual)
-                found.append(Long(int(block.nodes[some][i, 0]), *told, float(cells), usual))
-    return min(found, key=lambda c: c.cells / c.usual, default=None)
+            up = block.table.coordinates[block.nodes[some], d - 1]
+            yield block, zone, some, *_strained(block, heavy[id(block.raw_nodes)], some, up, axis)
+
+
+def matter(stiffness: "Matrix", mass: "Matrix") -> FloatArray:
+    """Node, height, density, speed of shear waves (n, 4) of some cells of solids that have mass."""
+    found = [np.zeros((0, 4))]
+    for block, zone, some, stiff, whole in _sheared(stiffness, mass, "UX"):
+        cells = zone.cells
+        own = CellBlock.make(cells.nodes, cells.cell_type, cells.connectivity[some])
+        up = block.table.coordinates[block.nodes[some], cells.kind.dimension - 1].mean(axis=1)
+        speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
+        rows = [block.nodes[some, 0], up, whole / cell_measures(own), speed]
+        found.append(np.stack(rows, axis=1)[whole > 0.0])
+    return np.concatenate(found)

@@ -22,13 +22,7 @@ from ssilang.language.run.session import LoopObserver, Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
-from ssilang.language.values import (
-    Mot,
-    Procedure,
-    Table,
-    Texte,
-    type_of,
-)
+from ssilang.language.values import Mot, Objet, Procedure, Table, Texte, type_of
 from ssilang.language.vocabulary.entries import is_declared_value
 from ssilang.messages.message import Sentence
 
@@ -353,9 +347,10 @@ class Evaluator(PhraseRunner):
             holder = self.single(target.base)
             for index in target.indices[:-1]:
                 holder = self.element(holder, index, target, "no-inner-table")
-            if not isinstance(holder, Table):
-                raise self.no_table(holder, target)
-            holder.set(self.single(target.indices[-1]), value)
+            if not isinstance(holder, Table | Objet):
+                raise self.no_table(holder, target, target.indices[-1])
+            put = holder.set if isinstance(holder, Table) else holder.attributes.__setitem__
+            put(self.single(target.indices[-1]), value)
         elif isinstance(target, tree.Attribute):
             self.object_of(target).attributes[target.name] = value
         else:

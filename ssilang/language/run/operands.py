@@ -115,10 +115,9 @@ class OperandReader(ABC):
         self, holder: Any, index: tree.Item, item: tree.Path, missing: str = "no-index"
     ) -> Any:
         if isinstance(holder, Objet):
-            holder = holder.attributes.get(self.single(index), ANNULE)
-            return holder
+            return holder.attributes.get(self.single(index), ANNULE)
         if not isinstance(holder, Table):
-            raise self.no_table(holder, item)
+            raise self.no_table(holder, item, index)
         where = self.single(index)
         value = holder.get(where)
         if value is None:
@@ -127,11 +126,12 @@ class OperandReader(ABC):
             raise SsiError(missing, index.span, index=where, known=known, path=path)
         return value
 
-    def no_table(self, holder: Any, item: tree.Path) -> SsiError:
-        base = item.base.span
-        if isinstance(holder, Mot) and self.session.frame.find(base.text.upper()) is None:
-            return SsiError("undefined-table", base, name=base.text)
-        return SsiError("not-a-table", base, found=type_of(holder), name=base.text)
+    def no_table(self, holder: Any, item: tree.Path, index: tree.Item) -> SsiError:
+        base, before = item.base.span, item.indices[: item.indices.index(index)]
+        at = base.to(before[-1].span) if before else base
+        alone = isinstance(holder, Mot) and self.session.frame.find(base.text.upper()) is None
+        code = "undefined-table" if alone and not before else "not-a-table"
+        return SsiError(code, at, found=type_of(holder), name=at.text)
 
     def _attribute(self, item: tree.Attribute) -> list[Operand]:
         holder = self.object_of(item)
@@ -149,5 +149,6 @@ class OperandReader(ABC):
     def object_of(self, item: tree.Attribute) -> Objet:
         holder = self.single(item.base) if item.base is not None else self.session.frame.object
         if not isinstance(holder, Objet):
-            raise SsiError("not-an-object", item.span, found=type_of(holder))
+            code = "not-an-object" if item.base is not None else "no-object-runs"
+            raise SsiError(code, item.span, found=type_of(holder), name=item.name)
         return holder

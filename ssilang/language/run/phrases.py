@@ -334,8 +334,6 @@ def _words_of(item: tree.Quoted) -> list[list[tree.Item]]:
     from ssilang.language.text.parser import parse_statements
     from ssilang.language.text.source import Source
 
-    if not item.text.strip():
-        return [[], []]
     # behind a blank: a sign * in the first column would begin a comment
     source = Source(item.span.source.name, " " + item.text + ";")
     try:

@@ -21,7 +21,7 @@ _CALLS_SHOWN = 4  # at each end of the chain
 _INDICES_SHOWN = 20
 
 
-_KINDS = {"error": "label-error", "warning": "label-warning"}
+_KINDS = {"error": "label-error", "warning": "label-warning", "note": "label-note"}
 
 
 _NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here")

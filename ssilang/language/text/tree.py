@@ -3,8 +3,6 @@
 Items of a parsed script back to their text; parsing that text gives the same items again.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
@@ -58,7 +56,7 @@ class Symbol:
 class Paren:
     """A parenthesised phrase."""
 
-    items: tuple[Item, ...]
+    items: "tuple[Item, ...]"
     span: Span
 
 
@@ -66,8 +64,8 @@ class Paren:
 class Path:
     """`base . index . index`."""
 
-    base: Item
-    indices: tuple[Item, ...]
+    base: "Item"
+    indices: "tuple[Item, ...]"
     span: Span
 
 
@@ -75,7 +73,7 @@ class Path:
 class Attribute:
     """`base % name`; base None stands for the object that runs the method."""
 
-    base: Item | None
+    base: "Item | None"
     name: str
     span: Span
 
@@ -119,8 +117,8 @@ class If:
     """SI ... SINON ... FINSI."""
 
     condition: Statement
-    then: tuple[Node, ...]
-    otherwise: tuple[Node, ...]
+    then: "tuple[Node, ...]"
+    otherwise: "tuple[Node, ...]"
     span: Span
 
 
@@ -130,7 +128,7 @@ class Loop:
 
     name: str
     count: tuple[Item, ...]
-    body: tuple[Node, ...]
+    body: "tuple[Node, ...]"
     span: Span
 
 
@@ -151,7 +149,7 @@ class Definition:
 
     name: str
     parameters: tuple[Parameter, ...]
-    body: tuple[Node, ...]
+    body: "tuple[Node, ...]"
     results: tuple[Item, ...]
     method: bool
     span: Span
@@ -173,7 +171,7 @@ class Script:
 
     body: tuple[Node, ...]
     span: Span
-    unclosed: tuple[SsiError, ...] = ()
+    unclosed: "tuple[SsiError, ...]" = ()
 
 
 def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:

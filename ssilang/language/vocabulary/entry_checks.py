@@ -21,7 +21,7 @@ from ssilang.language.vocabulary.entries import (
     TableEntry,
     as_written,
 )
-from ssilang.language.vocabulary.unit_systems import SOIL, usual_of, wave_flaw
+from ssilang.language.vocabulary.unit_systems import APART, SOIL, usual_of, wave_flaw
 from ssilang.language.vocabulary.unread_entries import reads, unread
 
 _TRUTH = "LOGIQUE"
@@ -166,10 +166,17 @@ class TableCheck:
                 missing = 1 if entry.index == NUMBER else entry.index
                 raise self._error("entry-missing", shown((*where, missing)))
         self._without_effect(table, path, where, given)
-        self._waves(path, dict(given))
+        self._waves(path, where, dict(given))
 
-    def _waves(self, path: tuple[str, ...], given: Mapping[Any, Any]) -> None:
-        """Warn of a soil that no ground is: of a modulus and a density in units of two systems."""
+    def _waves(
+        self, path: tuple[str, ...], where: tuple[object, ...], given: Mapping[Any, Any]
+    ) -> None:
+        """Warn of a soil that no ground is, by units of two systems; of layers that none has."""
+        inside = [v.get(Mot(SOIL[-1])) for v in given.values() if isinstance(v, Table)]
+        layers = [v for v in inside if isinstance(v, float)]
+        low, high = min(layers, default=0.0), max(layers, default=0.0)
+        if self.aloud and high >= APART * low > 0.0:
+            self._warn("soil-densities", where=shown(where), times=high / low, low=low, high=high)
         known, soil = self.declared.inside(path), {n: given.get(Mot(n)) for n in SOIL}
         if not self.aloud or not all(n in known and isinstance(soil[n], float) for n in SOIL):
             return

@@ -144,6 +144,8 @@ WAVES = Range(20.0, 4000.0)
 """Speeds of shear waves (m/s), from mud to the stiffest rock."""
 SOIL = ("YOUNG", "POISSON", "MASSE_VOLUMIQUE")
 """Entries of an elastic soil."""
+APART = 10.0
+"""Times the density of another layer of one ground that none has."""
 
 
 def wave_flaw(soil: Mapping[str, Any], system: UnitSystem | None) -> dict[str, float] | None:

@@ -1,7 +1,5 @@
 """A nodal field of an instant of which only single values are asked for."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, TypeVar, overload
 
 from ssilang.kernel.matrices.assembly import Numbering
@@ -76,7 +74,7 @@ class _Recorded(MadeFields[MadeField]):
         `u`, `v` or `a`; of joints `jump`, `traction` or `variables`.
     """
 
-    track: NodeHistories
+    track: "NodeHistories"
     name: str
 
 

@@ -1,7 +1,5 @@
 """Pictures of a run: their formats, names and numbers."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,7 +27,7 @@ def picture_name(session: Session, title: str, fallback: str) -> str:
 
 
 def save_picture(
-    session: Session, figure: Figure, name: str, formats: tuple[str, ...]
+    session: Session, figure: "Figure", name: str, formats: tuple[str, ...]
 ) -> list[Path]:
     """Write a figure under the next number; returns the files."""
     output = run_output(session)

@@ -1,7 +1,5 @@
 """CHARMECA: what a procedure of the script adds to matrices and loads at each step of DYNAMIC."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 from ssilang.kernel.matrices.assembly import vector_to_field
@@ -31,7 +29,7 @@ class AddedByProcedure:
     def __init__(self, entries: Entries) -> None:
         self.entries = entries
 
-    def __call__(self, time: float, state: State, problem: Problem) -> Additions:
+    def __call__(self, time: float, state: "State", problem: "Problem") -> "Additions":
         """Additions at `time`."""
         from ssilang.kernel.stepping.driven import Additions
 
@@ -45,7 +43,7 @@ class AddedByProcedure:
         return Additions(**given)
 
 
-def _table_of(state: State, problem: Problem) -> Table:
+def _table_of(state: "State", problem: "Problem") -> Table:
     table = Table()
     table.set(Mot("TEMP"), state.time)
     for word, values in (("DEPL", state.u), ("VITE", state.v), ("ACCE", state.a)):

@@ -1,7 +1,5 @@
 """ZDYN: the time integration behind the procedure DYNAMIC."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.interface.interface import without_zones
@@ -115,11 +113,11 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
 
 def _integrated(
     entries: Entries,
-    problem: Problem,
-    observers: Sequence[Observer],
+    problem: "Problem",
+    observers: "Sequence[Observer]",
     line: ProgressLine,
-    bodies: tuple[Bulk, State] | None = None,
-) -> History:
+    bodies: "tuple[Bulk, State] | None" = None,
+) -> "History":
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
     tolerance, shelf = entries.get("REDUCTION"), training_file(entries)
     full = entries.flag("NEWTON_COMPLET")
@@ -148,7 +146,7 @@ def _integrated(
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
 
 
-def training_file(entries: Entries) -> TrainingFile | None:
+def training_file(entries: Entries) -> "TrainingFile | None":
     """The basis that APPRENTISSAGE names: all runs of a sweep share it."""
     name, session = entries.get("APPRENTISSAGE"), entries.call.session
     if name is None:
@@ -164,8 +162,8 @@ def training_file(entries: Entries) -> TrainingFile | None:
 
 
 def _step_again(
-    tolerance: float | None, shelf: TrainingFile | None, problem: Problem, every: int | None,
-    extremes: Extremes,
+    tolerance: float | None, shelf: "TrainingFile | None", problem: "Problem", every: int | None,
+    extremes: "Extremes",
 ) -> None:  # fmt: skip
     """The same motion for its largest values, which its loop does not give without cost.
 
@@ -184,7 +182,7 @@ AMPLIFIED = 10.0
 """How much more than the tolerance a motion may move under loads that are stronger by it."""
 
 
-def _say_reduction(entries: Entries, history: History) -> None:
+def _say_reduction(entries: Entries, history: "History") -> None:
     """Warn when a reduction that was asked for was not made, or its estimate is no guide."""
     found = history.reduction
     if found is not None and found.vectors == 0:

@@ -3,8 +3,6 @@
 The kernel's tracks hold them.
 """
 
-from __future__ import annotations
-
 from dataclasses import field
 from functools import cached_property
 from pathlib import Path
@@ -33,7 +31,7 @@ BODY_WORDS = promises("TEMP", *NODAL, "CONTRAINTES", "VARIABLES_INTERNES")
 """Of plastic bodies without joints."""
 
 
-def _found(snapshot: Snapshot, nodes: IntArray | None, word: str) -> object:
+def _found(snapshot: "Snapshot", nodes: IntArray | None, word: str) -> object:
     if word in JOINTS:
         return getattr(snapshot, OF_INSTANTS[JOINTS[word]])
     given: NodeField = getattr(snapshot, NODAL[word])
@@ -44,7 +42,7 @@ VECTORS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
 
 
 def _stand_in(
-    snapshot: Snapshot, nodes: IntArray | None, word: str, make: Callable[[], Any]
+    snapshot: "Snapshot", nodes: IntArray | None, word: str, make: Callable[[], Any]
 ) -> InstantField | None:
     """A field of the whole body that stays unmade while single values are asked for."""
     if nodes is not None or word not in VECTORS:
@@ -69,7 +67,7 @@ class TableObserver:
     problems that change, or with plastic bodies, instants are kept instead.
     """
 
-    track: NodeHistories
+    track: "NodeHistories"
     whole: bool = False
     table: LazyRows = field(init=False)
 
@@ -79,7 +77,7 @@ class TableObserver:
         self.table = LazyRows(self._entry, words, self._stand_ins, self.track)
 
     @property
-    def observer(self) -> Observer:
+    def observer(self) -> "Observer":
         """What the run hands instants to."""
         return self if self.whole else self.track
 
@@ -91,7 +89,7 @@ class TableObserver:
     def close(self) -> None:
         """Nothing to do: the table is whole after each step."""
 
-    def receive(self, snapshot: Snapshot) -> None:
+    def receive(self, snapshot: "Snapshot") -> None:
         """Add one whole instant."""
         if self.nodes is not None and not snapshot.problem.small:
             entry = self._entry(snapshot)
@@ -126,7 +124,7 @@ class TableObserver:
         assert found is not None
         return found
 
-    def _entry(self, row: Snapshot | int) -> LazyTable:
+    def _entry(self, row: "Snapshot | int") -> LazyTable:
         """The table of an instant: a snapshot, or a place among the rows."""
         if isinstance(row, int):
             words = NODAL_WORDS if self.track.problem.interface is None else ALL_WORDS
@@ -159,7 +157,7 @@ class TableObserver:
 class CsvObserver:
     """Lists of values in time at the nodes of a mesh, and a file of them, CSV or Parquet."""
 
-    track: NodeHistories
+    track: "NodeHistories"
     components: list[str] | None = None
     path: Path | None = None
     units: UnitSystem | None = None
@@ -219,7 +217,7 @@ class CsvObserver:
         return made
 
 
-def forces_table(track: ForceHistories) -> Table:
+def forces_table(track: "ForceHistories") -> Table:
     """RESULTATS_RELATIONS: for each name TEMP and a LISTREEL of each component."""
     made, entries = Table(), {name: Table() for name in track.named}
     for name, entry in entries.items():

@@ -1,7 +1,5 @@
 """VTK and CSV series that a table of DYNAMIC asks for."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.io.tables import is_there
@@ -26,7 +24,7 @@ MANY_INSTANTS = 50
 """From more of them on, a series is one file if nothing else is said."""
 
 
-def nodes_asked(entries: Entries, index: str, problem: Problem) -> IntArray | None:
+def nodes_asked(entries: Entries, index: str, problem: "Problem") -> IntArray | None:
     """Nodes of the mesh or point of an entry; told where none of them moves."""
     mesh = entries.get(index)
     if mesh is None:
@@ -36,7 +34,7 @@ def nodes_asked(entries: Entries, index: str, problem: Problem) -> IntArray | No
     return nodes
 
 
-def tell_still(entries: Entries, index: str, nodes: IntArray, problem: Problem) -> None:
+def tell_still(entries: Entries, index: str, nodes: IntArray, problem: "Problem") -> None:
     """Warn of nodes (n,) of an entry none of which the matrices have."""
     if not np.isin(nodes, problem.numbering.nodes).any():
         entries.warn("operators.dynamics.asked-elsewhere", index=index)
@@ -45,7 +43,7 @@ def tell_still(entries: Entries, index: str, nodes: IntArray, problem: Problem) 
 # ---- outputs ---------------------------------------------------------------------------------
 
 
-def vtk_observer(entries: Entries, problem: Problem) -> VtkObserver | None:
+def vtk_observer(entries: Entries, problem: "Problem") -> VtkObserver | None:
     if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
         return None
     wanted = entries.saved_steps("_VTK", problem.times)
@@ -89,7 +87,7 @@ def stress_of(entries: Entries) -> Callable[[NodeField], CellField | None] | Non
     return of
 
 
-def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceHistories | None:
+def force_track(entries: Entries, problem: "Problem", saved: BoolArray) -> "ForceHistories | None":
     """What RELATIONS_SAUVEES asks for."""
     asked = entries.inside("RELATIONS_SAUVEES")
     if asked is None:
@@ -110,7 +108,7 @@ def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceHi
     return ForceHistories(saved, problem=problem, named=named)
 
 
-def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
+def csv_observer(entries: Entries, problem: "Problem") -> CsvObserver | None:
     from ssilang.kernel.stepping.node_histories import NodeHistories
 
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):

@@ -1,7 +1,5 @@
 """What DYNAMIC and PASAPAS keep of a motion: tables of results, VTK series, CSV files."""
 
-from __future__ import annotations
-
 from dataclasses import field
 from typing import TYPE_CHECKING
 
@@ -32,11 +30,11 @@ class VtkObserver:
 
     wanted: Steps
     meshes: dict[str, Mesh]
-    writer: Series
+    writer: "Series"
     stress: Callable[[NodeField], CellField | None] | None = None
     labels: Mapping[str, Labels] = field(default_factory=dict)
 
-    def receive(self, snapshot: Snapshot) -> None:
+    def receive(self, snapshot: "Snapshot") -> None:
         """Write one instant."""
         from ssilang.io.vtk.series import Part
 

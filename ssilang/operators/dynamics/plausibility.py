@@ -16,7 +16,7 @@ from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
-from ssilang.kernel.statics.doubled import idle_nodes
+from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -41,12 +41,17 @@ from ssilang.operators.dynamics.shaking import (
 )
 from ssilang.operators.dynamics.standing import (
     bodies_stand,
+    braked,
     footing_too_wide,
     ground_twice,
+    mass_of_both,
+    matter_amiss,
     out_of_balance,
+    rotary_alone,
     turns_heavily,
     unequal_joints,
     velocity_of_rest,
+    weak_cores,
 )
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
@@ -66,12 +71,14 @@ NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its en
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
+HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stages sees less
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 FEWEST, WANTED = 3, 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
 HELD = 0.99  # of all mass, on nodes that do not move
+OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
 FAR = 100.0  # sizes of the model; what slides may go far
@@ -230,14 +237,15 @@ def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
 GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
-    ground_twice, footing_too_wide, sides_unlike, beside_free_field,
+    ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
+    rotary_alone, weak_cores, mass_of_both,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand, braked,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
@@ -299,8 +307,11 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
     ends = [0, int(np.abs(y).argmax())]
-    straight = np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size
-    if np.abs(y[x > last]).max(initial=0.0) > AHEAD * saw and not straight:
+    ahead = AHEAD
+    if np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size:
+        # the time itself may be the factor of the load; what reaches 1 later is the whole load
+        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else np.inf
+    if np.abs(y[x > last]).max(initial=0.0) > ahead * saw > 0.0:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
     if at_rest and np.abs(np.diff(before)).sum() > SWUNG * size:
@@ -327,7 +338,7 @@ def warn_of_contact(entries: Entries, problem: Problem, extremes: Extremes | Non
     lost = known.get(("OUVERTURE", ""))
     if found is None or found.resolved or (lost is not None and not lost.value):
         return
-    if entries.call.session.warned("operators.dynamics.mass-held"):
+    if any(map(entries.call.session.warned, OF_MASS)):
         return  # of the mass that is left
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
@@ -355,6 +366,15 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
         entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
     if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
         entries.warn("operators.dynamics.no-mass")
+
+
+def warn_of_bodies(entries: Entries, inputs: Inputs) -> None:
+    """Warn of bodies, those that yield among them, that touch and are not joined."""
+    zones = () if inputs.model is None else inputs.model.zones
+    nodes = bodies_apart(inputs.stiffness, zones)
+    if len(nodes) and not any(z.formulation == "CONTACT" for z in zones):
+        told = {"count": len(nodes), "node": inputs.stiffness.table.told(int(nodes[0]))}
+        entries.warn("operators.matrices.bodies-apart", **told)
 
 
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:

@@ -322,6 +322,8 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         tied = numbering.nodes[upper | (ties[ties @ upper > 0.0].sum(axis=0) > 0.0)]
         along = _normal(joint)
         names = {along, *(f"R{a[1]}" for a in AXES)} - {f"R{along[1]}"}
+        if joints.n_points == 1 and not is_macro(joint.zone):  # a point cannot rock
+            names = {along}
         codes = [numbering.code(n) for n in names & {*numbering.unknowns}]
         kept = fixed[np.isin(numbering.nodes[fixed], tied) & np.isin(numbering.codes[fixed], codes)]
         if len(kept):

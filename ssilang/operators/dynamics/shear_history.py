@@ -1,7 +1,5 @@
 """ZGAM: the largest shear strains behind the procedure ISSLEQ."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements import families
@@ -49,7 +47,7 @@ def _vectors(layout: Layout, fields: Sequence[AnyField]) -> Iterator[FloatArray]
         yield layout.gather(made)[None]
 
 
-def _recorded(layout: Layout, track: NodeHistories) -> Iterator[FloatArray]:
+def _recorded(layout: Layout, track: "NodeHistories") -> Iterator[FloatArray]:
     """As `_vectors`, of what was recorded: no field is made."""
     numbering = track.problem.numbering
     nodes = layout.table.resolve(layout.raw_nodes)[:, layout.local]

@@ -5,6 +5,7 @@ them: the levers of all points about an axis have its own between them.
 """
 
 from collections.abc import Iterable, Iterator
+from itertools import product
 from typing import Any, cast
 
 import numpy as np
@@ -12,19 +13,29 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
-from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
-from ssilang.kernel.stepping.problem.bodies import bodies_of
+from ssilang.kernel.stepping.problem.bodies import bodies_of, held
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-from ssilang.kernel.waves.shaken import GRAVITIES, LARGE, accelerations, axes_of, changing, shares
+from ssilang.kernel.waves.shaken import (
+    GRAVITIES,
+    LARGE,
+    accelerations,
+    axes_of,
+    changing,
+    matter,
+    shares,
+)
+from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
+from ssilang.operators.matrices.connections import rotary_without_mass
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -39,8 +50,17 @@ AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
 TIMES = 10.0  # masses of a body over that of its weight
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
+BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
+OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
+PAIR = 2  # terms of a relation of two nodes
+CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
+TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
+LIGHTER = {False: 30.0, True: 10.0}
+"""Times the density of other solids; below them, where buildings as one solid do not stand."""
+MASSLESS, FOAM = 5000.0, 500.0  # times: beyond, no mass is meant; m/s, of waves of shear
+ALIKE = 0.1  # of a density, that is the same ground's
 
 
 def out_of_balance(problem: Problem, _: Inputs) -> Told:
@@ -92,6 +112,31 @@ def turns_heavily(problem: Problem, _: Inputs) -> Told:
             return
 
 
+def rotary_alone(problem: Problem, inputs: Inputs) -> Told:
+    """Rotary inertia where masses are meant, but for that of masses far away, told already."""
+    found = None if inputs.mass is None else rotary_without_mass(inputs.mass)
+    if found is not None and not any(True for _ in turns_heavily(problem, inputs)):
+        yield "operators.matrices.rotary-alone", found
+
+
+def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
+    """Two nodes of one place that move together, each with the mass of a line of nodes."""
+    given = [] if inputs.mass is None else inputs.mass.blocks
+    lumps = [b for b in given if b.zone is None and b.raw_nodes.shape == (len(b.nodes), 1)]
+    table = problem.numbering.table
+    for r in inputs.stiffness.relations if lumps else ():
+        first = r.row_start[:-1][(np.diff(r.row_start) == PAIR) & (r.sense == 0)]
+        a, b = r.nodes[first], r.nodes[np.minimum(first + 1, len(r.nodes) - 1)]
+        one = np.abs(table.coordinates[a] - table.coordinates[b]).max(axis=1, initial=0.0) < BESIDE
+        for k, lump in product(np.flatnonzero(one & (a != b)).tolist(), lumps):
+            (name, other), (c, d) = (x[first[k] :][:PAIR] for x in (r.unknowns, r.coefficients))
+            several = name == other and c == -d and name in lump.unknowns
+            if several and len(lump.nodes) > PAIR and np.isin([a[k], b[k]], lump.nodes).all():
+                told = {"node": table.told(int(a[k])), "unknown": name}
+                yield "operators.dynamics.mass-of-both", told
+                return
+
+
 def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
     """Bodies that joints or stops alone bear: from which side, where; with what weight, all."""
     bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
@@ -111,7 +156,7 @@ def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
             push = bodies.factors @ (loading.forces.T @ way)
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
             most = float(np.abs(push).max(initial=0.0))
-            if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, problem.C):
+            if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, dashpots=True):
                 yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
         up = ways[axes[-1]]
         mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
@@ -130,6 +175,73 @@ def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
             if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
                 for code, told in _beside_its_base(bodies, own, up, force):
                     yield code, {**told, "node": node}
+
+
+def braked(problem: Problem, _: Inputs) -> Told:
+    """Damping by the mass of bodies that lift, which it brakes as they fall, or swing on bearings.
+
+    What is proportional to a stiffness does not act on a body that moves as a whole.
+    """
+    bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
+    force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    steps, times = bodies.factors[:, changing(problem)], problem.times
+    most = np.abs(steps).max(axis=0, initial=0.0)
+    rate = np.abs(np.diff(steps, axis=0) / np.diff(times)[:, None]).max(axis=0, initial=0.0)
+    rate = np.inf if problem.v.any() else float((rate / most).max(initial=0.0))
+    for body in bodies.moving if axes and problem.C.nnz else ():
+        own = bodies.label == body
+        at = problem.numbering.nodes[own]
+        size = float(np.ptp(problem.numbering.table.coordinates[at], axis=0).max())
+        told: dict[str, Any] = {"node": problem.numbering.table.told(int(at[0]))}
+        weight = -float(bodies.along(body, axes[-1]) @ force)
+        for axis in axes:
+            way = bodies.along(body, axis)
+            drag, pull = problem.C @ way, problem.M @ way
+            mass = float(way @ pull)
+            alpha = float(way @ drag) / (mass or np.inf)
+            off = np.abs(drag - alpha * pull).max() > OFF * np.abs(drag).max()
+            if alpha <= 0.0 or off or bodies.holds(way):
+                continue
+            lifts = axis == axes[-1] and bodies.touches(-way) and not bodies.touches(way)
+            rocks = np.sqrt(max(weight, 0.0) / mass / size) if size else 0.0
+            if lifts and alpha > BRAKED * rocks > 0.0 and rate > rocks:  # else slow, to equilibrium
+                fall = weight / mass / alpha
+                yield "operators.dynamics.falls-braked", {**told, "alpha": alpha, "fall": fall}
+            swings = 0.0 if joints is None else _bearing_stiffness(joints, way, weight)
+            pulsation = np.sqrt(swings / mass)
+            if alpha > 2.0 * OF_BEARINGS * pulsation > 0.0:
+                told |= {"alpha": alpha, "frequency": pulsation / (2.0 * np.pi), "axis": axis}
+                ratio = alpha / 2.0 / pulsation
+                yield "operators.dynamics.bearings-braked", {**told, "ratio": ratio}
+                return
+
+
+def weak_cores(problem: Problem, _: Inputs) -> Told:
+    """Lead cores that yield under next to nothing of the weight above."""
+    bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
+    lead = [] if joints is None else joints.codes == LawCode.LEAD
+    force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    for body in bodies.moving if np.any(lead) and axes else ():
+        assert joints is not None
+        up, w = bodies.along(body, axes[-1]), np.zeros((joints.n_points, joints.dimension))
+        local_jumps(joints.points, joints.J @ up, w)
+        cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
+        if 0.0 < cores < CORES * (weight := -float(up @ force)):
+            node = problem.numbering.table.told(int(problem.numbering.nodes[(up != 0.0).argmax()]))
+            told = {"node": node, "cores": cores, "weight": weight, "share": cores / weight}
+            yield "operators.dynamics.cores-weak", told
+
+
+def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
+    """Stiffness against a motion of bearings that have yielded, none beside other joints."""
+    w = np.zeros((joints.n_points, joints.dimension))
+    local_jumps(joints.points, joints.J @ way, w)
+    moved, p = (w[:, :-1] ** 2).sum(axis=1), joints.parameters[:, [Parameter.KPOS, Parameter.RAYO]]
+    lead, pendulum = (joints.codes[moved > 0.0] == c for c in (LawCode.LEAD, LawCode.PENDULUM))
+    if lead.size and lead.all():
+        return float(p[:, 0] @ moved)
+    radius = p[moved > 0.0, 1]
+    return max(weight, 0.0) / float(radius.max()) if pendulum.size and pendulum.all() else 0.0
 
 
 def _are_weights(count: float, force: float, mass: float) -> bool:
@@ -237,6 +349,34 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
         stiff = float(np.median(problem.K.diagonal()[cells])) if cells.any() else 0.0
         if float(joints.parameters[:, Parameter.KN].max()) < STIFF * stiff:
             yield "operators.dynamics.ground-twice", {"node": numbering.table.told(node)}
+
+
+def matter_amiss(problem: Problem, inputs: Inputs) -> Told:
+    """Ground whose waves no ground has, by its density; solids of densities far apart."""
+    if inputs.mass is None or not len(cells := matter(inputs.stiffness, inputs.mass)):
+        return
+    numbering, joints = problem.numbering, problem.interface
+    label, below = bodies_of(problem), held(problem)
+    for joint in () if joints is None else joints.joints:
+        below |= np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.lower))
+    ground = np.isin(cells[:, 0], numbering.nodes[np.isin(label, label[below])])
+    height, density, speed = cells[:, 1:].T
+    usual = MATTER[1]["RHO"]
+    for i in np.flatnonzero(ground & (speed > WAVES.high) & (speed < WAVES.high * TONNE**0.5)):
+        if TONNES <= density[i] in usual:
+            told = {"density": density[i], "speed": speed[i], "wanted": density[i] * TONNE}
+            told["low"], told["high"] = WAVES.low, WAVES.high
+            node = numbering.table.told(int(cells[i, 0]))
+            yield "operators.dynamics.ground-too-light", {"node": node, **told}
+            return
+    i, j = int(density.argmin()), int(density.argmax())
+    low, high = (abs(density - density[k]) < ALIKE * density[k] for k in (i, j))
+    beneath = height[low].mean() < height[high].mean() and speed[i] > speed[j]
+    times = density[j] / density[i]
+    if LIGHTER[beneath] <= times < MASSLESS and speed[i] > FOAM:
+        told = {"node": numbering.table.told(int(cells[i, 0])), "density": density[i]}
+        told |= {"there": numbering.table.told(int(cells[j, 0])), "other": density[j]}
+        yield "operators.dynamics.densities-apart", {**told, "times": times}
 
 
 def footing_too_wide(problem: Problem, _: Inputs) -> Told:

@@ -104,6 +104,8 @@ def _curve(
 
 _SLOW, _GAP, _STRONG = 0.2, 10.0, 50.0
 """Longest step of a record (s), longest over the median step, largest acceleration (m/s2)."""
+_BEGUN, _FEW = 0.3, 50
+"""Largest first value, over the largest of all, of a record of more values than these few."""
 _ROUNDED = 2e-3  # g is 9.80665, 9.81 or 9.8
 _FACTORS = (G, 0.01, 0.001)
 """What makes m/s2 of other units; a factor of 1 leaves a record as it is."""
@@ -119,6 +121,9 @@ def _odd(record: GroundMotion, factor: float | None) -> Iterator[tuple[str, floa
         yield "operators.files.record-gap", longest, usual
     if record.has_unit and record.quantity == "ACCE" and peak > _STRONG:
         yield "operators.files.record-strong", peak, _STRONG
+    begun = float(abs(record.values[0])) / (float(np.abs(record.values).max()) or 1.0)
+    if record.quantity == "ACCE" and begun > _BEGUN and len(record.values) > _FEW:
+        yield "operators.files.record-begun", begun, _BEGUN
     near = [f for f in _FACTORS if factor is not None and abs(factor / f - 1.0) < _ROUNDED]
     if near and record.has_unit and abs(near[0] / record.in_si - 1.0) > _ROUNDED:
         yield "operators.files.record-other-factor", near[0], record.in_si

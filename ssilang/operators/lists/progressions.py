@@ -1,7 +1,5 @@
 """PROG LECT MOTS ENUM SUIT: lists from their items."""
 
-from __future__ import annotations
-
 import math
 from array import array
 from typing import TYPE_CHECKING
@@ -88,7 +86,7 @@ if TYPE_CHECKING:
     Items = list[Any] | array[float]  # numbers under way: reals in one piece of memory
 
 
-def _extend(items: Items, more: list[Any] | FloatArray | IntArray) -> None:
+def _extend(items: "Items", more: list[Any] | FloatArray | IntArray) -> None:
     if isinstance(more, list):
         items.extend(more)
     elif isinstance(items, array):
@@ -97,7 +95,7 @@ def _extend(items: Items, more: list[Any] | FloatArray | IntArray) -> None:
         items.extend(more.tolist())
 
 
-def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
+def _read_items(call: Call, kinds: tuple[str, ...]) -> "Items":
     """Numbers with repetitions and steps, in order; lists among them are taken whole."""
     items: Items = array("d") if "FLOTTANT" in kinds else []
     plain = frozenset({int, float} if "FLOTTANT" in kinds else {int})
@@ -120,7 +118,7 @@ def _read_items(call: Call, kinds: tuple[str, ...]) -> Items:
             items.append(value)
 
 
-def _read_row(call: Call, items: Items, plain: frozenset[type]) -> None:
+def _read_row(call: Call, items: "Items", plain: frozenset[type]) -> None:
     """Read the bare numbers that stand next, `N * X` among them: pasted lists are long."""
     operands, i = call.operands, 0
     while i < len(operands) and type(value := operands[i].value) in plain:

@@ -1,5 +1,7 @@
 """Warnings of what is not joined as it looks: supports, joints and ends of beams."""
 
+from itertools import product
+
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics.cells_amiss import (
@@ -26,6 +28,7 @@ from ssilang.operators.prelude import *
 Tell = Callable[..., None]
 _KEY = "connections"
 _NAMED = 4  # nodes that a warning names
+_OF_SIZE = 0.25  # of the model: a radius of gyration of what has no mass of its own
 _UPRIGHT, _TURNED = 3.0, 120.0  # degrees between a footing's normal and the vertical
 
 
@@ -180,3 +183,29 @@ def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
     nodes = [matrix.table.told(int(n)) for n in found.nodes]
     told = {"nodes": nodes[:_NAMED], "more": len(nodes[_NAMED:]), "shell": found.shell}
     tell("operators.matrices.beam-ends-on-solid", rotations=found.rotations, **told)
+
+
+def rotary_without_mass(mass: Matrix) -> dict[str, Any] | None:
+    """Rotary inertia given to a node that got no mass, far beyond what its cells have."""
+    lumps = [b for b in mass.blocks if b.zone is None and b.raw_nodes.shape[1] == 1]
+    turning = [b for b in lumps if all(u[0] == "R" for u in b.unknowns)]
+    if not turning:
+        return None
+    every = np.unique(np.concatenate([b.nodes.ravel() for b in mass.blocks]))
+    size = float(np.ptp(mass.table.coordinates[every], axis=0).max())
+    own, moved = np.zeros((len(mass.table), 3)), np.zeros(len(mass.table), bool)
+    for block, (k, axis) in product(mass.blocks, enumerate(("UX", "UY", "UZ"))):
+        at = np.flatnonzero(np.array(block.unknowns) == axis)
+        rows = block.values[:, at][:, :, at].sum(axis=2)
+        np.add.at(own[:, k], block.nodes[:, block.local[at]], rows)
+        moved[block.nodes[:, block.local[at]]] |= block in lumps
+    for block in turning:
+        nodes, inertia = block.nodes[:, 0], np.diagonal(block.values, axis1=1, axis2=2).max(axis=1)
+        beside = own[nodes].max(axis=1)
+        far = (beside > 0.0) & ~moved[nodes] & (inertia > (_OF_SIZE * size) ** 2 * beside)
+        if far.any():
+            i = int(far.argmax())
+            told = {"inertia": inertia[i], "mass": beside[i], "size": size}
+            way = float(np.sqrt(inertia[i] / beside[i]))
+            return {"node": mass.table.told(int(nodes[i])), "way": way, **told}
+    return None

@@ -126,7 +126,7 @@ def _additional(
 )
 @numbered()
 def rigi(
-    call: Call, model: Model, fields: tuple[CellField, ...], silent: bool, reference: bool
+    call: Call, model: Model, fields: tuple[CellField, ...], silent: bool, **_: bool
 ) -> Matrix:
     """Elastic stiffness of a model."""
     if any(z.formulation == "CONTACT" for z in model.zones):
@@ -161,9 +161,7 @@ def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrice
 
 
 @operator("MASS", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="MASSE")
-def mass(
-    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
-) -> Matrix:
+def mass(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> Matrix:
     """Consistent mass of a model."""
     shown, material = present(call, model), joined(fields)
     blocks = [families.mass(z, material) for z in shown.zones if not is_shape(z)]
@@ -178,9 +176,7 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
 
 
 @operator("LUMP", MODEL, PARAMETERS, *_IGNORED, family="matrix")
-def lump(
-    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
-) -> Matrix:
+def lump(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> Matrix:
     """Diagonal mass of a model."""
     shown, material = present(call, model), joined(fields)
     return _assembled(shown, [families.mass(z, material, True) for z in shown.zones], "MASSE")
@@ -212,12 +208,7 @@ def lump_of_matrix(
     full_name="AMORTISSEMENT",
 )
 def amor(
-    call: Call,
-    model: Model,
-    boundary: Mesh,
-    fields: tuple[CellField, ...],
-    alone: bool,
-    reference: bool,
+    call: Call, model: Model, boundary: Mesh, fields: tuple[CellField, ...], **_: bool
 ) -> Matrix:
     """Absorbing boundary."""
     shown = present(call, model)
@@ -233,12 +224,7 @@ def amor(
     *_IGNORED,
 )
 def turning_damping(
-    call: Call,
-    turning: bool,
-    model: Model,
-    fields: tuple[CellField, ...],
-    alone: bool,
-    reference: bool,
+    call: Call, turning: bool, model: Model, fields: tuple[CellField, ...], **_: bool
 ) -> tuple[Matrix, Matrix]:
     """Damping that turns with beams, and the circulatory stiffness beside it."""
     shown, material = present(call, model), joined(fields)
@@ -249,9 +235,7 @@ def turning_damping(
 
 
 @amor.form(MODEL, PARAMETERS, *_IGNORED)
-def damping(
-    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
-) -> Matrix:
+def damping(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> Matrix:
     """Viscous damping of a model."""
     shown, material, kind = present(call, model), joined(fields), "AMORTISSEMENT"
     blocks = [families.viscosity(z, material) for z in shown.zones if not is_shape(z)]
@@ -265,9 +249,7 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
 
 
 @operator("HOOK", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="HOOKE")
-def hook(
-    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, reference: bool
-) -> CellField:
+def hook(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> CellField:
     """Elastic matrices at the integration points."""
     material = joined(fields)
     blocks = []

@@ -1,7 +1,5 @@
 """DYNC: branches of periodic motions on modes by harmonic balance and continuation."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.continuation.arc import Lengths
@@ -88,7 +86,7 @@ class Numbers:
 
 def _oscillators(
     call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
-) -> Oscillators:
+) -> "Oscillators":
     from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 
     n = len(system.M)
@@ -126,7 +124,7 @@ def _coefficients(
 
 
 def _guess(
-    call: Call, table: Table, system: System, oscillators: Oscillators, w: float
+    call: Call, table: Table, system: System, oscillators: "Oscillators", w: float
 ) -> FloatArray:
     """What INITIAL says, or else the linear response."""
     said = _coefficients(call, table, system, oscillators.basis.harmonics, dual=False)
@@ -154,7 +152,7 @@ def _lengths(numbers: Numbers) -> Lengths:
 # --- results -----------------------------------------------------------------------------------
 
 
-def _results(call: Call, found: Response, system: System, free: bool) -> Table:
+def _results(call: Call, found: "Response", system: System, free: bool) -> Table:
     if found.ended == "no solution":
         call.session.warn(
             "operators.modal.branch-lost", call.span, operator="DYNC", t=found.frequencies[-1]
@@ -165,7 +163,7 @@ def _results(call: Call, found: Response, system: System, free: bool) -> Table:
     return table
 
 
-def _response(found: Response, system: System, free: bool) -> Table:
+def _response(found: "Response", system: System, free: bool) -> Table:
     Q = np.array(found.coefficients)
     exponents = np.array(found.exponents)
     assert system.basis.shapes is not None
@@ -194,7 +192,7 @@ def _numbered(columns: FloatArray) -> Table:
     return Table.numbered(ListReel(column.copy()) for column in np.asarray(columns).T)
 
 
-def _bifurcations(found: Response) -> Table:
+def _bifurcations(found: "Response") -> Table:
     all_found = found.bifurcations
     norms = [float(np.linalg.norm(b.coefficients)) for b in all_found]
     entries: dict[str, Any] = {

@@ -10,7 +10,11 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
 from ssilang.kernel.modal.modes import Mode as RealMode
-from ssilang.operators.matrices.connections import warn_connections, warn_repeated
+from ssilang.operators.matrices.connections import (
+    rotary_without_mass,
+    warn_connections,
+    warn_repeated,
+)
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
@@ -62,6 +66,8 @@ def _modes(
     stiffness, mass, damping = matrices_by_kind(matrices)
     warn_connections(call.session, call.span, "VIBR", stiffness)
     warn_repeated(call.session, call.span, "VIBR", mass, "MASS", stiffness)
+    if (found := rotary_without_mass(mass)) is not None:
+        call.warn("operators.matrices.rotary-alone", **found)
     _warn_negative_mass(call, mass)
     _warn_masses_alone(call, stiffness, mass)
     if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):

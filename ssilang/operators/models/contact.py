@@ -1,7 +1,5 @@
 """MODE ... 'CONTACT': two sides that must not go into each other, cables that slide in a body."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.base.errors import MaterialError
@@ -61,7 +59,7 @@ def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Wo
     )
 
 
-def model_relations(model: Model, material: CellField | None) -> list[ContactRelations]:
+def model_relations(model: Model, material: CellField | None) -> "list[ContactRelations]":
     """Relations of all pairs of sides of a model, each pair once."""
     from ssilang.kernel.contact.unilateral import contact_relations
 
@@ -85,7 +83,7 @@ def model_relations(model: Model, material: CellField | None) -> list[ContactRel
     return found
 
 
-def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
+def _rubbing(zone: Zone, material: CellField | None) -> "Rubbing | None":
     """Coulomb's friction of a pair of sides, None where they are smooth."""
     from ssilang.kernel.contact.unilateral import Rubbing
 

@@ -1,7 +1,5 @@
 """MOCU: moments and curvatures of sections of fibres."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
@@ -77,13 +75,13 @@ def _check(call: Call, lists: tuple[ListReel, ...], model: Model, space: bool) -
 
 def _bent(
     model: Model, material: CellField, curvatures: FloatArray, force: ListReel, tolerance: float
-) -> BentSection:
+) -> "BentSection":
     from ssilang.kernel.plasticity.moment_curvature import bend
 
     return bend(fibre_section(model, material), curvatures, force.values, tolerance)
 
 
-def _results(found: BentSection, moments: list[ListReel], checked: bool) -> tuple[object, ...]:
+def _results(found: "BentSection", moments: list[ListReel], checked: bool) -> tuple[object, ...]:
     results = (*moments, ListReel.of(found.strains))
     if not checked:
         return results

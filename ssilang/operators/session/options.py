@@ -250,9 +250,9 @@ def _norm(call: Call, word: str) -> None:
     if said is not None:
         _store(call, word, Mot(said))
         return
-    pairs = []
+    pairs: list[Any] = []
     while (names := call.read("LISTMOTS")) is not None:
-        pairs.append((names.value, call.given(_SCALES)))
+        pairs += [names.value, call.given(_SCALES)]
     _store(call, word, tuple(pairs))
 
 

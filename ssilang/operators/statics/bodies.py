@@ -1,7 +1,5 @@
 """Plastic bodies of the tables of PASAPAS and DYNAMIC."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.boundary import is_solid
@@ -37,7 +35,7 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         return None
     material: CellField = entries.needed("CARACTERISTIQUES")
 
-    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+    def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
         from ssilang.kernel.plasticity.bulk import bulk_of
         from ssilang.kernel.plasticity.expansion import free_strains
 
@@ -69,7 +67,7 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
         entries.warn("operators.statics.joint-axes-stay")
     material: CellField = entries.needed("CARACTERISTIQUES")
 
-    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+    def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
         from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
         from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
         from ssilang.kernel.plasticity.large.finite_yielding import yielding_bulk
@@ -98,7 +96,7 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 
-def warn_of_confinement(entries: Entries, problem: Problem, bulk: Bulk, state: State) -> None:
+def warn_of_confinement(entries: Entries, problem: "Problem", bulk: "Bulk", state: "State") -> None:
     """Warn of ground of friction that has no stress, and gets none before the loads."""
     from ssilang.kernel.plasticity.bulk import Bulk
     from ssilang.kernel.statics.yielding import unconfined
@@ -139,7 +137,7 @@ _HELD = (
 """Of large displacements or not, of plastic or elastic solids: codes, strains from which told."""
 
 
-def _given(bulk: Bulk, start: Any) -> State | None:
+def _given(bulk: "Bulk", start: Any) -> "State | None":
     from ssilang.kernel.plasticity.bulk import state_from_fields
 
     return state_from_fields(bulk, *(start.of(word) for word in _STATE))

@@ -1,7 +1,5 @@
 """PASAPAS under OPTI 'MODE' 'FREQ': harmonic responses over a sweep of frequencies."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.families import mass, stiffness
@@ -63,7 +61,7 @@ def _at_rest(field: NodeField) -> NodeField:
     return NodeField(field.table, parts, field.nature)
 
 
-def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
+def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
     from ssilang.kernel.statics.frequency import default_frequencies
 
     said = (entries.get(word) for word in ("TEMPS_CALCULES", "TEMPS_SAUVES"))
@@ -76,7 +74,7 @@ def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
     return values
 
 
-def _inputs(entries: Entries) -> HarmonicInputs:
+def _inputs(entries: Entries) -> "HarmonicInputs":
     from ssilang.kernel.statics.frequency import HarmonicInputs
 
     model: Model | None = entries.get("MODELE")

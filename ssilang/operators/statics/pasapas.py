@@ -1,7 +1,5 @@
 """ZPAS: the load steps behind the procedure PASAPAS."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.curves.curve import LoadPart
@@ -130,7 +128,7 @@ def _strained(given: Entries, finite: bool) -> CellField | None:
 def _stretch(
     entries: Entries,
     work: Entries,
-    start: Start,
+    start: "Start",
     stage: Stage,
     times: FloatArray,
     saved: NDArray[np.bool_],
@@ -157,6 +155,8 @@ def _stretch(
     if bodies is None and not control_asked(work) and stage.entries is work:
         plausibility.warn_of_connections(work, inputs)
         plausibility.warn_of_start(work, problem, inputs, in_statics=not dynamic)
+    elif start.reached is None:
+        plausibility.warn_of_bodies(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     axis = "UZ" if "UZ" in problem.numbering.unknowns else "UY"
@@ -222,7 +222,7 @@ def _not_kept(work: Entries) -> list[str]:
     return [word for word in words if work.flag(word)]
 
 
-def _entering(start: Start, stage: Stage) -> Start:
+def _entering(start: "Start", stage: Stage) -> "Start":
     """The start of a stage, with what the cells that come bring."""
     if start.reached is None:
         return start
@@ -239,7 +239,7 @@ def _onward(
     step: int,
     state: Table,
     before: Entries,
-) -> tuple[Start, FloatArray, NDArray[np.bool_]]:
+) -> "tuple[Start, FloatArray, NDArray[np.bool_]]":
     """Where it goes on from a state reached at a step: start, times, which are saved."""
     rest, kept = times[step:], saved[step:].copy()
     kept[0] = False  # it stands in the tables already if it was to be kept
@@ -266,8 +266,8 @@ def _other_times(
 
 
 def _path_run(
-    problem: Problem, inputs: Inputs, bodies: Bodies | None, observers: list[Observer]
-) -> BulkRun:
+    problem: "Problem", inputs: "Inputs", bodies: Bodies | None, observers: "list[Observer]"
+) -> "BulkRun":
     """A calculation along a path, at its start."""
     from ssilang.kernel.plasticity.following import no_bodies
     from ssilang.kernel.plasticity.run import BulkRun
@@ -371,7 +371,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
 
 def _inputs(
     entries: Entries, start: Start, times: FloatArray, dynamic: bool
-) -> tuple[Inputs, Stresses]:
+) -> "tuple[Inputs, Stresses]":
     from ssilang.kernel.stepping.problem.problem import Inputs
 
     material: CellField | None = entries.get("CARACTERISTIQUES")

@@ -1,7 +1,5 @@
 """The tables that PASAPAS fills."""
 
-from __future__ import annotations
-
 from dataclasses import field
 from typing import TYPE_CHECKING
 
@@ -72,7 +70,7 @@ class ResultTables:
     number: int = 0
     zones: tuple[Zone, ...] = ()
     material: CellField | None = None
-    _last: tuple[Snapshot, dict[str, Any]] | None = field(default=None, repr=False)
+    _last: "tuple[Snapshot, dict[str, Any]] | None" = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
@@ -81,13 +79,13 @@ class ResultTables:
             if not isinstance(self.table.get(word), Table):
                 self.table.set(Mot(word), Table())
 
-    def receive(self, snapshot: Snapshot) -> None:
+    def receive(self, snapshot: "Snapshot") -> None:
         """Add one time."""
         for word, value in self.values(snapshot).items():
             self._put(word, value, keep=snapshot.step == 0)
         self.number += 1
 
-    def values(self, snapshot: Snapshot) -> dict[str, Any]:
+    def values(self, snapshot: "Snapshot") -> dict[str, Any]:
         """Results of one time, by their words."""
         if self._last is not None and self._last[0] is snapshot:
             return self._last[1]

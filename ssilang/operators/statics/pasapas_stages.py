@@ -4,8 +4,6 @@ A model that changes (CHAR 'MODE') builds and digs: cells that come are without 
 come, cells that go take their forces away.
 """
 
-from __future__ import annotations
-
 from dataclasses import field
 from typing import TYPE_CHECKING
 
@@ -133,7 +131,7 @@ class Reached:
         last: NDArray[np.bool_] = np.arange(self.n_times) == self.n_times - 1
         return last
 
-    def receive(self, snapshot: Snapshot) -> None:
+    def receive(self, snapshot: "Snapshot") -> None:
         """The last time."""
         self.values = self.results.values(snapshot)
 

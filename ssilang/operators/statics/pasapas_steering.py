@@ -1,7 +1,5 @@
 """PERSO1, REEV_MEC: what procedures of the user see of PASAPAS, and what they change of it."""
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.elements.results.supports import field_on_model
@@ -94,7 +92,7 @@ class Steering:
         self.wanted = np.ones(n_times, bool)
         self.wanted[0] = begins and self.prepared
 
-    def receive(self, snapshot: Snapshot) -> None:
+    def receive(self, snapshot: "Snapshot") -> None:
         """One computed time.
 
         Raises
@@ -135,7 +133,7 @@ class SavedTable:
         inside = wanted[(wanted > times[0]) & (wanted <= times[-1])]
         self.wanted = nearest(times, inside)
 
-    def receive(self, snapshot: Snapshot) -> None:
+    def receive(self, snapshot: "Snapshot") -> None:
         """One time: its results stand in the table already."""
         root = self.call.session.root
         name = next((n for n in root.names() if root.find(n) is self.table), "TAB1")

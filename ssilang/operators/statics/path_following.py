@@ -103,6 +103,9 @@ def ends_of(a: FloatArray, b: FloatArray, asked: float) -> list[float]:
     upper = ((asked - a[b > flat]) / b[b > flat]).min(initial=np.inf)
     lower = ((asked - a[b < -flat]) / b[b < -flat]).max(initial=-np.inf)
     if lower > upper:
+        for _ in range(SEARCHES):  # of where the greatest falls and where it grows
+            x = 0.5 * (lower + upper)
+            lower, upper = (x, upper) if b[np.argmax(a + x * b)] > 0.0 else (lower, x)
         return [0.5 * float(lower + upper)]
     return [float(x) for x in (upper, lower) if np.isfinite(x)]
 

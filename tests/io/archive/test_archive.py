@@ -100,6 +100,16 @@ def test_pickled_arrays_are_refused(tmp_path: Path) -> None:
         restored(path, NodeTable())
 
 
+@pytest.mark.parametrize("kind", [complex, "U8", "M8[s]"])
+def test_arrays_of_other_kinds_than_objects_hold_are_damage(tmp_path, kind):
+    path, value = tmp_path / "s", np.array([1, 2, 3])
+    saved(path, X=value.astype(float), N=value)
+    assert restored(path, NodeTable())["X"].tolist() == [1.0, 2.0, 3.0]
+    saved(path, X=value.astype(kind))
+    with refusal(InputError, "io.no-file-sauv-ssilang"):
+        restored(path, NodeTable())
+
+
 def test_foreign_files_are_refused(tmp_path: Path) -> None:
     (tmp_path / "s").write_bytes(b"binary of another program")
     with pytest.raises(InputError, match="no file that SAUV"):

@@ -7,6 +7,7 @@ from together import together
 from ssilang.io.archive.decoding import _AGREEMENTS, flaw_of
 from ssilang.kernel.curves.curve import CurvePart
 from ssilang.kernel.fields.cell_field import CellFieldBlock
+from ssilang.kernel.fields.deformed import ArrowPart
 from ssilang.kernel.fields.node_field import NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Relations
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -30,6 +31,7 @@ SOUND = {
     Relations: {"row_start": np.array([0, 2, 3]), "raw_nodes": np.array([3, 0, 1]),
                 "unknowns": ("UY", "UX", "UX"), "coefficients": THREE,
                 "raw_multipliers": TWO, "sense": np.zeros(2, np.int8)},
+    ArrowPart: {"origins": np.ones((2, 3)), "vectors": np.zeros((2, 3)), "nodes": TWO},
 }  # fmt: skip
 # a class, the field that is damaged, what stands there, the field that is named
 DAMAGED = [
@@ -53,6 +55,8 @@ DAMAGED = [
     (Relations, "row_start", np.array([0, 2, 2])), (Relations, "row_start", np.array([0, 3])),
     (Relations, "raw_nodes", np.array([3, 0])), (Relations, "coefficients", np.ones(2)),
     (Relations, "sense", np.zeros(3, np.int8)),
+    (ArrowPart, "origins", np.ones((2, 1))), (ArrowPart, "vectors", np.zeros((3, 3))),
+    (ArrowPart, "vectors", np.zeros((1, 2, 3))), (ArrowPart, "nodes", np.array([0])),
 ]  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from ssilang.io.plots.cutting import nodal_means
 from ssilang.io.plots.faces import add_bands, add_faces, add_points, band_values
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.palette import index_of, shade
-from ssilang.io.plots.patches import all_faces, visible_faces
+from ssilang.io.plots.patches import all_faces, pieces, visible_faces
 from ssilang.io.plots.values import values_on
 from ssilang.io.plots.view import plane_view
 from ssilang.kernel.elements.catalog import support_rule
@@ -224,3 +224,17 @@ def test_values_in_cells_come_to_their_nodes(mesh: Mesh, support: Any) -> None:
             assert nodal[node] == pytest.approx(np.mean(means[node]))
         else:
             assert np.isnan(nodal[node])
+
+
+@pytest.mark.parametrize("kind", ["TRI3", "QUA4", "POL5", "PO12"])
+def test_pieces_of_a_face_cover_it_once(kind):
+    """Areas of the pieces of an affine image: the sum is the face's, none is turned."""
+    sides = {"TRI3": 3, "QUA4": 4, "POL5": 5, "PO12": 12}[kind]
+    angle = 2.0 * np.pi * np.arange(sides) / sides
+    corners = np.stack([2.0 * np.cos(angle) + np.sin(angle), 3.0 * np.sin(angle)], axis=1)
+    shape, parts = pieces(kind, 3)
+    assert shape.shape[1] == sides
+    a, b, c = np.moveaxis((shape @ corners)[parts], 1, 0)
+    areas = 0.5 * np.linalg.det(np.stack([b - a, c - a], axis=-1))
+    assert areas.min() > 0.0
+    assert areas.sum() == pytest.approx(6.0 * 0.5 * sides * np.sin(2.0 * np.pi / sides))

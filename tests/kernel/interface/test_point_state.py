@@ -60,8 +60,9 @@ class Point:
         return energies_of_points(*self.arrays)[:, 0]
 
 
-def test_states_of_a_joint_with_strength_along_its_path():
-    p = Point(SDM, FU=1e5, GF=20.0, FC=-2e4)
+@pytest.mark.parametrize("unit", [1.0, 1e6])
+def test_states_of_a_joint_with_strength_along_its_path(unit):
+    p = Point(SDM, KN=1e9 / unit, FU=1e5 / unit, GF=20.0 / unit, FC=-2e4 / unit)
     assert p.condition == OPEN  # at rest between FC and the strength
     assert p.to(0, -1e-4).condition == CLOSED
     assert p.to(0, 5e-5).condition == OPEN  # elastic tension
@@ -69,7 +70,7 @@ def test_states_of_a_joint_with_strength_along_its_path():
     xi = p.state[0, 0]
     assert p.to(0, xi + 1e-6).condition == OPEN  # unloading towards the largest opening
     assert p.to(0, xi / 2).condition == CLOSING
-    assert -2e4 < p.t[0, 1] < 0
+    assert -2e4 < unit * p.t[0, 1] < 0
     assert p.to(0, -1e-4).condition == CLOSED
     assert p.to(0, 8e-4).condition == OPENING
 

@@ -23,7 +23,8 @@ from ssilang.kernel.modal.modes import (
     modes_between,
     modes_near,
 )
-from ssilang.kernel.statics.stability import count_negative, negative_eigenvalues
+from ssilang.kernel.statics import stability
+from ssilang.kernel.statics.stability import NUDGE, count_negative, negative_eigenvalues
 
 
 def chain(n, k=1.0, m=1.0):
@@ -168,6 +169,20 @@ def test_negative_eigenvalues_of_a_chain_are_counted(n, shift):
     A = sp.diags_array([beside, np.full(n, 2.0 - shift), beside], offsets=(-1, 0, 1))
     exact = 2.0 - 2.0 * np.cos(np.arange(1, n + 1) * np.pi / (n + 1)) - shift
     assert count_negative(sp.csr_array(A)) == np.count_nonzero(exact < 0.0)
+
+
+@pytest.mark.parametrize(("pairs", "few"), [(40, True), (41, False)])
+def test_pivots_that_vanish_whatever_is_added_leave_the_eigenvalues(monkeypatch, pairs, few):
+    """Pairs [[d, 1], [1, d]] have one eigenvalue below zero; d is what each trial takes away."""
+    monkeypatch.setattr(stability, "DENSE", 81)
+    A = sp.kron(sp.eye_array(pairs), [[0.0, 1.0], [1.0, 0.0]]).tolil()
+    A.setdiag(np.tile(np.repeat([0.0, -NUDGE, -100.0 * NUDGE], 2), pairs)[: 2 * pairs])
+    A = sp.csr_array(sp.block_diag([A, [[1.0]]]))
+    if few:
+        assert count_negative(A) == pairs
+        return
+    with pytest.raises(KernelError, match="without row exchanges"):
+        count_negative(A)
 
 
 def test_nothing_to_vibrate_is_said():

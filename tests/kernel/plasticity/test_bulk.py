@@ -2,6 +2,7 @@
 
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from ssilang.cli.run import run_text
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
+from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.points import PointState, plastic_zones
 from ssilang.kernel.plasticity.run import BulkRun, integrate_bulk, step_bulk_statics
 from ssilang.kernel.plasticity.zone_points import plastic_points
@@ -336,3 +338,24 @@ def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str)
     assert loss.max() < (0.02 if conserving else 0.2)
     assert energies[-1, LOST] > 0.05 * size
     assert (np.diff(energies[:, LOST]) >= -1e-3 * size).all()
+
+
+@pytest.mark.parametrize(
+    ("searched", "contact", "sizes", "tried"),
+    [(True, None, [3, 3, 3, 3], [2, 1.5, 1.25, 1.125]), (True, None, [3, 1, 0], [2, 1.5]),
+     (False, None, [3, 0], [2]), (True, "rows", [3, 0], [2])],
+)  # fmt: skip
+def test_steps_that_make_it_worse_are_halved_but_of_large_displacements_and_contact(
+    searched, contact, sizes, tried
+):
+    seen, left = [], iter(sizes)
+
+    def trial(motion, r, du, pushed):
+        seen.append(du)
+        return SimpleNamespace(du=du, size=next(left), residual=1.0)
+
+    solver = SimpleNamespace(bulk=SimpleNamespace(searched=searched), contact=contact, _trial=trial)
+    now = SimpleNamespace(du=1.0, size=2.0)
+    found = BulkSolver._searched(solver, None, None, now, 1.0, None)
+    assert seen == tried
+    assert found.du == tried[-1]

@@ -5,7 +5,6 @@ import pytest
 from scipy.integrate import solve_ivp
 from script_runs import ran
 
-from ssilang.cli.run import run_text
 from ssilang.kernel.modal.oscillator import spectrum
 from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
 
@@ -102,11 +101,3 @@ def test_unit_ductility_gives_the_linear_spectrum_back() -> None:
     length, _ = curve(tail + "'COUL' 'ROUG' 'DEPL'")
     w = 2 * np.pi * np.array([1.0, 2.0, 4.0])
     assert length.parts[0].ordinates * w**2 == pytest.approx(linear.parts[0].ordinates, rel=1e-2)
-
-
-def test_takeda_and_missing_entries_are_said() -> None:
-    text = "R = SPON 'SIGN' G1 'SPEL' S1 'ACCE' 'AMOR' X1 'TAKE' (PROG 2. 0.) 'ACCE' ;"
-    result = run_text(SCRIPT + text)
-    assert "Takeda" in result.message
-    result = run_text(SCRIPT + "R = SPON 'SIGN' G1 'AMOR' X1 'CINE' (PROG 2. 0.) 'ACCE' 'ACCE' ;")
-    assert "SPEL" in result.message

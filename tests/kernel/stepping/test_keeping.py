@@ -68,7 +68,6 @@ CASES = {
     "modes, two lengths": ("modes", lambda: longer(masses(3, shear=1e5), 200, 2)),
     "modes of a block": ("modes", lambda: soil_block(90, size=(6, 3, 4))),
     "dashpots, six lengths": ("modes", lambda: longer(masses(3, dashpot=True), 200, 6)),
-    "dense": ("dense", lambda: soil_block(90, size=(6, 3, 4))),
     "conserving": ("conserving", lambda: longer(masses(3, scheme=Scheme(conserving=True)), 90)),
     "conserving relations": ("conserving", lambda: feet(scheme=Scheme(conserving=True))),
     "conserving penalty": ("conserving", lambda: feet(PENALTY, Scheme(conserving=True))),
@@ -80,7 +79,9 @@ CASES = {
         "adaptive",
         lambda: replace(Awkward(3, tied=False).problem(), scheme=Scheme(adaptive=True)),
     ),
-    "dense, zones of all laws": ("dense", lambda: Awkward(4, scheme=1, steps=90).problem()),
+    "dissection, zones of all laws": (
+        "dissection", lambda: Awkward(4, scheme=1, steps=90).problem()
+    ),
     "conserving, zones of all laws": (
         "conserving", lambda: replace(Awkward(5).problem(), scheme=Scheme(conserving=True)),
     ),
@@ -123,7 +124,7 @@ def assert_same(history, snapshots, truth, others):
 def test_going_on_leads_to_the_same_bits(case, tmp_path, monkeypatch):
     rule, make = CASES[case]
     rng, full = np.random.default_rng(sum(map(ord, case))), rule == "full Newton"
-    if rule in ("dense", "condensed"):
+    if rule in ("dissection", "condensed"):
         monkeypatch.setattr(choose, "RULES", only(rule))
     steps = len(make().times) - 1
     stride = int(rng.integers(3, 40))

@@ -113,7 +113,7 @@ CASES = {
     "springs": bouncing,
     "modes": lambda: bouncing(shear=1e5),
     "modes, dashpots": lambda: bouncing(shear=1e5, dashpot=True),
-    "dense": lambda: bouncing(shear=1e5, moving=True),
+    "dissection, small": lambda: bouncing(shear=1e5, moving=True),
     "dissection": large,
     "dissection, supports that move": lambda: shaken_from_below(large()),
     "condensed": lambda: large(scheme=hht(0.1)),

@@ -17,12 +17,3 @@ def test_one_part_holds_the_segment_and_the_other_its_inverse(found) -> None:
     # the node stands at x = 1: anticlockwise, the segment going up has the left part behind it
     x = first.nodes.coordinates[first.sorted_node_ids]
     assert x[:, 0].max() == pytest.approx(1.0)
-
-
-def test_neighbours_and_strangers_are_refused(refused) -> None:
-    assert "neighbours" in refused(FRAME + "E F G = «FUIT» L (A POIN 3) (A POIN 4) ;")
-    assert "no plane" in refused(
-        "OPTI DIME 3 ELEM QUA4 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
-        "C = COUP S (0. 0. 0.) (1. 0. 0.) «(2. 0. 0.)» ;"
-    )
-    assert "no node" in refused(FRAME + "P = 9. 9. ; E F G = «FUIT» L P C ;")

@@ -1,6 +1,6 @@
 """VISA: pairs of nodes at one place."""
 
-from script_runs import ran, refused
+from script_runs import ran
 
 LINES = "OPTI DIME 2 ELEM SEG2 ; A = DROI 4 (0. 0.) (1. 0.) ; B = DROI 2 (1. 1.E-7) (0. 1.E-7) ; "
 
@@ -10,7 +10,3 @@ def test_double_nodes_of_one_mesh_with_the_density() -> None:
     m, n = (result.session.root.find(x).sorted_node_ids for x in "MN")
     assert len(m) == 3
     assert not set(m) & set(n)
-
-
-def test_a_distance_is_needed() -> None:
-    assert "a distance is needed" in refused(LINES + "M N = VISA A B ;")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 
 
 @pytest.mark.parametrize(
@@ -42,18 +42,6 @@ def test_inner_nodes_go_to_the_middle_of_their_neighbours():
     assert found(script.format("R = DEDU S C C ;"), "X") == pytest.approx(1.4)
 
 
-def test_parts_without_masters_and_quadratic_cells_are_refused():
-    base = (
-        "OPTI DIME 2 ELEM {} ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 2 (0. 2.) ; T = S PLUS (5. 0.) ; "
-        "C = COTE 1 S ; R = DEDU (S ET T) C (C PLUS (0. 0.1)) ;"
-    )
-    assert "no master node" in refused(base.format("QUA4"))
-    assert "cannot follow" in refused(base.format("QUA8"))
-    assert "wanted a MAILLAGE" in refused(
-        "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ; M = DEDU L ;"
-    )
-
-
 def test_refined_intervals_of_different_sizes_grade_into_each_other():
     values = np.asarray(found("L = RAFF (PROG 0. 1. 9.) -4 ;", "L").values)
     steps = np.diff(values)
@@ -62,11 +50,6 @@ def test_refined_intervals_of_different_sizes_grade_into_each_other():
     ratios = steps[1:] / steps[:-1]
     assert ratios.max() < 2.0
     assert steps[-1] > 3.0 * steps[0]
-
-
-def test_refining_wants_a_part_and_a_size():
-    assert "number != 0" in refused("L = RAFF (PROG 0. 1.) 0 ;")
-    assert "size > 0" in refused("L = RAFF (PROG 0. 1.) -0.5 ;")
 
 
 def test_raff_cuts_cells_and_ties_what_hangs():
@@ -82,14 +65,6 @@ def test_raff_cuts_cells_and_ties_what_hangs():
     result = ran(text.replace("0.6 +", "0.3 +"))
     assert result.output.split()[:2] == ["6", "1"]
     assert result.output.split()[3] == "5"
-
-
-def test_raff_wants_a_size_everywhere_and_one_division():
-    start = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; S = L TRAN 1 (0. 1.) ; "
-    assert "no size" in refused(start + "T = RAFF S (COOR 1 L) ;")
-    assert "refined before" in refused(
-        start + "T = RAFF S (0.3 + (COOR 1 S)) ; U = RAFF T (COOR 1 T) ;"
-    )
 
 
 def test_ties_are_named_kept_in_saves_and_left_out_of_pictures(tmp_path):

@@ -55,14 +55,6 @@ def test_plane_polynomial_has_its_area_and_sides():
     assert product == count
 
 
-def test_polynomial_needs_sizes_and_points():
-    assert "mesh size" in refused(TWISTED.format(word="DALL", element="QUA4", more="").replace(
-        "DENS 0.25", ""))  # fmt: skip
-    assert "POINT" in refused(
-        "OPTI DIME 2 ELEM QUA4 DENS 1. ; S = DALL 'POLY' 2 2 (0. 0.) (1. 0.) ;"
-    )
-
-
 def test_parabolas_touch_the_circle_at_their_ends():
     """Ends on the circle, tangents those of the circle, middle halfway to where they meet."""
     mesh = found("OPTI DIME 2 ; L = PARC 3 (2. 0.) (0. 0.) (0. 2.) ;", "L")

@@ -24,11 +24,6 @@ def test_cells_fill_the_domain_and_share_their_edges(found):
     assert edges == 16  # 13 pieces of the contour, three edges that meet in a point
 
 
-def test_space_and_other_contours_are_refused(refused):
-    assert "plane only" in refused(DOMAIN + "OPTI DIME 3 ; T = «VORO» G L ;")
-    assert "mesh of points" in refused(DOMAIN + "T = VORO «L» L ;")
-
-
 def test_a_point_is_the_same_index_however_it_was_got(found):
     script = (
         "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; L = DROI 1 P Q ; "

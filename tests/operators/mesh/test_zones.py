@@ -63,10 +63,6 @@ def test_sub_type_is_for_parallel_runs_only() -> None:
     assert [result.session.root.find(n).subtype for n in "ABC"] == ["ESCLAVE", "", ""]
 
 
-def test_what_separates_must_be_said() -> None:
-    assert "nothing separates" in refused(STAR + "T = PART 'SEPA' L ;")
-
-
 def test_lines_of_several_values() -> None:
     result = ran(
         "OPTI DIME 2 ELEM TRI3 ; S = (DROI 3 (0. 0.) (1. 0.)) TRAN 3 (0. 2.) ; "

@@ -6,8 +6,6 @@ starts take longer. So it is by itself with versions of Python, numba, llvmlite 
 not tried (`tried`), where numba keeps code as it does; SSILANG_PLAIN_NUMBA=0 tries them.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import warnings

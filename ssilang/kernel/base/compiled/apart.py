@@ -13,8 +13,6 @@ stands in `calls`.
 
 # mypy: allow-untyped-calls
 
-from __future__ import annotations
-
 import ctypes
 import functools
 import importlib
@@ -26,7 +24,7 @@ from typing import Any, TypeVar, cast
 import llvmlite.binding as llvm
 
 from ssilang.kernel.base.compiled import PLAIN, UNCOMPILED
-from ssilang.kernel.base.compiled.compiler import Compiled, Types, compiled
+from ssilang.kernel.base.compiled.compiler import Compiled, Types, compiled, written
 from ssilang.kernel.base.compiled.kinds import RESULTS
 from ssilang.kernel.base.compiled.machine import STOPPED, SYMBOL, Ready
 
@@ -41,7 +39,7 @@ class Apart:
         self.name: str = function.py_func.__qualname__
         self.function, self.expected, self.later = function, expected, later
         self.py_func = function.py_func
-        self.result: str = self.py_func.__annotations__["return"]
+        self.result = written(self.py_func.__annotations__["return"])
         function.options["no_cpython_wrapper"] = True  # half of what is compiled for some
 
     def __call__(self, *args: Any) -> Any:
@@ -66,7 +64,7 @@ class Apart:
 
         return type_of(self)
 
-    def __deepcopy__(self, memo: dict[int, Any]) -> Apart:
+    def __deepcopy__(self, memo: dict[int, Any]) -> "Apart":
         return self
 
     def __reduce__(self) -> str:

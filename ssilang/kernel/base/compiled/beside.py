@@ -14,8 +14,6 @@ other process is given names and types by a pipe, writes only kept code, and end
 however that ends.
 """
 
-from __future__ import annotations
-
 import atexit
 import importlib
 import os

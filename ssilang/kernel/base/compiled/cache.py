@@ -9,8 +9,6 @@ Kept code is run unseen, so a folder is used only if nobody else could have put 
 (`private`); else a run compiles into a folder that ends with it.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

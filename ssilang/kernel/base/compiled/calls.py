@@ -2,8 +2,6 @@
 
 # mypy: allow-untyped-calls
 
-from __future__ import annotations
-
 import functools
 import inspect
 from collections.abc import Callable

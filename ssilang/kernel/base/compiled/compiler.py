@@ -7,8 +7,6 @@ instructions each time: half of the time of a small step. Functions that neither
 hand any back need no count, their callers hold all that they see; they are compiled without it.
 """
 
-from __future__ import annotations
-
 import functools
 import inspect
 import re
@@ -134,7 +132,7 @@ class Compiled:
         """Whether the code is there in this process."""
         return words in self._ready
 
-    def __deepcopy__(self, memo: dict[int, Any]) -> Compiled:
+    def __deepcopy__(self, memo: dict[int, Any]) -> "Compiled":
         return self
 
     def __reduce__(self) -> str:
@@ -200,9 +198,15 @@ def _gives_arrays(function: Callable[..., Any]) -> bool:
     return _holds_arrays(result, function.__globals__)
 
 
+def written(annotation: Any) -> str:
+    """A type as annotations have it: by its name, or as it is written."""
+    text = getattr(annotation, "__forward_arg__", annotation)
+    return text.__name__ if isinstance(text, type) else str(text)
+
+
 def _holds_arrays(annotation: Any, names: dict[str, Any]) -> bool:
     """Whether a type that is written so is none of numbers, and no record of numbers alone."""
-    for word in re.findall(r"\w+", getattr(annotation, "__forward_arg__", str(annotation))):
+    for word in re.findall(r"\w+", written(annotation)):
         kind, own, parts = names.get(word), names, list[Any]()
         if hasattr(kind, "_fields"):
             parts, own = [*kind.__annotations__.values()], vars(sys.modules[kind.__module__])

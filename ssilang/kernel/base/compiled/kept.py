@@ -4,8 +4,6 @@ The name of the file tells them, so that processes which fill a folder at a time
 also tells who made it: numba's, LLVM's, numpy's and Python's version, the processor.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import pickle

@@ -6,8 +6,6 @@
 Values tell their kind without the compiler, which is not loaded where all code is kept.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

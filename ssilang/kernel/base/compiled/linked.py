@@ -8,8 +8,6 @@ calls, and what is reached by its address (`apart`), is made as numba makes it, 
 
 # mypy: allow-untyped-calls
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -7,8 +7,6 @@ memory of arrays, closures), which are loaded by their files: the packages aroun
 
 # mypy: allow-untyped-calls
 
-from __future__ import annotations
-
 import builtins
 import ctypes
 import importlib.util

@@ -4,8 +4,6 @@ Elsewhere plain numba compiles: the same answers, later. Who has tried further v
 of this folder with SSILANG_PLAIN_NUMBA=0 in the environment) adds them here.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from importlib.util import find_spec

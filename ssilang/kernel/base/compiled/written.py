@@ -7,8 +7,6 @@ something is compiled, and goes into the caller.
 
 # mypy: allow-untyped-calls
 
-from __future__ import annotations
-
 import functools
 import importlib
 from collections.abc import Callable

@@ -7,8 +7,6 @@ The moduli are taken out of the integral: of node a, unknown i and node b, unkno
 so that the sum over points is one of products of gradients, a sixth of that of B^T D B in space.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

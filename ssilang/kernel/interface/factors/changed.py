@@ -9,8 +9,6 @@ v is no larger than these jumps, and iterated on (GMRES, Saad and Schultz 1986):
 where that reads fewer numbers than z takes, since laws of straight lines then end in one turn.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

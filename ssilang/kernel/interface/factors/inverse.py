@@ -10,8 +10,6 @@ direction is `-(1 + S (c K - R))^-1 r = Y (c K - R) r - r`. Directions need few 
 Newton's residual is made with S itself: Y may be of single precision.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

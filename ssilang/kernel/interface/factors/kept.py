@@ -6,8 +6,6 @@ when corrections (`Changed`) have cost as much; sliding in space turns tangents 
 are corrected for. A few jumps follow each change at once.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

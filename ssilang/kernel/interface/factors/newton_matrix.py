@@ -1,7 +1,5 @@
 """Newton's matrix `1 + S (c K - R)` of a condensed interface."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -19,8 +19,6 @@ lifted off,
 so that without friction all is the derivative of KN g^2 / 2, in which no energy is lost.
 """
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -19,8 +19,6 @@ Beds of springs that yield and lift off: Allotey and El Naggar 2003, *Analytical
 curves for rigid foundations based on a Winkler model*; Gajan and others, PEER 2007/04.
 """
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """The bonded joint: t = diag(KS1, KS2, KN) w, no state."""
 
-from __future__ import annotations
-
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.copies import clear, copy_state

@@ -13,8 +13,6 @@ The base of a macro-element as a plane that opens: where it presses, how far its
 A point at s opens by `v + theta s` in the plane, by `v + theta_1 s_2 - theta_2 s_1` in space.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

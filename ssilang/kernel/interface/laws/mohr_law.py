@@ -7,8 +7,6 @@ stiffness may change to EF beyond the closing ECN, or a joint of two points may 
 the tangent QT. Backward Euler, closed form.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Places under a footing, and the elastic bed that presses at them alone, compiled."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -4,8 +4,6 @@ Numba has no table of functions whose calls cost nothing: a chain of comparisons
 `law_table.LAWS` instead, a function a law, each written into the one before.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -16,8 +16,6 @@ that is left, as if it had slipped by the rest: energy is lost there, not made. 
 Discontinuity Method, CLUB CAST3M 2014, and its closed form.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

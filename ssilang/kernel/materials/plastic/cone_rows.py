@@ -4,8 +4,6 @@ The same equations as `cone`, for passes over many points: a law gives its param
 as columns (`PlasticLaw.columns`), points with equal ones share a row.
 """
 
-from __future__ import annotations
-
 import math
 from enum import IntEnum
 from typing import NamedTuple

@@ -4,8 +4,6 @@ Parameters stand in rows (k, m), in the order of `STEEL` and `CONCRETE`; stress 
 (m, ...) are brought up to date, `slope` (m,) is the derivative by the step of strain (m,).
 """
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """The return to nested surfaces: parts side by side that share the strain, compiled."""
 
-from __future__ import annotations
-
 import math
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

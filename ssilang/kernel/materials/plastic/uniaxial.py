@@ -1,7 +1,5 @@
 """Laws of fibres: one stress along the fibre; shear stays elastic."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple

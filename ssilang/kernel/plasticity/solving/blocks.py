@@ -4,8 +4,6 @@ Loops over the points of a block are loops over neighbours in memory. Nothing of
 points is made but the state itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, ClassVar, NamedTuple
 
@@ -331,7 +329,7 @@ class ZonePass:
 
     # ---- what laws differ in
 
-    def of(self, which: IntArray) -> ZonePass:
+    def of(self, which: IntArray) -> "ZonePass":
         """A pass over some cells: it reads their points of the zone's states."""
         raise NotImplementedError
 

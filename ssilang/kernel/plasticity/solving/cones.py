@@ -3,8 +3,6 @@
 The law is asked point by point where stresses without flow pass their surface, and nowhere else.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -228,7 +226,7 @@ class ConePass(ZonePass):
     pass_over = staticmethod(pass_over)
     pass_flow_over = staticmethod(flow_over)
 
-    def of(self, which: IntArray) -> ConePass:
+    def of(self, which: IntArray) -> "ConePass":
         """A pass over some cells: it reads their points of the zone's states."""
         cells, points = self.some(which)
         return ConePass(cells, self.law._replace(of=self.law.of[points]), points)

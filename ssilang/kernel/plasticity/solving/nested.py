@@ -4,8 +4,6 @@ Nearly all points flow at all times, on the first of their surfaces; those that 
 surface cost a comparison.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
@@ -258,7 +256,7 @@ class NestedPass(ZonePass):
     pass_over = staticmethod(pass_over)
     pass_flow_over = staticmethod(flow_over)
 
-    def of(self, which: IntArray) -> NestedPass:
+    def of(self, which: IntArray) -> "NestedPass":
         """A pass over some cells: it reads their points of the zone's states."""
         cells, points = self.some(which)
         own = self.law

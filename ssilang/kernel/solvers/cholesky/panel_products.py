@@ -4,8 +4,6 @@ Panels are small, some 16 by 40: of loops that a compiler makes vectors of, half
 the rests. Here a rest is a vector with a mask. `panel_code` writes them.
 """
 
-from __future__ import annotations
-
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.written import written
 

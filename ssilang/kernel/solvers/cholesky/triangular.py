@@ -1,7 +1,5 @@
 """Solves with the panels of `multifrontal`: forward and backward over a range of supernodes."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray

@@ -5,8 +5,6 @@ The prolongation is smoothed once. Levels are smoothed by Chebyshev polynomials 
 order of rows: threads change no number.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

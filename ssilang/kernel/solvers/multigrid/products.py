@@ -1,7 +1,5 @@
 """Products of matrices by groups: `A P` and `P^T (A P)`, the columns of P in runs of k."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

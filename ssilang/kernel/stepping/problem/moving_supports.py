@@ -15,10 +15,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
+from ssilang.kernel.stepping.newmark import Newmark, newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, Motion
+from ssilang.kernel.stepping.verbs import advance
 
 MOST = 24  # curves of imposed values: each is three loads more
 ALLOWED = 1e-12  # rounding errors of a motion that the supports allow
@@ -50,9 +52,9 @@ class Course:
         Those of the inertia are such that a mean by alpha_f is that of c'' by alpha_m.
         """
         inertia = self.a.copy()
-        for k in range(len(inertia) - 1 if inertia.shape[1] else 0):
-            mean = n.inertia_end * self.a[k + 1] + n.inertia_start * self.a[k]
-            inertia[k + 1] = (mean - n.start * inertia[k]) / n.end
+        inertia[1:] = (n.inertia_end * self.a[1:] + n.inertia_start * self.a[:-1]) / n.end
+        for k in range(len(inertia) - 1 if n.start and inertia.shape[1] else 0):
+            inertia[k + 1] -= n.start / n.end * inertia[k]
         return np.hstack([inertia, self.v, self.c])
 
 
@@ -62,6 +64,14 @@ class Start:
 
     work: FloatArray  # (3, 3 m) of the columns' loads on q, q' and q''
     joints: FloatArray  # (q,) forces on the jumps
+
+
+@compiled
+def _follow(n: Newmark, c: FloatArray, v: FloatArray, a: FloatArray) -> None:
+    """Velocities and accelerations of c, each (n_steps + 1, m), from the first ones on."""
+    for k in range(len(c) - 1):
+        for j in range(c.shape[1]):
+            v[k + 1, j], a[k + 1, j] = advance(n, c[k + 1, j] - c[k, j], v[k, j], a[k, j])
 
 
 class MovingSupports:
@@ -111,12 +121,11 @@ class MovingSupports:
 
     def course(self, c: FloatArray, v0: FloatArray, a0: FloatArray) -> Course:
         """The scheme's velocities and accelerations of c, from those at the start."""
-        v, a, n = np.zeros_like(c), np.zeros_like(c), self.newmark
+        v, a, n = np.zeros(c.shape), np.zeros(c.shape), self.newmark
         if not c.shape[1]:
             return Course(c, v, a)
         v[0], a[0] = v0, a0
-        for k in range(len(c) - 1):
-            v[k + 1], a[k + 1] = advanced(n, c[k + 1] - c[k], v[k], a[k])
+        _follow(n, np.ascontiguousarray(c), v, a)
         return Course(c, v, a)
 
     def complete(

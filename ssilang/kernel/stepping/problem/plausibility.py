@@ -104,7 +104,7 @@ class Bodies:
                 assert joints is not None
                 delta = joints.J @ motion
                 held = float(delta @ (joints.closed_stiffness() @ delta))
-                if held > 0.0 and size > 0.0 and not self.holds(motion, problem.C):
+                if held > 0.0 and size > 0.0 and not self.holds(motion):
                     push = self.factors @ (problem.loading.forces.T @ motion)
                     way = float(np.abs(push).max(initial=0.0)) / held
                     if way > SUNK * size:
@@ -122,7 +122,7 @@ class Bodies:
         problem, motion = self.problem, self.along(body, axis)
         if not motion.any() or not motion @ (problem.M @ motion):
             return ""
-        if self.holds(motion, problem.C):
+        if self.holds(motion, dashpots=True):
             return "held"
         pushed = self.factors @ (problem.loading.forces.T @ motion)
         forces = self.factors @ np.abs(problem.loading.forces[motion != 0.0]).sum(axis=0)
@@ -138,16 +138,17 @@ class Bodies:
             return "pressed" if shaken and not weight else "stands"
         return "slides" if excited and not closed else ""
 
-    def holds(self, motion: FloatArray, *others: sp.csr_array) -> bool:
-        """Whether stiffness, supports or other matrices act against a motion."""
+    def holds(self, motion: FloatArray, *, dashpots: bool = False) -> bool:
+        """Whether stiffness or supports act against a motion, or the dashpots of several masses."""
         problem = self.problem
         if np.abs(problem.constraints.C @ motion).max(initial=0.0) > ROUNDING:
             return True
-        for matrix in (problem.K, *others):
-            natural = motion**2 @ abs(matrix.diagonal())
-            if abs(motion @ (matrix @ motion)) > ROUNDING * natural:
-                return True
-        return False
+        natural = motion**2 @ abs(problem.K.diagonal())
+        if abs(motion @ (problem.K @ motion)) > ROUNDING * natural:
+            return True
+        if not dashpots or motion @ (problem.C @ motion) == 0.0:
+            return False
+        return np.count_nonzero(motion) == 1 or is_dragged(problem, motion)
 
     def _closed(self, motion: FloatArray) -> bool:
         """Whether joints act against a motion when they are pressed."""
@@ -197,9 +198,7 @@ def swings(problem: Problem) -> list[Swing]:
     found = []
     for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
-            drag, pull = problem.C @ x, problem.M @ x  # damping by mass holds nothing
-            drag = drag - pull * (x @ drag) / ((x @ pull) or 1.0)
-            if np.abs(x * drag).max() <= LITTLE * (x**2 @ abs(problem.C.diagonal())):
+            if not is_dragged(problem, x):
                 found.append(Swing(np.inf, 0.0, sudden))
             continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
@@ -208,6 +207,14 @@ def swings(problem: Problem) -> list[Swing]:
             damped *= abs(damped) > ROUNDING * (x**2 @ abs(problem.C.diagonal()))
             found.append(Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden))
     return found
+
+
+def is_dragged(problem: Problem, motion: FloatArray) -> bool:
+    """Whether dashpots act against a motion; damping by the mass holds nothing."""
+    drag, pull = problem.C @ motion, problem.M @ motion
+    drag = drag - pull * (motion @ drag) / ((motion @ pull) or 1.0)
+    natural = motion**2 @ abs(problem.C.diagonal())
+    return bool(np.abs(motion * drag).max() > LITTLE * natural)
 
 
 def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:

@@ -30,6 +30,7 @@ from ssilang.kernel.interface.interface import (
     without_zones,
 )
 from ssilang.kernel.interface.laws.law_table import law_of
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.assembly import (
     Numbering,
@@ -47,7 +48,7 @@ from ssilang.kernel.stepping.problem.loading import Loading, loading_of
 from ssilang.kernel.waves.matched_layer import HISTORIES, refuse_parts_of_layer
 
 SMALL = 160
-"""Motions that supports leave, up to which dense matrices and the compiled loop are used."""
+"""Motions that supports leave, up to which all modes are made and loops on them are used."""
 MOST_SMALL = 1000
 """Unknowns in all, held ones too, of such a problem."""
 
@@ -75,9 +76,17 @@ class Problem:
 
     @property
     def small(self) -> bool:
-        """Whether the compiled loop on dense matrices serves."""
+        """Whether the compiled loops on all modes serve."""
         few = self.numbering.size <= MOST_SMALL and self.constraints.T.shape[1] <= SMALL
         return few and self.contact is None and self.constraints.associated
+
+    @property
+    def joints(self) -> Joints:
+        """Points of the interface, none without joints."""
+        if self.interface is not None:
+            return self.interface.points
+        empty, none = np.zeros((0, 0)), np.zeros(0, dtype=np.int64)
+        return Joints(np.zeros((0, 1), np.int64), np.zeros((0, 1, 1)), np.zeros(0), none, empty)
 
 
 @dataclass(frozen=True, eq=False)

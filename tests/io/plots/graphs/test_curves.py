@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -113,6 +114,33 @@ def test_styles_of_the_table() -> None:
     assert axes.lines[0].get_markevery().tolist() == [0, 2, 4, 6, 8, 10]
     with pytest.raises(OutputError, match="'ROUND' is no marker"):
         parse_style("MARQ ROUND")
+
+
+@pytest.mark.parametrize(("style", "rows"), [("", range(11)), (" REGU", [0, 2, 4, 6, 8, 10])])
+def test_points_have_the_label_of_their_style(style: str, rows: Sequence[int]) -> None:
+    given = {2: parse_style("LABEL here" + style)}
+    (axes,) = draw_curves(curve(0, 0), CurveOptions(styles=given)).axes
+    t = np.linspace(0.0, 2.0, 11)[rows]
+    assert [text.get_text() for text in axes.texts] == ["here"] * len(rows)
+    np.testing.assert_allclose([text.xy for text in axes.texts], np.stack([t, 2.0 * t], axis=1))
+
+
+@pytest.mark.parametrize(("word", "end"), [("TRID", 5.0), ("TRIU", -2.0)])
+def test_triangles_of_bars_stand_at_the_middle_of_their_curve(word: str, end: float) -> None:
+    bars = Curve((CurvePart([1.0, 2.0, 4.0], [3.0, 5.0, -2.0], legend="shares"),), kind="HIST")
+    (axes,) = draw_curves(bars, CurveOptions(styles={1: parse_style(f"MARQ {word}")})).axes
+    (text,) = axes.texts
+    assert (text.get_text(), text.xy) == ("shares", (2.5, end))
+    assert [bar.get_width() for bar in axes.patches] == pytest.approx([0.96] * 3)
+
+
+def test_abscissas_that_are_words_stand_below_the_axis() -> None:
+    words = ("one", "two ", "last")
+    part = CurvePart(np.array([1.0, 2.0, 3.0]), np.array([4.0, 1.0, 2.0]), abscissa_words=words)
+    (axes,) = draw_curves(Curve((part,))).axes
+    assert [(t.get_position()[0], t.get_text()) for t in axes.get_xticklabels()] == [
+        (1.0, "one"), (2.0, "two"), (3.0, "last")
+    ]  # fmt: skip
 
 
 def test_only_the_span_is_drawn() -> None:

@@ -14,8 +14,11 @@ import pytest
 import ssilang.kernel
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled import PLAIN
-from ssilang.kernel.base.compiled.compiler import Compiled, compiled
-from ssilang.kernel.stepping.newmark import Quantity
+from ssilang.kernel.base.compiled.apart import Apart
+from ssilang.kernel.base.compiled.compiler import Compiled, compiled, counts
+from ssilang.kernel.base.compiled.kinds import RESULTS
+from ssilang.kernel.stepping.newmark import Newmark, Quantity
+from ssilang.kernel.stepping.state import Motion
 
 OF_SCALARS = {
     "ceil", "cos", "inf", "isfinite", "isnan", "nan", "pi", "sign", "sin", "sqrt", "int32", "int64",
@@ -65,6 +68,24 @@ def test_uncounted_functions_take_scalars_from_numpy_and_from_what_they_call():
             called = function.__globals__.get(here.argval) if here.opname == "LOAD_GLOBAL" else None
             if hasattr(called, "py_func"):
                 assert gives_numbers(called.py_func), (function, called)
+
+
+@pytest.mark.parametrize(
+    ("result", "text", "counted"),
+    [
+        (None, "None", False), (int, "int", False), (tuple[int, float], "tuple[int, float]", False),
+        (Newmark, "Newmark", False), (Motion, "Motion", True), (FloatArray, "FloatArray", True),
+    ],
+)  # fmt: skip
+def test_results_written_as_types_count_as_those_written_as_text(result, text, counted):
+    def function():
+        raise AssertionError
+
+    for annotation in (result, text):
+        function.__annotations__["return"] = annotation
+        assert counts(function) is counted
+        if text in RESULTS and not PLAIN:
+            assert Apart(compiled(function)).result == text
 
 
 @compiled

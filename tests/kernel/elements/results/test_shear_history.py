@@ -1,10 +1,7 @@
 """Largest shear strain over a motion."""
 
 import numpy as np
-import pytest
 from script_runs import ran
-
-from ssilang.cli.run import run_text
 
 _BLOCK = (
     "OPTI DIME 3 ELEM CU20 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = TRAN 1 L (0. 2. 0.) ;"
@@ -57,12 +54,3 @@ def test_round_solids_count_the_hoop():
     )
     # strains (3, 0, 3): deviator (1, -2, 1)
     np.testing.assert_allclose(largest(script), 1e-3 * np.sqrt(2 * 6))
-
-
-@pytest.mark.parametrize("element", ["BARR", "POUT"])
-def test_bars_have_none(element):
-    script = (
-        "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 1 (0. 0.) (1. 0.) ;"
-        f"M = MODE L MECANIQUE ELASTIQUE {element} ; G = ZGAM M (SUIT (COOR 1 L)) ;"
-    )
-    assert "no shear strain" in run_text(script).message

@@ -57,6 +57,7 @@ def bar(long=24, wide=4, held=True):
     return K, Ordering(at[kept], np.zeros(0, np.int64), motions, nodes)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("columns", [(), (3,)])
 def test_a_slender_cantilever_bends_as_by_a_direct_solver(columns):
     K, order = bar()
@@ -67,6 +68,7 @@ def test_a_slender_cantilever_bends_as_by_a_direct_solver(columns):
     np.testing.assert_allclose(found.solve(b), x, atol=1e-8 * np.abs(x).max())
 
 
+@pytest.mark.long
 def test_rigid_motions_make_it_fast(monkeypatch):
     K, order = bar(long=40)
     monkeypatch.setattr("ssilang.kernel.solvers.multigrid.multigrid.MOST_TURNS", 40)

@@ -4,8 +4,6 @@ All loops on such coordinates take these verbs, on ranges of coordinates whose a
 nearest cache; they differ in what the interface or the relations make of the prediction.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -20,7 +20,6 @@ from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
 from ssilang.kernel.stepping.problem.equilibrium import keep_reactions, supports_are_still
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.modal.diagonal import sweep_of
 from ssilang.kernel.stepping.rests.modal.one_mode import Mode, Spring, carry, run_one_mode
 from ssilang.kernel.stepping.rests.modal.springs import OnSprings, run_springs, springs_of
@@ -129,7 +128,7 @@ class SmallLoop:
     def __init__(self, problem: Problem, motion: Motion, effective: Effective, modes: Modes):
         self.problem, self.motion, self.modes = problem, motion, modes
         self._newmark = newmark_of(problem.scheme, effective.dt)
-        self._joints = joints_of(problem)
+        self._joints = problem.joints
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
         plain = not len(modes.sense)

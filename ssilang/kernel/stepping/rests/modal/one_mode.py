@@ -17,8 +17,6 @@ so that the new u, v, a follow from the old ones by a few fused products side by
 finds the joint beyond its branch is made again by the law.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
@@ -220,7 +218,7 @@ def _load(forces: FloatArray, factors: FloatArray, step: int) -> float:
 def run_one_mode(
     mode: Mode, spring: Spring, forces: FloatArray, x: Motion, factors: FloatArray, to: Recorder
 ) -> tuple[int, int, float]:
-    """As `run_dense`, on jumps w and tractions t (1, 1), the opening xi as the state (1, 1).
+    """As `run_reduced`, on jumps w and tractions t (1, 1), the opening xi as the state (1, 1).
 
     `forces` (n_loads,) are the loads on the coordinate. Steps without room for their energies leave
     those of the end alone, and the balance.

@@ -6,8 +6,6 @@ would have without its springs, and the springs' compliance `S = J P J^T`, give 
 `contact.active_set` the springs that push: `Q = 1/k + c S` with c = 1 - alpha_f.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -11,8 +11,6 @@ they are eliminated from the interface's compliance once for a step length. Supp
 loads stand among the others, `lift` holds the jumps that they make.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
@@ -230,7 +228,10 @@ def run_reduced(
     model: Reduced, step: ReducedStep, joints: Joints, x: Motion, dashpots: Dashpots,
     room: Workspace, factors: FloatArray, to: Recorder,
 ) -> tuple[int, int, float]:  # fmt: skip
-    """As `run_dense`, `x` and the rows hold coordinates; work of loads as in `run_interleaved`."""
+    """Steps between the rows of `factors`; see `state.Outcome` for the results.
+
+    `x` and the rows hold coordinates; work of loads as in `run_interleaved`.
+    """
     q, steps, worst = len(x.delta), len(to.row), 0
     d, trial, end, condensed = len(model.sense), room.trial, step.newmark.end, step.condensed
     sweep, h = dashpots.sweep, dashpots.h

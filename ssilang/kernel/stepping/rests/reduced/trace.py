@@ -35,7 +35,6 @@ from ssilang.kernel.stepping.problem.initial import (
 )
 from ssilang.kernel.stepping.problem.moving_supports import Course, Start
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.reduced.basis import ReducedModel
 from ssilang.kernel.stepping.rests.reduced.loop import (
     Reduced,
@@ -205,7 +204,7 @@ class Trace:
         )  # fmt: skip
         self.energies = np.zeros((len(p.times), N_ENERGIES))
         self.energies[0] = energies
-        self._joints = joints_of(p)
+        self._joints = p.joints
         self._take(self.model)
 
     def _take(self, m: ReducedModel) -> None:

@@ -13,7 +13,6 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.stepping.keeping import leaves, memory, put_back, recall
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import DenseLoop
 from ssilang.kernel.stepping.rests.sparse.loop import SparseSteps, end_of_step
 from ssilang.kernel.stepping.state import (
     N_ENERGIES,
@@ -22,15 +21,12 @@ from ssilang.kernel.stepping.state import (
     Recorder,
     none_kept,
     recorder_of,
-    tap_of,
 )
 from ssilang.kernel.stepping.track import View, whole_view
 
 DEEPEST = 5
-BLOCK = 64  # steps that a compiled loop is let run at most before it is asked what closed in them
 
 Memory = list[dict[str, Any]]
-Part = DenseLoop | SparseSteps
 
 
 class AdaptiveLoop:
@@ -42,10 +38,10 @@ class AdaptiveLoop:
 
     def __init__(
         self, problem: Problem, motion: Motion, dt: float, closed: BoolArray,
-        part: Callable[[float], Part],
+        part: Callable[[float], SparseSteps],
     ) -> None:  # fmt: skip
         self.problem, self.motion, self.dt, self.closed = problem, motion, dt, closed
-        self._make, self._parts = part, dict[int, Part]()
+        self._make, self._parts = part, dict[int, SparseSteps]()
         self._part(0)
 
     def memory(self) -> Memory:
@@ -65,50 +61,24 @@ class AdaptiveLoop:
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps of dt, each in as many parts as it takes."""
-        worst, k, block, r = 0, 0, 1, recorder
-        while k < len(r.row):
-            part, n = self._part(0), 0
-            if isinstance(part, DenseLoop):
-                given = factors[k : k + block + 1]
-                n = self._quiet(part, given)
-                rows = slice(k, k + n)
-                kept = r._replace(
-                    row=r.row[rows], energies=r.energies[rows],
-                    tap=r.tap._replace(row=r.tap.row[rows]),
-                    peaks=r.peaks._replace(first=r.peaks.first + k),
-                )  # fmt: skip
-                worst = max(worst, part.run(given[: n + 1], kept)[1])
-                k, block = k + n, min(2 * block, BLOCK) if n == len(given) - 1 else max(n, 1)
-                if n == len(given) - 1:
-                    continue
+        worst, steps = 0, len(recorder.row)
+        for k in range(steps):
             turns, residual = self._step(0, factors[k], factors[k + 1])
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            end_of_step(self.motion, r, k)
-            k += 1
-        return len(r.row), worst, 0.0
+            end_of_step(self.motion, recorder, k)
+        return steps, worst, 0.0
 
     def view(self, unknowns: IntArray) -> View:
         """Unknowns as they are."""
         return whole_view(self.motion, unknowns)
 
-    def _part(self, level: int) -> Part:
+    def _part(self, level: int) -> SparseSteps:
         if level not in self._parts:
             self._parts[level] = self._make(self.dt / 2**level)
             self._parts[level].renew(self.problem)
         return self._parts[level]
-
-    def _quiet(self, part: Part, factors: FloatArray) -> int:
-        """Steps before the first in which a joint opens or closes; the state is left as it is."""
-        m, steps = self.motion, len(factors) - 1
-        before, closed = leaves(m), self._closed()
-        tap = tap_of(np.arange(steps), np.zeros(0, np.int64), {"t": m.t.shape})
-        energies = np.zeros((steps, N_ENERGIES))
-        done, _, _ = part.run(factors, recorder_of(m, none_kept(steps), energies, (), tap=tap))
-        put_back(m, before)
-        changed = ((tap.t[:done, :, -1] < 0.0) != closed).any(axis=1)
-        return int(np.argmax(changed)) if changed.any() else done
 
     def _step(self, level: int, start: FloatArray, end: FloatArray) -> tuple[int, float]:
         """One step between two rows of load factors, split if contact changes in it."""

@@ -21,7 +21,6 @@ from ssilang.kernel.stepping.problem.moving_supports import (
     Start,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.rests.dense.loop import joints_of
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     BOTH,
     DOWN,
@@ -48,6 +47,7 @@ from ssilang.kernel.stepping.track import View, whole_view
 KEPT = ("u", "v", "a", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
+MANY = 16_384  # unknowns of steps between them where unknowns are few: they cost calls alone
 SINGLE = 400  # jumps beyond which a response of double precision leaves the cache of a core
 
 
@@ -97,7 +97,7 @@ class InterleavedLoop:
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
-        self.joints, joints = joints_of(problem), problem.interface
+        self.joints, joints = problem.joints, problem.interface
         soft = q > SINGLE and joints is not None and joints.is_soft(effective.S)
         self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
         self.newton = workspace(motion.w.shape, q, single=soft and not effective.R.any())
@@ -119,8 +119,9 @@ class InterleavedLoop:
         worst, r, steps = 0, recorder, len(recorder.row)
         seen = self.seen(r.tap.at)
         peaks = peaks_of(self.T.shape[1] if len(r.peaks.u) else 0, r.peaks.joints.shape[1])
-        for first in range(0, steps, BLOCK):
-            part = slice(first, min(first + BLOCK, steps))
+        length = max(BLOCK, MANY // max(self.T.shape[1], 1))
+        for first in range(0, steps, length):
+            part = slice(first, min(first + length, steps))
             given = np.ascontiguousarray(factors[first : part.stop + 1])
             block = self.block(given)
             kept = self.room(block, r, part, seen)._replace(peaks=peaks)

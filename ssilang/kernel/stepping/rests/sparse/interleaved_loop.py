@@ -23,8 +23,6 @@ read: the factor comes from memory once a step, not twice. Above the branches th
 alike, so that a supernode goes forward as soon as all below it did.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

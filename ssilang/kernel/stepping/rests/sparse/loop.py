@@ -3,8 +3,6 @@
 Same steps as the compiled loops, which tests hold against this one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
@@ -152,7 +150,7 @@ class SparseLoop:
 
     def run(
         self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
-        impact: ImpactRule | None = None,
+        impact: "ImpactRule | None" = None,
     ) -> Outcome:  # fmt: skip
         """Steps of one dt; `impact` corrects velocities of unilateral relations."""
         p, worst, contact, r = self.problem, 0, self.problem.contact, recorder
@@ -311,7 +309,7 @@ class SparseSteps:
     loop: SparseLoop
     solver: StepSolver
     newmark: Newmark
-    impact: ImpactRule | None = None
+    impact: "ImpactRule | None" = None
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""

@@ -37,6 +37,7 @@ def assert_same(problem, tolerance=1e-9):
     return found[0].snapshots
 
 
+@pytest.mark.long
 def test_steps_begin_where_the_last_ones_lead(monkeypatch):
     """The same motion by fewer turns of the linear iterations, joints and supports moving."""
 
@@ -125,6 +126,7 @@ def test_an_iteration_that_ends_nowhere_says_its_residual(monkeypatch):
         monkeypatch.setattr("ssilang.kernel.solvers.multigrid.hierarchy.Hierarchy.cycle", same)
 
 
+@pytest.mark.long
 def test_a_model_that_nothing_holds_is_named():
     problem = soil_block(steps=3, size=(16, 8, 4))
     none = EliminatedConstraints(sparse.csr_array((0, problem.numbering.size)))

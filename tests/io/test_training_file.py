@@ -1,0 +1,88 @@
+"""Files of trained bases that a stranger made: no pickles, no more than they hold."""
+
+import io
+import os
+import pickle
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ssilang.io.errors import InputError
+from ssilang.io.training import TrainingFile
+from ssilang.kernel.stepping.rests.reduced.trained import Training
+
+SOUND = Training("a model", 5e-3, ("one", "two"), np.eye(6, 2), np.zeros((6, 0)))
+
+
+def npy(values: Any) -> bytes:
+    stream = io.BytesIO()
+    np.save(stream, values, allow_pickle=True)
+    return stream.getvalue()
+
+
+def declaring(shape: tuple[int, ...]) -> bytes:
+    """The head of an array, with nothing behind it."""
+    stream = io.BytesIO()
+    head = {"descr": "<f8", "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(stream, head)
+    return stream.getvalue()
+
+
+class Program:
+    """Makes a folder when it is unpickled."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = str(path)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return os.mkdir, (self.path,)
+
+
+def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> TrainingFile:
+    """A sound training with other arrays in place of its own."""
+    TrainingFile(path).write(SOUND)
+    with zipfile.ZipFile(path) as file:
+        whole = {n: file.read(n) for n in file.namelist()}
+    with zipfile.ZipFile(path, "w", packing) as file:
+        for name, raw in (whole | {f"{n}.npy": raw for n, raw in arrays.items()}).items():
+            file.writestr(name, raw)
+    return TrainingFile(path)
+
+
+@pytest.mark.parametrize(
+    ("arrays", "told"),
+    [
+        ({"vectors": npy(np.eye(6, 2) + 1j)}, "complex128"),
+        ({"vectors": npy(np.full((6, 2), "1"))}, "<U1"),
+        ({"answers": npy(np.zeros((6, 0), "M8[s]"))}, "datetime64"),
+        ({"vectors": declaring((10**11, 2))}, ""),
+        ({"vectors": declaring((10**7, 2))}, ""),
+        ({"model": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
+        ({"vectors": pickle.dumps(Program(Path("ran")))}, ""),
+    ],
+)
+def test_arrays_that_no_run_wrote_are_damage(
+    arrays: dict[str, bytes], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = made(tmp_path / "sound.npz").read()
+    assert found is not None
+    assert np.array_equal(found.vectors, SOUND.vectors)
+    with pytest.raises(InputError, match=f"other.npz is damaged.*{told}"):
+        made(tmp_path / "other.npz", **arrays).read()
+    assert not (tmp_path / "ran").exists()
+
+
+def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="is damaged: packed"):
+        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, vectors=npy(np.zeros((10**6, 2)))).read()
+    locked = made(tmp_path / "b.npz")
+    raw = bytearray(locked.path.read_bytes())
+    raw[raw.find(b"PK\x01\x02") + 8] |= 1  # the first array, by a password
+    raw[6] |= 1
+    locked.path.write_bytes(raw)
+    with pytest.raises(InputError, match=r"is damaged: .*encrypted"):
+        locked.read()
