@@ -90,7 +90,7 @@ def guarded_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
         return packed_scene(path, most_bytes)
     with suppress(ImportError):  # shared with the forks
         import pyvista  # noqa: F401
-    context = multiprocessing.get_context("fork")
+    context: Any = multiprocessing.get_context("fork")  # not there on all systems
     answers, answer = context.Pipe(duplex=False)
     worker = context.Process(target=_answer, args=(answer, path, most_bytes), daemon=True)
     with warnings.catch_warnings():  # threads: VTK starts none here, and the fork no other

@@ -22,7 +22,7 @@ COMMANDS = [
     ("run {} --set AG=3.", "AG = 1. ;\nAG = 2. ;", 0, [], ["deck.ssi:2:", "line 2 gives it"]),
     ("{}", "OPTI 'LANG' 'FRAN' ;\ny = 1 / 0 ;", 1, [], ["division par zéro"]),
     ("run {} --lang fr", "SI (EGA 'ABC' 1) ; FINSI ;", 0, [],
-     ["avertissement : le mot ABC est comparé à un nombre"]),
+     ["avertissement : le mot ABC est comparé à ce qui n'est pas un mot"]),
     ("run {} --max-statements 500", "REPE b ; x = &b ; FIN b ;", 1, [], ["500"]),
     (NO_FILE, "", 2, [], [NO_FILE]),
     (f"check {NO_FILE}", "", 2, [], [NO_FILE]),
