@@ -127,6 +127,41 @@ def test_signs_in_an_order_that_is_no_other_language_s_are_noted_once():
     assert "remarque : les opérations vont de gauche à droite : 1. + A" in render(note, "fr")
 
 
+STALE = "A = MATE M 'KN' 1. ; K = RIGI M A ; MESS K ; "
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        (STALE + "A = MATE M 'KN' 2. ; MESS K ;", "A"),
+        (
+            STALE + "T = TABL ; T . 'A' = A ; REPE B 3 ; A = MATE M 'KN' 2. ; DYNAMIC T ; FIN B ;",
+            "A",
+        ),
+        (STALE + "SI (EGA X 1) ; K = RIGI M A ; FINSI ;", "K"),
+    ],
+)
+def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
+    (found,) = [e for e in check_source(Source("test", text))[0] if e.code == "stale-name"]
+    assert found.span.text == name
+    assert text[: found.span.start].count(f"{name} = ") == 1
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        STALE + "A = MATE M 'KN' 2. ; K = RIGI M A ; MESS K ;",
+        STALE + "REPE B 3 ; K = RIGI M A ; A = MATE M 'KN' 2. ; MESS K ; FIN B ;",
+        STALE + "A = MATE M 'KN' 2. ; MESS 'the last of A' ;",
+        STALE + "A = MATE M 'KN' 2. ; LIST ;",
+        STALE + "DEBP USES X*MAILLAGE ; A = MATE X 'KN' 2. ; B = RIGI X A ; FINP B ; MESS A ;",
+        STALE + "I = 1 ; MESS I ; I = 2 ;",
+    ],
+)
+def test_what_is_given_anew_and_used_is_not_told(text):
+    assert "stale-name" not in codes(text)
+
+
 @pytest.mark.parametrize(
     "text", ["X = RELA 1. 'UX' P - 2. 'UX' Q * 3. ;", "X = 2. * 3. + 4. ;", "X = 1. - 2. + 3. ;"]
 )

@@ -11,6 +11,7 @@ _NAME = re.compile(r"[@&!]?[^\W\d]\w*")
 _RANK = {"+": 0, "-": 0, "*": 1, "/": 1, "**": 2}  # of signs, in other languages
 _NAMED = 5  # places that a note names
 _SHORTEST = 4  # letters of a word that may be a misspelt name
+_PROPERTIES = frozenset({"MATE", "MODE", "RIGI", "MASS", "AMOR", "CHAR"})
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
 
@@ -24,7 +25,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
     first: dict[str, tree.Name] = {}
     for statement in statements_of(script.body):
         words = _words(statement.items)
-        if statement.first_word[:4] in _WHOLE_SESSION and len(statement.items) == 1:
+        if _reads_all(statement):
             return []
         read |= words
         for target in statement.targets:
@@ -42,6 +43,38 @@ def unused_names(script: tree.Script) -> list[SsiError]:
         for name, target in first.items()
         if name not in read
     ]
+
+
+def _reads_all(statement: tree.Statement) -> bool:
+    return statement.first_word[:4] in _WHOLE_SESSION and len(statement.items) == 1
+
+
+def stale_names(script: tree.Script) -> Iterator[SsiError]:
+    """A warning for each property of the model that is given anew, and not read behind that.
+
+    What was made of the one before keeps it. A turn of a loop comes before those behind it.
+    """
+    reads: dict[str, list[int]] = {}
+    given: list[tuple[int, range, tree.Name]] = []
+    start = 0
+    for node in script.body:
+        found = [*statements_of([node])]
+        turns = range(start, start + len(found) * isinstance(node, tree.Loop))
+        for at, each in enumerate(found, start):
+            if _reads_all(each):
+                given = []
+            target, first = (*each.targets, None)[0], (*each.items, None)[0]
+            paths = [t for t in each.targets if not isinstance(t, tree.Name)]
+            for name in _words((*each.items, *paths)):
+                reads.setdefault(name, []).append(at)
+            made = first.text[:4] if isinstance(first, tree.Name) else ""
+            if isinstance(target, tree.Name) and made in _PROPERTIES:
+                given.append((at, turns, target))
+        start += len(found)
+    for at, turns, target in given:
+        elsewhere = [i for i in reads.get(target.text, ()) if i != at]
+        if elsewhere and not any(i > at or i in turns for i in elsewhere):
+            yield SsiError("stale-name", target.span, name=target.text)
 
 
 def misspelt_names(

@@ -9,7 +9,13 @@ from ssilang.cli.checking.phrases import PhraseReader
 from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import doubtful_entries
-from ssilang.cli.checking.usage import bare_names, left_to_right, misspelt_names, unused_names
+from ssilang.cli.checking.usage import (
+    bare_names,
+    left_to_right,
+    misspelt_names,
+    stale_names,
+    unused_names,
+)
 from ssilang.cli.checking.words import misspelt_words
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language import vocabulary
@@ -67,7 +73,12 @@ class Checker:
         for definition in self._procedures:
             self._body(definition, scope, library)
         entries = doubtful_entries(script, self.session, self.entries)
-        for problem in (*unused_names(script), *entries, *left_to_right(script)):
+        for problem in (
+            *unused_names(script),
+            *stale_names(script),
+            *entries,
+            *left_to_right(script),
+        ):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
         for problem in misspelt_names(script, names, _known_words()):
