@@ -33,6 +33,7 @@ from ssilang.kernel.waves.shaken import (
     changing,
     longest_cell,
     shares,
+    steady,
     strong_frequency,
     translations,
     unlike_sides,
@@ -286,8 +287,7 @@ def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str
 
 def _sheared(problem: Problem, joints: Interface) -> Told:
     """Weights that joints carry by their shear alone: none of them is pressed."""
-    bodies, loading = Bodies(problem), problem.loading
-    force = loading.forces @ (loading.at(problem.times[:1])[0] * ~changing(problem))
+    bodies, force = Bodies(problem), problem.loading.forces @ steady(problem)
     for body in bodies.moving:
         ways = {a: bodies.along(body, a) for a in axes_of(problem)}
         axis = max(ways, key=lambda a: abs(float(ways[a] @ force)))

@@ -33,6 +33,7 @@ from ssilang.kernel.waves.shaken import (
     changing,
     matter,
     shares,
+    steady,
 )
 from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
 from ssilang.operators.matrices.connections import rotary_without_mass
@@ -141,7 +142,7 @@ def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
 def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
     """Bodies that joints or stops alone bear: from which side, where; with what weight, all."""
     bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
-    factors = loading.at(problem.times[:1])[0] * ~changing(problem)
+    factors = steady(problem)
     force = loading.forces @ factors
     drops = bool(loading.forces[:, changing(problem)].any())
     drops = drops and not (problem.contact or problem.u.any() or problem.v.any())
@@ -184,7 +185,7 @@ def braked(problem: Problem, _: Inputs) -> Told:
     What is proportional to a stiffness does not act on a body that moves as a whole.
     """
     bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
-    force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    force = problem.loading.forces @ steady(problem)
     steps, times = bodies.factors[:, changing(problem)], problem.times
     most = np.abs(steps).max(axis=0, initial=0.0)
     rate = np.abs(np.diff(steps, axis=0) / np.diff(times)[:, None]).max(axis=0, initial=0.0)
@@ -221,7 +222,7 @@ def weak_cores(problem: Problem, _: Inputs) -> Told:
     """Lead cores that yield under next to nothing of the weight above."""
     bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
     lead = [] if joints is None else joints.codes == LawCode.LEAD
-    force = problem.loading.forces @ (problem.loading.at(problem.times[:1])[0] * ~changing(problem))
+    force = problem.loading.forces @ steady(problem)
     for body in bodies.moving if np.any(lead) and axes else ():
         assert joints is not None
         up, w = bodies.along(body, axes[-1]), np.zeros((joints.n_points, joints.dimension))
