@@ -384,18 +384,18 @@ def _inputs(
     bodies = [z for z in model.zones if z.formulation == "MECANIQUE"] if model is not None else []
     check_strains(forces, tuple(bodies), bool(finite_zones(entries)))
     load, thermal = split_strains(forces, linear)
-    if material is not None and forces and any(p.name.strip() == "T" for p in forces.parts):
+    if forces and any(p.name.strip() == "T" for p in forces.parts):
         refuse_expanding([z for z in bodies if is_joint(z)], material)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")
-    if isinstance(given, CellField) and solids:
+    if isinstance(given, CellField):
         old = entries if start.before is None else start.before
-        before = [(z, old.get("CARACTERISTIQUES")) for z, _ in solids]
+        before = [(z, old.get("CARACTERISTIQUES")) for z, _ in linear]
         loads = (forces, old.get("CHARGEMENT"))
         now = float(times[0])
-        stresses.offsets = offsets_of(solids, before, loads, given, displacement, now)
-        parts = offset_load(stresses.offsets, solids)
+        stresses.offsets = offsets_of(linear, before, loads, given, displacement, now)
+        parts = offset_load(stresses.offsets, linear)
         load = Load((*(load.parts if load else ()), *(LoadPart("MECA", f) for f in parts)))
     blocks = linear_blocks(solids, "RIGIDITE", stiffness)
     finite = finite_zones(entries)

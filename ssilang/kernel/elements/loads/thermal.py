@@ -44,7 +44,7 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
     return values @ shape_functions(kind.reference or kind.cell_type, rule.points).T
 
 
-def refuse_expanding(joints: list[Zone], material: CellField) -> None:
+def refuse_expanding(joints: list[Zone], material: CellField | None) -> None:
     """Refuse joints that expand where temperatures load a model in time.
 
     Raises

@@ -219,12 +219,7 @@ def _start(made: YieldingSolid, u: FloatArray, given: Fields, time: float) -> Po
     zero = np.zeros((points.count, 6))
     blank = PointState(zero, zero, zero, np.zeros((points.count, len(points.law.variables))), time)
     state, _ = points.restored(blank, None, given[1], given[2])
-    if given[0] is None:
-        return state
     names = family_of(points.zone).stress_names(points.zone)
-    seen = zone_field(points.zone, given[0])
-    if not any(n in seen for n in names):
-        return state
-    values = seen.matrix(names, "STRESSES")
+    values = zone_field(points.zone, given[0]).matrix(names, "STRESSES")
     values = np.broadcast_to(values, (*values.shape[:2], points.weights.shape[1]))
     return replace(state, stress=made.taken(values, u, state))
