@@ -235,3 +235,26 @@ def test_a_spring_put_beside_a_loaded_one_takes_its_share_of_what_comes_after(tm
     assert find("U").values == pytest.approx([-0.1, -0.1, -0.125])
     found = [b.components["EFFX"].mean() for b in find("T").get("CONTRAINTES").get(3).blocks]
     assert found == pytest.approx([-1250.0, -750.0])
+
+
+@pytest.mark.parametrize(
+    ("element", "given", "stiffness", "held"),
+    [("JOI1", "'KS' 1.E4", "'KN'", "(BLOQ 'DEPL' 'ROTA' P) ET (BLOQ 'UX' 'RZ' Q)"),
+     ("BARR", "'NU' 0. 'SECT' 1.", "'YOUN'", "(BLOQ 'DEPL' P) ET (BLOQ 'UX' Q)")],
+)  # fmt: skip
+def test_what_is_stiffer_from_now_on_keeps_what_it_carries(element, given, stiffness, held):
+    """1.E3 N on 1.E4 N/m, then 1.E3 N more on 3.E4 N/m: of both only the second is by the new."""
+    find = ran(f"""
+    OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P = 0. 0. ; Q = 0. 1. ; L = MANU 'SEG2' P Q ;
+    ML = MODE L 'MECANIQUE' 'ELASTIQUE' '{element}' ; T = TABL ; T . 'MODELE' = ML ;
+    T . 'CARACTERISTIQUES' = MATE ML {given} {stiffness} 1.E4 ;
+    T . 'BLOCAGES_MECANIQUES' = {held} ; T . 'CHARGEMENT' =
+      CHAR 'MECA' (FORC (0. -1.E3) Q) (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
+    T . 'TEMPS_CALCULES' = PROG 1. ; PASAPAS T ;
+    T . 'CARACTERISTIQUES' = MATE ML {given} {stiffness} 3.E4 ;
+    T . 'TEMPS_CALCULES' = PROG 2. ; PASAPAS T ; U = PROG ;
+    REPE B 2 ; U = U ET (EXTR (T . 'DEPLACEMENTS' . &B) 'UY' Q) ; FIN B ;
+    """).session.root.find
+    assert find("U").values == pytest.approx([-0.1, -0.1 - 1.0 / 30.0])
+    (block,) = find("T").get("CONTRAINTES").get(2).blocks
+    assert block.components["EFFX"].mean() == pytest.approx(-2000.0)

@@ -221,5 +221,4 @@ def _start(made: YieldingSolid, u: FloatArray, given: Fields, time: float) -> Po
     state, _ = points.restored(blank, None, given[1], given[2])
     names = family_of(points.zone).stress_names(points.zone)
     values = zone_field(points.zone, given[0]).matrix(names, "STRESSES")
-    values = np.broadcast_to(values, (*values.shape[:2], points.weights.shape[1]))
     return replace(state, stress=made.taken(values, u, state))
