@@ -17,7 +17,7 @@ def _impe(
         ("MASSE", "RAIDEUR", "AMORTISSEMENT"), en="what the matrix is, by its type without it"
     ),
     chosen: ListReel | None = Key(
-        "QUELCONQUE", arg("factors", "LISTREEL", range=ANY_NUMBER), en="factors of the four blocks"
+        "QUELCONQUE", "LISTREEL", range=ANY_NUMBER, en="factors of the four blocks"
     ),
     matrix: Matrix = Arg("RIGIDITE", en="matrix"),
     other: Matrix | None = Opt("RIGIDITE", en="of the imaginary rows"),

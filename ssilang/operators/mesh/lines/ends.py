@@ -25,7 +25,9 @@ ANGLE = opt("angle", "FLOTTANT", en="angle", unit="deg", usual=between(-360.0, 3
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
-    arg("size", "FLOTTANT", unit="m", range=POSITIVE),
+    "FLOTTANT",
+    unit="m",
+    range=POSITIVE,
     repeated=True,
     en="mesh size at the start, at the end, in place of the one there",
 )
