@@ -50,8 +50,6 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
     arg("signal", "EVOLUTIO", en="signal at constant step", over="s"),
     _FORM,
     *LIMITS,
-    COLOUR,
-    choice("second_colour", NAMES, en="colour of the second curve"),
     family="signals",
 )
 def tfr(
@@ -61,8 +59,8 @@ def tfr(
     form: str,
     lowest: float,
     highest: float,
-    colour: str | None,
-    second_colour: str | None,
+    colour: str | None = COLOUR,
+    second_colour: str | None = Choice(NAMES, en="colour of the second curve"),
 ) -> Curve:
     """Transform signals."""
     _check_power(call, power)
@@ -152,22 +150,19 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
         },
         en="high-pass, low-pass, or power of the circular frequency",
     ),
-    flag("shown", "SORT", en="the parts wanted follow"),
-    choice("form", ("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
-    key(
-        "spacing",
-        "DFRQ",
-        "FLOTTANT",
-        range=POSITIVE,
-        unit="Hz",
-        default=0.0,
-        en="step of frequency",
-    ),
     family="signals",
     full_name="FILTRE",
 )
 def filt(
-    call: Call, power: int, type: bool, kind: Chosen | None, shown: bool, form: str, spacing: float
+    call: Call,
+    power: int,
+    type: bool,
+    kind: Chosen | None,
+    shown: bool = Flag("SORT", en="the parts wanted follow"),
+    form: str = Choice(("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
+    spacing: float = Key(
+        "DFRQ", "FLOTTANT", range=POSITIVE, unit="Hz", default=0.0, en="step of frequency"
+    ),
 ) -> Curve:
     """Make a filter."""
     if kind is None or spacing <= 0 or not 1 <= power <= 26:

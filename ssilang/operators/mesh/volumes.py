@@ -64,23 +64,7 @@ _CUTS = (
 )
 
 
-@operator(
-    "VOLU",
-    _BASE,
-    *_CUTS,
-    opt("goal", "MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
-    opt(
-        "thickness",
-        "FLOTTANT",
-        "CHPOINT",
-        range=POSITIVE,
-        en="thickness to give to a shell",
-        unit="m",
-    ),
-    opt("outwards", "POINT", en="vector from the inner to the outer skin of the shell"),
-    family="mesh",
-    full_name="VOLUME",
-)
+@operator("VOLU", _BASE, *_CUTS, family="mesh", full_name="VOLUME")
 def volu(
     call: Call,
     base: Mesh,
@@ -88,9 +72,13 @@ def volu(
     sizes: Sizes,
     places: ListReel | None,
     wordy: bool,
-    goal: Mesh | None,
-    thickness: float | NodeField | None,
-    outwards: Point | None,
+    goal: Mesh | None = Opt("MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
+    thickness: float | NodeField | None = Opt(
+        "FLOTTANT", "CHPOINT", range=POSITIVE, en="thickness to give to a shell", unit="m"
+    ),
+    outwards: Point | None = Opt(
+        "POINT", en="vector from the inner to the outer skin of the shell"
+    ),
 ) -> Mesh:
     """Fill a volume, span one between two surfaces, or thicken a shell."""
     if goal is not None:
@@ -107,12 +95,7 @@ def volu(
     return thickened(base, thickness, outwards.coordinates.copy())
 
 
-@volu.form(
-    said("TRANSLATION"),
-    _BASE,
-    *_CUTS,
-    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
-)
+@volu.form(said("TRANSLATION"), _BASE, *_CUTS)
 def translated(
     call: Call,
     base: Mesh,
@@ -120,7 +103,7 @@ def translated(
     sizes: Sizes,
     places: ListReel | None,
     wordy: bool,
-    vector: Point,
+    vector: Point = Arg("POINT", en="vector", unit="m", usual=NOT_ZERO),
 ) -> Mesh:
     """Sweep a volume along a vector."""
     path = translation(vector.coordinates.copy())

@@ -35,8 +35,6 @@ def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
         },
         en="sides where normals or tangents turn separate",
     ),
-    flag("folded", "TELQ", en="cells of opposite senses are taken as folded"),
-    _FREE,
 )
 def separated_parts(
     call: Call,
@@ -44,8 +42,8 @@ def separated_parts(
     branching: list[str],
     separator: Mesh | None,
     turn: Chosen | None,
-    folded: bool,
-    free: bool,
+    folded: bool = Flag("TELQ", en="cells of opposite senses are taken as folded"),
+    free: bool = _FREE,
 ) -> Table:
     """Parts joined by common sides, but those that separate."""
     said: dict[str, Any] = {"by_branching": True} if branching else {}
