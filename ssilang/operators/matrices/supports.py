@@ -294,10 +294,16 @@ _SPRINGS = Range(-1e20, 1e20)  # below zero: the moment of a weight
 _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER, usual=_SPRINGS)
 
 
-@operator("APPU", *_held(_CENTRE), when=IN_PLANE, family="relations", full_name="APPUI")
-def appu(
-    call: Call, stiffness: float = _STIFFNESS, support: Mesh | Point = _SUPPORT, **said: Any
-) -> Matrix:
+@operator(
+    "APPU",
+    *_held(_CENTRE),
+    _STIFFNESS,
+    _SUPPORT,
+    when=IN_PLANE,
+    family="relations",
+    full_name="APPUI",
+)
+def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:
     """Springs to the ground."""
     held, nodes = _Held(call, **said), nodes_of(support)
     if held.sense:
