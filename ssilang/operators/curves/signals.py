@@ -50,6 +50,8 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
     arg("signal", "EVOLUTIO", en="signal at constant step", over="s"),
     _FORM,
     *LIMITS,
+    COLOUR,
+    choice("second_colour", NAMES, en="colour of the second curve"),
     family="signals",
 )
 def tfr(
@@ -59,8 +61,8 @@ def tfr(
     form: str,
     lowest: float,
     highest: float,
-    colour: str | None = COLOUR,
-    second_colour: str | None = Choice(NAMES, en="colour of the second curve"),
+    colour: str | None,
+    second_colour: str | None,
 ) -> Curve:
     """Transform signals."""
     _check_power(call, power)
@@ -150,19 +152,22 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
         },
         en="high-pass, low-pass, or power of the circular frequency",
     ),
+    flag("shown", "SORT", en="the parts wanted follow"),
+    choice("form", ("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
+    key(
+        "spacing",
+        "DFRQ",
+        "FLOTTANT",
+        range=POSITIVE,
+        unit="Hz",
+        default=0.0,
+        en="step of frequency",
+    ),
     family="signals",
     full_name="FILTRE",
 )
 def filt(
-    call: Call,
-    power: int,
-    type: bool,
-    kind: Chosen | None,
-    shown: bool = Flag("SORT", en="the parts wanted follow"),
-    form: str = Choice(("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
-    spacing: float = Key(
-        "DFRQ", "FLOTTANT", range=POSITIVE, unit="Hz", default=0.0, en="step of frequency"
-    ),
+    call: Call, power: int, type: bool, kind: Chosen | None, shown: bool, form: str, spacing: float
 ) -> Curve:
     """Make a filter."""
     if kind is None or spacing <= 0 or not 1 <= power <= 26:

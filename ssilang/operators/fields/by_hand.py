@@ -157,6 +157,13 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
         arg("value", en="its value or object"),
         at_least=1,
     ),
+    many(
+        "place",
+        "FLOTTANT",
+        en="of a field that is zero but at one point, whose cell was the value: number of the "
+        "point, of the zone if not 1, then the value",
+        range=ANY_NUMBER,
+    ),
 )
 def cell_field(
     call: Call,
@@ -168,12 +175,7 @@ def cell_field(
     points: str | None,
     integration: str | None,
     pairs: list[tuple[str, Any]],
-    place: tuple[float, ...] = Many(
-        "FLOTTANT",
-        en="of a field that is zero but at one point, whose cell was the value: number of the "
-        "point, of the zone if not 1, then the value",
-        range=ANY_NUMBER,
-    ),
+    place: tuple[float, ...],
 ) -> CellField:
     """Field in cells from pairs of a component and its value, or zero but at one point."""
     at = points or integration or (position or "NOEUD").rstrip()

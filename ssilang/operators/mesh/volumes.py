@@ -64,7 +64,23 @@ _CUTS = (
 )
 
 
-@operator("VOLU", _BASE, *_CUTS, family="mesh", full_name="VOLUME")
+@operator(
+    "VOLU",
+    _BASE,
+    *_CUTS,
+    opt("goal", "MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
+    opt(
+        "thickness",
+        "FLOTTANT",
+        "CHPOINT",
+        range=POSITIVE,
+        en="thickness to give to a shell",
+        unit="m",
+    ),
+    opt("outwards", "POINT", en="vector from the inner to the outer skin of the shell"),
+    family="mesh",
+    full_name="VOLUME",
+)
 def volu(
     call: Call,
     base: Mesh,
@@ -72,13 +88,9 @@ def volu(
     sizes: Sizes,
     places: ListReel | None,
     wordy: bool,
-    goal: Mesh | None = Opt("MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
-    thickness: float | NodeField | None = Opt(
-        "FLOTTANT", "CHPOINT", range=POSITIVE, en="thickness to give to a shell", unit="m"
-    ),
-    outwards: Point | None = Opt(
-        "POINT", en="vector from the inner to the outer skin of the shell"
-    ),
+    goal: Mesh | None,
+    thickness: float | NodeField | None,
+    outwards: Point | None,
 ) -> Mesh:
     """Fill a volume, span one between two surfaces, or thicken a shell."""
     if goal is not None:
@@ -95,7 +107,12 @@ def volu(
     return thickened(base, thickness, outwards.coordinates.copy())
 
 
-@volu.form(said("TRANSLATION"), _BASE, *_CUTS)
+@volu.form(
+    said("TRANSLATION"),
+    _BASE,
+    *_CUTS,
+    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
+)
 def translated(
     call: Call,
     base: Mesh,
@@ -103,7 +120,7 @@ def translated(
     sizes: Sizes,
     places: ListReel | None,
     wordy: bool,
-    vector: Point = Arg("POINT", en="vector", unit="m", usual=NOT_ZERO),
+    vector: Point,
 ) -> Mesh:
     """Sweep a volume along a vector."""
     path = translation(vector.coordinates.copy())

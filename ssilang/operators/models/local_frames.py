@@ -64,6 +64,14 @@ _SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, 
         },
         en="polar, cylindrical or spherical coordinates, or those of a torus",
     ),
+    choice(
+        "product",
+        ("RTAR", "RART"),
+        default="RTAR",
+        en="of matrices of rotation R: Rt A R (default) or R A Rt",
+    ),
+    opt("first", "POINT", en="first axis"),
+    _SECOND,
     family="stress",
     full_name="RTENS",
 )
@@ -73,11 +81,9 @@ def rten(
     field: CellField,
     material: CellField | None,
     frame: Chosen | None,
-    product: str = Choice(
-        ("RTAR", "RART"), default="RTAR", en="of matrices of rotation R: Rt A R (default) or R A Rt"
-    ),
-    first: Point | None = Opt("POINT", en="first axis"),
-    second: Point | None = _SECOND,
+    product: str,
+    first: Point | None,
+    second: Point | None,
 ) -> CellField:
     """Stresses or strains in another frame."""
     turning = material is not None and any("UX,X" in b.components for b in material.blocks)

@@ -94,6 +94,10 @@ MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
         en="nodes of the second side (default), of both, or means over its cells or nodes",
     ),
     *_SETTINGS,
+    _WORDS,
+    arg("master", "MAILLAGE", "POINT", en="first side, or the cable"),
+    opt("cables", "MMODEL", en="model of the cable"),
+    arg("slave", "MAILLAGE", en="second side, or the body"),
 )
 def contact(
     call: Call,
@@ -101,10 +105,10 @@ def contact(
     friction: Chosen | None,
     smooth: bool,
     method: str,
-    said: tuple[str, ...] = _WORDS,
-    master: Mesh | Point = Arg("MAILLAGE", "POINT", en="first side, or the cable"),
-    cables: Model | None = Opt("MMODEL", en="model of the cable"),
-    slave: Mesh = Arg("MAILLAGE", en="second side, or the body"),
+    said: tuple[str, ...],
+    master: Mesh | Point,
+    cables: Model | None,
+    slave: Mesh,
     **settings: Any,
 ) -> Model:
     """A model of two sides, or of a cable in a body."""
@@ -144,14 +148,22 @@ def link(
     return Model(tuple(Zone(b, "LIAISON", words, shape_models.LINK, mode) for b in mesh.blocks))
 
 
-@MODE.form(*_SETTINGS, _WORDS)
+@MODE.form(
+    *_SETTINGS,
+    _WORDS,
+    arg("mesh", "MAILLAGE", "POINT", en="mesh"),
+    many(
+        "unknowns",
+        "LISTMOTS",
+        kind="component",
+        en="unknowns of IMPEDANCE: one list, or one for each end",
+    ),
+)
 def mode(
     call: Call,
     said: tuple[str, ...],
-    mesh: Mesh | Point = Arg("MAILLAGE", "POINT", en="mesh"),
-    unknowns: tuple[ListMots, ...] = Many(
-        "LISTMOTS", kind="component", en="unknowns of IMPEDANCE: one list, or one for each end"
-    ),
+    mesh: Mesh | Point,
+    unknowns: tuple[ListMots, ...],
     **settings: Any,
 ) -> Model:
     """A model: a zone for each block of the mesh."""

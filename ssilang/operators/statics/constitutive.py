@@ -229,23 +229,28 @@ def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     return _tangent_matrix(read.model, tangents, read.material, symmetric)
 
 
-@ktan.form(said("PERT"), *_TWO_STATES)
-def perturbed(
-    call: Call,
-    model: Model,
-    start: CellField,
-    end: CellField,
-    share: float = Key(
+@ktan.form(
+    said("PERT"),
+    *_TWO_STATES,
+    key(
+        "share",
         "C1",
         "FLOTTANT",
         range=POSITIVE,
         default=1e-3,
         en="share of the step by which its strain is perturbed, 1.E-3 without it",
     ),
-    least: float | None = Key(
-        "C2", "FLOTTANT", range=POSITIVE, en="least perturbation, C1 / 100 without it"
-    ),
-    symmetric: bool = _SYMMETRIC,
+    key("least", "C2", "FLOTTANT", range=POSITIVE, en="least perturbation, C1 / 100 without it"),
+    _SYMMETRIC,
+)
+def perturbed(
+    call: Call,
+    model: Model,
+    start: CellField,
+    end: CellField,
+    share: float,
+    least: float | None,
+    symmetric: bool,
 ) -> Matrix:
     """Stiffness of a step, by perturbing its strain."""
     model, step = present(call, model), _Step(start, end)

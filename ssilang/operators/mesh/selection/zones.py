@@ -35,6 +35,8 @@ def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
         },
         en="sides where normals or tangents turn separate",
     ),
+    flag("folded", "TELQ", en="cells of opposite senses are taken as folded"),
+    _FREE,
 )
 def separated_parts(
     call: Call,
@@ -42,8 +44,8 @@ def separated_parts(
     branching: list[str],
     separator: Mesh | None,
     turn: Chosen | None,
-    folded: bool = Flag("TELQ", en="cells of opposite senses are taken as folded"),
-    free: bool = _FREE,
+    folded: bool,
+    free: bool,
 ) -> Table:
     """Parts joined by common sides, but those that separate."""
     said: dict[str, Any] = {"by_branching": True} if branching else {}

@@ -59,6 +59,12 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
     ),
     arg("contour", "MAILLAGE", en="closed lines"),
     select("shape", _SHAPES, en=_SHAPE_EN),
+    opt(
+        "criterion",
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
+    ),
     family="mesh",
     full_name="SURFACE",
 )
@@ -67,11 +73,7 @@ def surf(
     sizes: NodeField | None,
     contour: Mesh,
     shape: Chosen | None,
-    criterion: float | None = Opt(
-        "FLOTTANT",
-        range=NOT_NEGATIVE,
-        en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
-    ),
+    criterion: float | None,
 ) -> Mesh:
     """Mesh the inside of a contour."""
     boundary, segments = contour_chart_data(contour)
