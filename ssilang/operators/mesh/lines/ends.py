@@ -25,9 +25,7 @@ ANGLE = opt("angle", "FLOTTANT", en="angle", unit="deg", usual=between(-360.0, 3
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
-    "FLOTTANT",
-    unit="m",
-    range=POSITIVE,
+    arg("size", "FLOTTANT", unit="m", range=POSITIVE),
     repeated=True,
     en="mesh size at the start, at the end, in place of the one there",
 )
