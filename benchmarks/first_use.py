@@ -9,8 +9,6 @@ in seconds of a clock and of a processor: on a busy machine the first says littl
 PASAPAS or DYNAMIC it is also printed when the first step of each in the first run was done.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import subprocess

@@ -9,8 +9,6 @@ clock and by the processors' time, which other work on the machine changes less.
 displacements of all motions that both ran must agree within 1e-6 before a ratio is printed.
 """
 
-from __future__ import annotations
-
 import io
 import os
 import resource
@@ -55,12 +53,12 @@ class Spent:
     processors: float
 
     @classmethod
-    def now(cls) -> Spent:
+    def now(cls) -> "Spent":
         """Seconds until now."""
         used = [resource.getrusage(w) for w in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
         return cls(time.perf_counter(), sum(u.ru_utime + u.ru_stime for u in used))
 
-    def since(self, before: Spent) -> Spent:
+    def since(self, before: "Spent") -> "Spent":
         """Seconds between two moments."""
         return Spent(self.clock - before.clock, self.processors - before.processors)
 

@@ -7,8 +7,6 @@ included), one solve and the memory that it holds, and how far their answers are
 Seconds are those of the processor, all threads together.
 """
 
-from __future__ import annotations
-
 import resource
 import sys
 import time

@@ -12,8 +12,6 @@ what the own factor adds to this process, what all processes of PETSc hold at mo
 says of itself.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import time

@@ -14,8 +14,6 @@ apart to rounding, and the dispersion of the mesh is no error. Beside it, damper
 its sides tied to each other. Then what both cost, and leave, below a footing that is shaken.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from dataclasses import dataclass
@@ -69,7 +67,7 @@ class Column:
     vertical: int
 
     @classmethod
-    def of(cls, script: str, vertical: int = 1) -> Column:
+    def of(cls, script: str, vertical: int = 1) -> "Column":
         """The column of a script that names K, MM and C; `vertical` is its axis."""
         result = run_text(script)
         if result.exit_code:

@@ -5,8 +5,6 @@
 Each picture is the deck's own (DESS or TRAC), scaled to 640 pixels and 128 colours.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

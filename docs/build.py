@@ -9,8 +9,6 @@ every word of Cast3M whether it is built, `ranges.md` which numbers entries and 
 `published.md` what the decks of `cases/published` obtain.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import shutil

@@ -6,8 +6,6 @@ Over h/(Vs T) at three slendernesses and three mass ratios, tied and with uplift
 docs/pictures, the table is printed.
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -9,8 +9,6 @@ and laid out by nbconvert as JupyterLab does; SITE is what `docs/web_pages.py` h
 Debian's chromium draws all of them, without a network.
 """
 
-from __future__ import annotations
-
 import asyncio
 import io
 import json

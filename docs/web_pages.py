@@ -7,8 +7,6 @@ that opens from the disk, too. What the repository does not keep is made: a page
 the operators and procedures (`build.py`). MkDocs refuses a link or an anchor that leads nowhere.
 """
 
-from __future__ import annotations
-
 import importlib.util
 import os
 import re

@@ -4,8 +4,6 @@ Comments and layout are not kept. Names are printed in capitals, one statement a
 indented by two blanks.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import fields
 from functools import cache

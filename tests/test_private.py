@@ -1,7 +1,5 @@
 """Kept code that another could have written is never read."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """A release: what is packed, and what is installed of it where nothing else is."""
 
-from __future__ import annotations
-
 import importlib.metadata as metadata
 import json
 import os

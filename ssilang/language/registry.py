@@ -153,7 +153,6 @@ Entry = Argument | Keyword | Select | Group | Either
 class Meant(TypedDict, total=False):
     """What an entry says of its operands beside their types, as `Argument` has it."""
 
-    en: str
     unit: str
     kind: str
     leaving: int
@@ -167,7 +166,13 @@ class Meant(TypedDict, total=False):
     over: str
 
 
-def arg(name: str, *types: str, **said: Unpack[Meant]) -> Any:
+class Told(Meant, total=False):
+    """The same, and its meaning."""
+
+    en: str
+
+
+def arg(name: str, *types: str, **said: Unpack[Told]) -> Any:
     """A mandatory operand of one of the types (none: any type)."""
     return Argument(name, types or (ANY,), **said)
 
@@ -190,12 +195,12 @@ def main(name: str, *types: str, en: str = "") -> Any:
     return Argument(name, types, en=en, main=True, range=CARRIED)
 
 
-def opt(name: str, *types: str, default: Any = None, **said: Unpack[Meant]) -> Any:
+def opt(name: str, *types: str, default: Any = None, **said: Unpack[Told]) -> Any:
     """An optional operand."""
     return Argument(name, types or (ANY,), optional=True, default=default, **said)
 
 
-def many(name: str, *types: str, at_least: Literal[0, 1] = 0, **said: Unpack[Meant]) -> Any:
+def many(name: str, *types: str, at_least: Literal[0, 1] = 0, **said: Unpack[Told]) -> Any:
     """All operands of one of the types that can be read, as a tuple.
 
     With `leaving`, the last ones (of the types `left`, or of any that is read) stay for what
@@ -210,16 +215,20 @@ def many(name: str, *types: str, at_least: Literal[0, 1] = 0, **said: Unpack[Mea
 def key(
     name: str,
     word: str | Sequence[str],
-    *arguments: Argument,
+    *read: str | Argument,
     optional: bool = True,
     repeated: bool = False,
     default: Any = None,
     length: int = 4,
     en: str = "",
+    **said: Unpack[Meant],
 ) -> Any:
-    """A keyword with what follows it; `repeated` collects a list."""
+    """A keyword with the operands behind it, or one of the types; `repeated` collects a list."""
     words = (word,) if isinstance(word, str) else tuple(word)
-    return Keyword(name, words, arguments, optional, repeated, default, length, en)
+    behind = tuple(a for a in read if isinstance(a, Argument))
+    if types := tuple(t for t in read if isinstance(t, str)):
+        behind = (Argument(name, types, **said),)
+    return Keyword(name, words, behind, optional, repeated, default, length, en)
 
 
 def flag(name: str, word: str, length: int = 4, en: str = "") -> Any:
@@ -702,7 +711,14 @@ def _of_parameters(function: Function) -> "tuple[Entry, ...]":
         return ()
     names = function.__code__.co_varnames[: function.__code__.co_argcount]
     given = zip(reversed(names), reversed(function.__defaults__), strict=False)
-    return tuple(reversed([replace(e, name=n) for n, e in given if isinstance(e, Entry)]))
+    return tuple(reversed([_called(e, n) for n, e in given if isinstance(e, Entry)]))
+
+
+def _called(entry: "Entry", name: str) -> "Entry":
+    """An entry that goes by the name of a parameter, and so the one operand of a keyword."""
+    if isinstance(entry, Keyword) and [a.name for a in entry.arguments] == [entry.name]:
+        return replace(entry, name=name, arguments=(replace(entry.arguments[0], name=name),))
+    return replace(entry, name=name)
 
 
 def _injected(function: Function) -> tuple[str, ...]:

@@ -1,7 +1,5 @@
 """A program on a pseudo-terminal: what it writes, what is typed, keys included."""
 
-from __future__ import annotations
-
 import os
 import pty
 import re
@@ -36,7 +34,7 @@ class Terminal:
             command = [sys.executable, "-m", "ssilang.cli.main", *arguments]
             os.execvpe(sys.executable, command, environment)
 
-    def __enter__(self) -> Terminal:
+    def __enter__(self) -> "Terminal":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -1,7 +1,5 @@
 """`ssilang FILE`, `run`, `check`, `help`: output, messages, exit codes."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

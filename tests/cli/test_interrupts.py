@@ -1,7 +1,5 @@
 """Ctrl-C that a library swallows, and output that nobody reads any more."""
 
-from __future__ import annotations
-
 import ctypes
 import io
 import json

@@ -1,7 +1,5 @@
 """Modules that lie beside a deck, under the names of libraries, are not imported by any start."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Help pages: every operator and procedure has one, in two languages."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 

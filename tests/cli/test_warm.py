@@ -1,7 +1,5 @@
 """`ssilang warm` compiles what decks need, and no run after it compiles that again."""
 
-from __future__ import annotations
-
 import os
 import re
 import subprocess

@@ -6,8 +6,6 @@ by their number, and the words of a choice that no example of it runs. What is n
 built, and what is said there is so.
 """
 
-from __future__ import annotations
-
 import re
 import tomllib
 from dataclasses import replace

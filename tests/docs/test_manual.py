@@ -1,7 +1,5 @@
 """The manual is built from the registry and speaks of every word of Cast3M."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What is declared of the entries of tables: whole, in both languages, and what the code reads."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache

@@ -1,7 +1,5 @@
 """Every code has its sentences in both languages, every sentence its code."""
 
-from __future__ import annotations
-
 import ast
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """Every English text of declarations has its French, every French text its English."""
 
-from __future__ import annotations
-
 import sys
 import tomllib
 from collections import Counter

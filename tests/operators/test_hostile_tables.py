@@ -1,7 +1,5 @@
 """Entries of tables that no calculation can use are refused by name, in words."""
 
-from __future__ import annotations
-
 import importlib.util
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The vocabulary and the kernel know the same words; every entry is sound; help shows them."""
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -7,8 +7,6 @@ below and says how far one may go without meeting a root. Near a root that step 
 from the safe side: convergence is quadratic and the first root cannot be missed.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Small problems in which nothing is alike: each number of a body, joint or support is its own."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import dataclass
 

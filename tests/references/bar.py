@@ -11,8 +11,6 @@ flight frees it, r'(s) = r'(s - T). So r' is piecewise linear and r piecewise qu
 instants of release and of impact are roots of polynomials.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

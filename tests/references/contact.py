@@ -1,7 +1,5 @@
 """Event-driven exact motion of a linear system on unilateral springs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

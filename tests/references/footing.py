@@ -4,8 +4,6 @@
 N constant means that the footing finds its settlement by itself.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 

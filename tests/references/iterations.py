@@ -1,7 +1,5 @@
 """Newton on an interface in plain numpy, without kept factors: what the compiled one must give."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.interface.factors.kept import new_factors

@@ -4,8 +4,6 @@ Data: column r = 2 m, h = 10 m, E = 20 GPa, I = 0.2 m4, f0 = 10 Hz; the soil's v
 k_y is a figure read from the slides and is treated as data.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

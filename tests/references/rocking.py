@@ -1,7 +1,5 @@
 """Rigid and flexible bodies that rock on two unilateral springs or on a macro-element."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 Independent of the compiled iteration of `sdm_law`; the tests hold one against the other.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray

@@ -1,7 +1,5 @@
 """A column of soil sheared by its base, by explicit steps: masses and bundles of springs."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

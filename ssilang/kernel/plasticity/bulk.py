@@ -18,7 +18,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import Numbering, assemble_terms, block_indices
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.plasticity.points import PlasticPoints, PointState
+from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
 if TYPE_CHECKING:
@@ -351,15 +351,9 @@ def without_stiffness(zone: Zone) -> ElementMatrices:
 # --- fields ----------------------------------------------------------------------------------
 
 
-def state_from_fields(
-    bulk: Bulk,
-    stress: CellField | None,
-    variables: CellField | None,
-    plastic: CellField | None,
-) -> State | None:
+def state_from_fields(bulk: Bulk, given: Fields) -> State | None:
     """The state that an earlier calculation left; None if no stress of the zones is given."""
     pairs = [
-        zone.restored(blank, stress, variables, plastic)
-        for zone, blank in zip(bulk.zones, bulk.unloaded(), strict=True)
+        zone.restored(blank, given) for zone, blank in zip(bulk.zones, bulk.unloaded(), strict=True)
     ]
     return tuple(state for state, _ in pairs) if any(known for _, known in pairs) else None

@@ -21,7 +21,7 @@ from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, plastic_law
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 from ssilang.kernel.materials.plastic.uniaxial import Along, Fibres, elastic
-from ssilang.kernel.plasticity.points import PlasticPoints, PointState, law_parameters
+from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState, law_parameters
 
 COMPONENTS = (0, 3, 4)
 """XX XY XZ in the tensor."""
@@ -216,15 +216,9 @@ class FibrePoints(PlasticPoints):
         """None: the strains that stay are those of the fibres."""
         return None
 
-    def restored(
-        self,
-        blank: PointState,
-        stress: CellField | None,
-        variables: CellField | None,
-        plastic: CellField | None,
-    ) -> tuple[PointState, bool]:
+    def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
         """The state of the fibres from VONS and VAIS."""
-        seen = zone_field(self.zone, variables)
+        seen = zone_field(self.zone, given[1])
         if STRESS_FIELD not in seen:
             return blank, False
         n, f = self.weights.shape

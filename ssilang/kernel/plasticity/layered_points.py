@@ -19,7 +19,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.plasticity.points import PlasticPoints, PointState, law_parameters
+from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState, law_parameters
 
 OPTION = "INTEGRE"
 COMPONENTS = (0, 1, 3)
@@ -76,15 +76,9 @@ class LayeredPoints(PlasticPoints):
         """None: the strains that stay are those of the layers."""
         return None
 
-    def restored(
-        self,
-        blank: PointState,
-        stress: CellField | None,
-        variables: CellField | None,
-        plastic: CellField | None,
-    ) -> tuple[PointState, bool]:
+    def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
         """The state of the layers from the internal variables."""
-        seen = zone_field(self.zone, variables)
+        seen = zone_field(self.zone, given[1])
         if STRESSES[0] not in seen:
             return blank, False
         shape = self.weights.shape

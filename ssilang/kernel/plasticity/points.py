@@ -61,6 +61,10 @@ class PointState:
     time: float = 0.0
 
 
+Fields = tuple[CellField | None, CellField | None, CellField | None]
+"""Stresses, internal variables, plastic strains; None: none."""
+
+
 @dataclass(frozen=True, eq=False)
 class PlasticPoints:
     """One zone.
@@ -172,17 +176,11 @@ class PlasticPoints:
         """Plastic strains."""
         return cell_block(self.zone, plastic_strain_names(self.zone), self.gathered(state.plastic))
 
-    def restored(
-        self,
-        blank: PointState,
-        stress: CellField | None,
-        variables: CellField | None,
-        plastic: CellField | None,
-    ) -> tuple[PointState, bool]:
+    def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
         """The state that fields hold (what they lack as in `blank`), and if stresses are known."""
         names = family_of(self.zone).stress_names(self.zone)
-        seen, inner = zone_field(self.zone, stress), zone_field(self.zone, variables)
-        strains, state, known = zone_field(self.zone, plastic), blank, False
+        seen, inner, strains = (zone_field(self.zone, f) for f in given)
+        state, known = blank, False
         if any(n in seen for n in names):
             known = True
             values = seen.matrix(names, "STRESSES")

@@ -22,8 +22,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     closed_at_start,
-    initial_energies,
-    joint_state,
+    motion_at_rest,
 )
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import (
@@ -82,13 +81,7 @@ class BulkRun:
         self.force, self._energy = self.bulk.force(self.state), (self.state, np.nan)
         if p.scheme.conserving or p.scheme.adaptive:
             raise KernelError("kernel.plasticity.plastic-bodies-stepped-newmark")
-        joints = joint_state(p)
-        n = p.numbering.size
-        self.motion = Motion(
-            p.u.copy(), np.zeros(n), np.zeros(n), joints.delta, joints.f, joints.w, joints.t,
-            joints.state, np.zeros(n), initial_energies(p, np.zeros(n), joints),
-            NOTHING if p.contact is None else np.zeros(p.contact.size),
-        )  # fmt: skip
+        self.motion = motion_at_rest(p)
         self.motion.energies[ELASTIC] += self.stored()
 
     def stored(self) -> float:

@@ -18,7 +18,7 @@ from ssilang.kernel.statics.linear_motion import singular
 from ssilang.kernel.stepping.effective import effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps
 from ssilang.kernel.stepping.newmark import Scheme
-from ssilang.kernel.stepping.problem.initial import initial_energies, joint_state
+from ssilang.kernel.stepping.problem.initial import motion_at_rest
 from ssilang.kernel.stepping.problem.plausibility import overloads
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.iterated import (
@@ -144,15 +144,7 @@ def _cut_step(
 
 
 def _initial_motion(problem: Problem) -> Motion:
-    n = problem.numbering.size
-    joints = joint_state(problem)
-    zero = np.zeros(n)
-    energies = initial_energies(problem, zero, joints)
-    motion = Motion(
-        problem.u.copy(), zero.copy(), zero.copy(), joints.delta, joints.f, joints.w, joints.t,
-        joints.state, zero.copy(), energies,
-        np.zeros(0 if problem.contact is None else problem.contact.size),
-    )  # fmt: skip
+    motion = motion_at_rest(problem)
     motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(problem.times[:1])[0])
     return motion
 

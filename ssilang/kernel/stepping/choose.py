@@ -14,6 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
@@ -70,23 +71,31 @@ class Case:
     closed: BoolArray = field(default_factory=lambda: np.zeros(0, bool))
 
     @cached_property
+    def A(self) -> sp.csr_array:  # noqa: N802
+        """The step's matrix without the joints."""
+        return effective_matrix(self.problem, self.dt)
+
+    @property
+    def share(self) -> float:
+        """What the joints' forces count for in a step."""
+        return 1 - self.problem.scheme.alpha_f
+
+    @cached_property
     def effective(self) -> Effective:
         """The step's linear system."""
-        p = self.problem
-        return effective_of(p, effective_matrix(p, self.dt), self.dt, 1 - p.scheme.alpha_f)
+        return effective_of(self.problem, self.A, self.dt, self.share)
 
     @cached_property
     def rooted(self) -> Effective:
         """The same by a factor with the interface at its root, of small problems too."""
-        p, share = self.problem, 1 - self.problem.scheme.alpha_f
-        if p.numbering.size > SMALL:
+        if self.problem.numbering.size > SMALL:
             return self.effective
-        return effective_of(p, effective_matrix(p, self.dt), self.dt, share, least=0)
+        return effective_of(self.problem, self.A, self.dt, self.share, least=0)
 
     @cached_property
     def iterated(self) -> bool:
         """Whether multigrid solves each step."""
-        return pays(self.problem, effective_matrix(self.problem, self.dt))
+        return pays(self.problem, self.A)
 
     @cached_property
     def modal(self) -> "SmallLoop | None":
@@ -122,10 +131,8 @@ def _adaptive(case: Case) -> Loop:
 
 
 def _iterated(case: Case) -> Loop:
-    p = case.problem
-    share = 1 - p.scheme.alpha_f
-    system = iterated_system(p, effective_matrix(p, case.dt), share)
-    return _sparse(case, IteratedSolver(p, system, share))
+    system = iterated_system(case.problem, case.A, case.share)
+    return _sparse(case, IteratedSolver(case.problem, system, case.share))
 
 
 def _condensed(case: Case) -> SparseSteps:
@@ -137,9 +144,7 @@ def _condensed(case: Case) -> SparseSteps:
 def _full_newton(case: Case) -> Loop:
     from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 
-    p = case.problem
-    A = effective_matrix(p, case.dt)
-    return _sparse(case, FullNewtonSolver(p, A, 1 - p.scheme.alpha_f))
+    return _sparse(case, FullNewtonSolver(case.problem, case.A, case.share))
 
 
 def _sparse(case: Case, solver: StepSolver) -> SparseSteps:

@@ -84,7 +84,7 @@ def chsp(
     wanted: str = Key(
         "SORT", arg("kind", "MOT", en="DEPL, VITE or ACCE"), optional=False, en="what they become"
     ),
-    colour: str | None = Key("COUL", arg("c", "MOT", kind="colour"), en="colour"),
+    colour: str | None = Key("COUL", "MOT", kind="colour", en="colour"),
 ) -> Curve:
     """Change the unit of spectra."""
     names = [w.strip().upper()[:4] for w in (given, wanted)]

@@ -16,9 +16,7 @@ from ssilang.operators.numbers.noise import session_generator
 from ssilang.operators.prelude import *
 
 _SERIES = ("ACCE", "VITE", "DEPL")
-_SEED = key(
-    "seed", "INIT", arg("seed", "ENTIER", range=ANY_NUMBER), en="start of the random numbers"
-)
+_SEED = key("seed", "INIT", "ENTIER", range=ANY_NUMBER, en="start of the random numbers")
 
 
 def _drawn(call: Call, seed: int | None) -> np.random.Generator:
@@ -34,23 +32,19 @@ def siar(
     limits: ListReel | None = Opt("LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
     duration: float | None = Opt("FLOTTANT", range=POSITIVE, en="end of the signals", unit="s"),
     start: float | None = Key(
-        "TINI", arg("start", "FLOTTANT", range=NOT_NEGATIVE, unit="s"), en="start of the signals"
+        "TINI", "FLOTTANT", range=NOT_NEGATIVE, unit="s", en="start of the signals"
     ),
     acceleration: bool = Flag("ACCE", en="acceleration"),
     velocity: bool = Flag("VITE", en="velocity"),
     displacement: bool = Flag("DEPL", en="displacement"),
     n_signals: int = Key(
-        "NCOU", arg("n", "ENTIER", range=POSITIVE), default=1, en="number of signals, 1 without it"
+        "NCOU", "ENTIER", range=POSITIVE, default=1, en="number of signals, 1 without it"
     ),
     n_instants: int | None = Key(
-        "NPOI",
-        arg("n", "ENTIER", range=POSITIVE),
-        en="number of instants, steps of 0.02 s without it",
+        "NPOI", "ENTIER", range=POSITIVE, en="number of instants, steps of 0.02 s without it"
     ),
     n_sines: int | None = Key(
-        "NSIN",
-        arg("n", "ENTIER", range=POSITIVE),
-        en="number of sines, slices of 0.1 Hz without it",
+        "NSIN", "ENTIER", range=POSITIVE, en="number of sines, slices of 0.1 Hz without it"
     ),
     seed: int | None = _SEED,
 ) -> Any:
@@ -122,7 +116,9 @@ def pert(
     signs: bool = Flag("SIGN", en="signs drawn, the default"),
     degrees: float | None = Key(
         "AMPL",
-        arg("degrees", "FLOTTANT", unit="deg", usual=between(0.0, 90.0)),
+        "FLOTTANT",
+        unit="deg",
+        usual=between(0.0, 90.0),
         en="largest angle whose sin^2 is the share given to the neighbours",
     ),
     seed: int | None = _SEED,
@@ -152,27 +148,32 @@ def pert(
     key(
         "n_processes",
         "NBPR",
-        arg("n", "ENTIER", range=POSITIVE),
+        "ENTIER",
+        range=POSITIVE,
         en="number of processes, of about 2 s without it",
     ),
     key(
         "n_instants",
         "NBIN",
-        arg("n", "ENTIER", range=POSITIVE),
+        "ENTIER",
+        range=POSITIVE,
         default=10,
         en="instants of each, 10 without it",
     ),
     key(
         "rest",
         "TPLU",
-        arg("rest", "FLOTTANT", range=NOT_NEGATIVE, unit="s"),
+        "FLOTTANT",
+        range=NOT_NEGATIVE,
+        unit="s",
         default=20.0,
         en="time behind the end, 20 without it",
     ),
     key(
         "precision",
         "PREC",
-        arg("precision", "FLOTTANT", range=POSITIVE),
+        "FLOTTANT",
+        range=POSITIVE,
         default=1e-3,
         en="precision of the levels, 1.E-3 without it",
     ),

@@ -43,8 +43,8 @@ _CELL = arg("cell", "ENTIER", en="zone, cell, point", range=POSITIVE)
 # what EVOL reads, for its help
 _ENTRIES: dict[str, list[Entry]] = {
     "MANU": [
-        key("type", "TYPE", arg("type", "MOT"), en="type of the ordinates"),
-        key("legend", "LEGE", arg("legend", "MOT"), en="legend"),
+        key("type", "TYPE", "MOT", en="type of the ordinates"),
+        key("legend", "LEGE", "MOT", en="legend"),
         _ABSCISSA,
         _X,
         _ORDINATE,

@@ -7,9 +7,7 @@ from ssilang.operators.prelude import *
 
 _POINTS = 121
 _INTENSITIES = arg("intensities", "LISTREEL", en="intensities", range=POSITIVE)
-_RECORDS = key(
-    "records", "SIGN", arg("records", "LISTENTI", range=ANY_NUMBER), en="record of each, by number"
-)
+_RECORDS = key("records", "SIGN", "LISTENTI", range=ANY_NUMBER, en="record of each, by number")
 
 
 @operator("ZFRA", family="signals", gives=("EVOLUTIO", "LISTREEL"))
@@ -35,10 +33,7 @@ def _cloud(
     limit: float = Arg("FLOTTANT", en="demand that counts", range=ANY_NUMBER),
     below: bool = Flag("DESS", en="lower demands exceed"),
     capacity: float = Key(
-        "CAPA",
-        arg("x", "FLOTTANT", range=NOT_NEGATIVE),
-        default=0.0,
-        en="dispersion of the capacity",
+        "CAPA", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="dispersion of the capacity"
     ),
     records: ListEnti | None = _RECORDS,
 ) -> tuple[Curve, ListReel]:

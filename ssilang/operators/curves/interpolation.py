@@ -37,18 +37,8 @@ _FUNCTION = either(
 
 _SPLINE = (
     flag("smooth", "SPLI", en="by a cubic spline"),
-    key(
-        "left",
-        "DGAU",
-        arg("left", "FLOTTANT", range=ANY_NUMBER),
-        en="slope of the spline at the left end",
-    ),
-    key(
-        "right",
-        "DDRO",
-        arg("right", "FLOTTANT", range=ANY_NUMBER),
-        en="slope of the spline at the right end",
-    ),
+    key("left", "DGAU", "FLOTTANT", range=ANY_NUMBER, en="slope of the spline at the left end"),
+    key("right", "DDRO", "FLOTTANT", range=ANY_NUMBER, en="slope of the spline at the right end"),
 )
 
 

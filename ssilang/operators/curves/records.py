@@ -31,14 +31,12 @@ from ssilang.operators.prelude import *
 def filtered_records(
     call: Call,
     curve: Curve = CURVE,
-    order: int = Key(
-        "ORDR", arg("n", "ENTIER", range=POSITIVE), default=4, en="order, 4 without it"
-    ),
+    order: int = Key("ORDR", "ENTIER", range=POSITIVE, default=4, en="order, 4 without it"),
     low: float | None = Key(
-        "PHAU", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="slower is taken off"
+        "PHAU", "FLOTTANT", range=POSITIVE, unit="Hz", en="slower is taken off"
     ),
     high: float | None = Key(
-        "PBAS", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), en="faster is taken off"
+        "PBAS", "FLOTTANT", range=POSITIVE, unit="Hz", en="faster is taken off"
     ),
     causal: bool = Flag("CAUS", en="one pass, as a device does"),
 ) -> Curve:
@@ -80,16 +78,10 @@ def zond(
     record: Curve = Arg("EVOLUTIO", en="acceleration", over="s"),
     target: Curve = Arg("EVOLUTIO", en="pseudo-accelerations over Hz", over="Hz"),
     damping: float = Key(
-        "AMOR",
-        arg("xi", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
-        default=0.05,
-        en="damping",
+        "AMOR", "FLOTTANT", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, default=0.05, en="damping"
     ),
     tolerance: float = Key(
-        "TOLE",
-        arg("x", "FLOTTANT", range=POSITIVE),
-        default=0.05,
-        en="largest misfit, 0.05 without it",
+        "TOLE", "FLOTTANT", range=POSITIVE, default=0.05, en="largest misfit, 0.05 without it"
     ),
 ) -> tuple[Curve, float]:
     """Match a record."""
@@ -123,28 +115,24 @@ def onde(
         en="lowest frequency",
     ),
     highest: float = Key(
-        "FMAX",
-        arg("highest", "FLOTTANT", range=POSITIVE, unit="Hz"),
-        default=0.0,
-        en="highest frequency",
+        "FMAX", "FLOTTANT", range=POSITIVE, unit="Hz", default=0.0, en="highest frequency"
     ),
     count: tuple[str, float] = Key(
         ("NFRQ", "DFRQ"),
-        arg("count", "FLOTTANT", range=POSITIVE),
+        "FLOTTANT",
+        range=POSITIVE,
         default=("NFRQ", 50.0),
         en="number of frequencies, 50 without it",
     ),
     turn: float = Key(
         "EPSI",
-        arg("turn", "FLOTTANT", range=POSITIVE),
+        "FLOTTANT",
+        range=POSITIVE,
         default=1e-4,
         en="tolerance of the phase, 1.E-4 without it",
     ),
     pulsation: float = Key(
-        "PULS",
-        arg("pulsation", "FLOTTANT", range=POSITIVE),
-        default=5.0,
-        en="pulsation of the wavelet, 5 without it",
+        "PULS", "FLOTTANT", range=POSITIVE, default=5.0, en="pulsation of the wavelet, 5 without it"
     ),
     colour: str | None = COLOUR,
 ) -> Any:

@@ -93,9 +93,9 @@ def lsqf(
     curve: Curve = CURVE,
     count: int = Arg("ENTIER", range=POSITIVE, en="number of intervals"),
     uniform: bool = Flag("UNIF", en="of equal length, the default"),
-    best: int | None = Key("OPTI", arg("n", "ENTIER", range=POSITIVE), en="not available"),
+    best: int | None = Key("OPTI", "ENTIER", range=POSITIVE, en="not available"),
     size: int | None = Key(
-        "REDU", arg("n", "ENTIER", range=POSITIVE), en="steps of the signal in an interval"
+        "REDU", "ENTIER", range=POSITIVE, en="steps of the signal in an interval"
     ),
 ) -> Curve:
     """Simplify signals."""
@@ -143,18 +143,22 @@ def cmoy(
     records: Curve = Arg("EVOLUTIO", en="records", over="s"),
     duration: float = Key(
         "ACQU",
-        arg("t", "FLOTTANT", range=POSITIVE, unit="s"),
+        "FLOTTANT",
+        range=POSITIVE,
+        unit="s",
         optional=False,
         en="time that a shock is recorded",
     ),
     percent: float = Key(
         "DECL",
-        arg("p", "FLOTTANT", unit="%", range=between(0.0, 100.0)),
+        "FLOTTANT",
+        unit="%",
+        range=between(0.0, 100.0),
         default=1e-6,
         en="threshold of the largest absolute value, 1.E-6 without it",
     ),
     count: int | None = Key(
-        "NCHO", arg("n", "ENTIER", range=POSITIVE), en="number of shocks kept, all without it"
+        "NCHO", "ENTIER", range=POSITIVE, en="number of shocks kept, all without it"
     ),
 ) -> Curve:
     """Mean shock."""

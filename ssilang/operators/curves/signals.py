@@ -157,7 +157,9 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
     key(
         "spacing",
         "DFRQ",
-        arg("spacing", "FLOTTANT", range=POSITIVE, unit="Hz"),
+        "FLOTTANT",
+        range=POSITIVE,
+        unit="Hz",
         default=0.0,
         en="step of frequency",
     ),
@@ -245,10 +247,7 @@ _AXIS = arg("name", "MOT", en="name of the ordinates")
 def fdt(
     name: str = _AXIS,
     step: float = Key(
-        "CONS",
-        arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
-        optional=False,
-        en="constant step",
+        "CONS", "FLOTTANT", range=POSITIVE, unit="s", optional=False, en="constant step"
     ),
     values: ListReel = Arg("LISTREEL", en="ordinates", range=ANY_NUMBER),
 ) -> Curve:

@@ -16,30 +16,23 @@ from ssilang.operators.mesh.selection.boundaries import enve
 from ssilang.operators.prelude import *
 
 _TIMES = key(
-    "times",
-    "TEMPS",
-    arg("t", "LISTREEL", unit="s", range=RISING),
-    en="times; those of the signal without it",
+    "times", "TEMPS", "LISTREEL", unit="s", range=RISING, en="times; those of the signal without it"
 )
-_COLOUR = key("colour", "COUL", arg("c", "MOT", kind="colour"), default="DEFA", en="colour")
+_COLOUR = key("colour", "COUL", "MOT", kind="colour", default="DEFA", en="colour")
 
 
 @operator("OSCI", family="modal")
 def osci(
     call: Call,
     damping: float = Key(
-        "AMOR", arg("xi", "FLOTTANT", range=NOT_NEGATIVE), optional=False, en="damping ratio"
+        "AMOR", "FLOTTANT", range=NOT_NEGATIVE, optional=False, en="damping ratio"
     ),
     frequency: float = Key(
-        "FREQ", arg("f", "FLOTTANT", range=POSITIVE, unit="Hz"), optional=False, en="frequency"
+        "FREQ", "FLOTTANT", range=POSITIVE, unit="Hz", optional=False, en="frequency"
     ),
     times: ListReel | None = _TIMES,
-    start: float = Key(
-        "DEPL", arg("x0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X at the start"
-    ),
-    speed: float = Key(
-        "VITE", arg("v0", "FLOTTANT", range=ANY_NUMBER), default=0.0, en="X' at the start"
-    ),
+    start: float = Key("DEPL", "FLOTTANT", range=ANY_NUMBER, default=0.0, en="X at the start"),
+    speed: float = Key("VITE", "FLOTTANT", range=ANY_NUMBER, default=0.0, en="X' at the start"),
     colour: str = _COLOUR,
     signal: Curve = Arg("EVOLUTIO", en="signal g(t)", over="s"),
 ) -> Curve:
@@ -59,14 +52,14 @@ def osci(
 def spo(
     call: Call,
     dampings: ListReel | float = Key(
-        "AMOR",
-        arg("xi", "LISTREEL", "FLOTTANT", range=NOT_NEGATIVE),
-        optional=False,
-        en="damping ratios",
+        "AMOR", "LISTREEL", "FLOTTANT", range=NOT_NEGATIVE, optional=False, en="damping ratios"
     ),
     frequencies: ListReel | None = Key(
         "FREQ",
-        arg("f", "LISTREEL", range=POSITIVE, usual=IN_ORDER, unit="Hz"),
+        "LISTREEL",
+        range=POSITIVE,
+        usual=IN_ORDER,
+        unit="Hz",
         en="frequencies; usual ones without it",
     ),
     times: ListReel | None = _TIMES,
@@ -137,7 +130,8 @@ def _valp(
     below: ListReel = Arg("LISTREEL", en="sub-diagonal", range=ANY_NUMBER),
     accuracy: list[tuple[str, float]] = Key(
         ("ITERATION", "ABSOLU", "RELATIF"),
-        arg("number", "FLOTTANT", range=ANY_NUMBER),
+        "FLOTTANT",
+        range=ANY_NUMBER,
         repeated=True,
         en="accepted: exact to rounding",
     ),
@@ -182,15 +176,12 @@ _POWER = {"DEPL": 0, "VITE": 1, "ACCE": 2}
 def _spon(
     call: Call,
     demand: bool = Flag("DEMA", en="limits at which the ductility is the given one"),
-    signal: Curve = Key("SIGN", arg("signal", "EVOLUTIO"), optional=False, en="signal"),
+    signal: Curve = Key("SIGN", "EVOLUTIO", optional=False, en="signal"),
     linear: Curve = Key(
-        "SPEL", arg("linear", "EVOLUTIO"), optional=False, en="linear spectra, one for each damping"
+        "SPEL", "EVOLUTIO", optional=False, en="linear spectra, one for each damping"
     ),
     dampings: ListReel = Key(
-        "AMOR",
-        arg("dampings", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL),
-        optional=False,
-        en="dampings",
+        "AMOR", "LISTREEL", range=NOT_NEGATIVE, usual=BELOW_CRITICAL, optional=False, en="dampings"
     ),
     law: tuple[str, ListReel] | None = Key(
         _LAWS,
@@ -201,7 +192,7 @@ def _spon(
     kinds: list[str] = Key(
         tuple(_POWER), repeated=True, en="what the linear spectrum is, then what is wanted"
     ),
-    colour: str = Key("COUL", arg("colour", "MOT", kind="colour"), default="DEFA", en="colour"),
+    colour: str = Key("COUL", "MOT", kind="colour", default="DEFA", en="colour"),
 ) -> Curve:
     from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
 

@@ -20,7 +20,7 @@ from ssilang.operators.statics.stresses import on_zones
 _SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
-_TITLE = key("title", "TITRE", arg("text", "MOT"), en="title of the field")
+_TITLE = key("title", "TITRE", "MOT", en="title of the field")
 
 
 _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries the field")
@@ -145,9 +145,9 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
 @MANU.form(
     said("CHML", "CHAM"),
     arg("support", "MAILLAGE", "MMODEL", en="mesh or model that carries the field"),
-    key("title", "TYPE", arg("word", "MOT"), en="sub-type of the field"),
-    key("constituent", "CONS", arg("word", "MOT"), en="constituent"),
-    key("position", "POSI", arg("word", "MOT"), en="points: NOEUD ..."),
+    key("title", "TYPE", "MOT", en="sub-type of the field"),
+    key("constituent", "CONS", "MOT", en="constituent"),
+    key("position", "POSI", "MOT", en="points: NOEUD ..."),
     flag("deal", "REPA", en="the values of a list are dealt out, one a cell"),
     choice("points", ("NOEUD", "GRAVITE", "STRESSES"), en="points that carry the values"),
     choice("integration", ("RIGIDITE", "MASSE"), length=8, en="points that carry the values"),

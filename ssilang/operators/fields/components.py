@@ -14,10 +14,7 @@ _FIELD = arg("field", *_FIELDS, en="field", range=ANY_NUMBER)
 _NODAL = arg("field", "CHPOINT", en="field at nodes")
 _IN_CELLS = arg("field", "MCHAML", en="field in cells")
 NATURE = key(
-    "nature",
-    "NATURE",
-    arg("word", "MOT"),
-    en="DIFFUS (as displacements), DISCRET (as forces) or INDETERMINE",
+    "nature", "NATURE", "MOT", en="DIFFUS (as displacements), DISCRET (as forces) or INDETERMINE"
 )
 _LENIENT = flag("lenient", "NOID", en="a missing component is no error")
 

@@ -21,8 +21,8 @@ _FILE = lead("file", "MOT", en="file")
 def _csv(
     call: Call,
     file: str = _FILE,
-    first: int = Key("DEBU", arg("n", "ENTIER", range=POSITIVE), default=1, en="first line"),
-    separator: str = Key("SEPA", arg("s", "MOT"), default=";", en="separator"),
+    first: int = Key("DEBU", "ENTIER", range=POSITIVE, default=1, en="first line"),
+    separator: str = Key("SEPA", "MOT", default=";", en="separator"),
     by: str = Choice(("COLO", "LIGN"), default="COLO", en="columns or lines"),
 ) -> Table:
     sign = str(separator) or ";"

@@ -39,7 +39,8 @@ def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
     key(
         "number",
         "CANAL",
-        arg("n", "ENTIER", range=NOT_NEGATIVE),
+        "ENTIER",
+        range=NOT_NEGATIVE,
         default=0,
         en="which record of a file that has several",
     ),

@@ -125,7 +125,7 @@ class _Begun:
 
 _WORDS = (
     flag("formatted", "FORMAT", en="changes nothing"),
-    key("label", "LABEL", arg("label", "MOT"), default="", en="label of the record"),
+    key("label", "LABEL", "MOT", default="", en="label of the record"),
     flag("silent", "MUET", en="changes nothing"),
 )
 

@@ -38,8 +38,8 @@ _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
         en="lists, or what holds them",
         range=CARRIED,
     ),
-    key("width", "NCOL", arg("n", "ENTIER", range=POSITIVE), en="columns side by side"),
-    key("digits", "DIGI", arg("n", "ENTIER", range=NOT_NEGATIVE), en="decimals"),
+    key("width", "NCOL", "ENTIER", range=POSITIVE, en="columns side by side"),
+    key("digits", "DIGI", "ENTIER", range=NOT_NEGATIVE, en="decimals"),
     select(
         "separator", {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
     ),

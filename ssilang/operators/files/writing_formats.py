@@ -26,7 +26,7 @@ def _avs(
     nodal: NodeField | None = Opt("CHPOINT", en="nodal field"),
     cells: CellField | None = Opt("MCHAML", en="field in cells"),
     follows: bool = Flag("SUIT", en="behind what is written"),
-    time: float | None = Key("TEMP", arg("t", "FLOTTANT", range=ANY_NUMBER), en="time, in s"),
+    time: float | None = Key("TEMP", "FLOTTANT", range=ANY_NUMBER, en="time, in s"),
 ) -> None:
     support = _support(call, mesh, nodal, cells)
     output = run_output(call.session)
@@ -84,7 +84,7 @@ def _mat(
         ("MM", "MATRIX_MARKET", "RB", "RUTHERFORD_BOEING"), en="format, only MM is made"
     ),
     storage: str | None = Choice(("ASSEMBLEE", "ELEMENTAIRE"), en="assembled, the only one made"),
-    title: str = Key("TITR", arg("t", "MOT"), default="", en="title"),
+    title: str = Key("TITR", "MOT", default="", en="title"),
     unknowns: bool = Flag("INCO", en="a file of the unknowns too"),
     places: bool = Flag("GEOM", en="a file of the nodes too"),
     matrix: Matrix = Arg("RIGIDITE", en="matrix"),

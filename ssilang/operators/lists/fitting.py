@@ -21,9 +21,7 @@ def moca(
         "LISTREEL", at_least=1, en="derivative by each parameter", range=ANY_NUMBER
     ),
     weights: ListReel | None = Key(
-        "POIDS",
-        arg("weights", "LISTREEL", range=NOT_NEGATIVE, usual=Range(some=True)),
-        en="weights",
+        "POIDS", "LISTREEL", range=NOT_NEGATIVE, usual=Range(some=True), en="weights"
     ),
 ) -> ListReel:
     """Linear least squares from a first set of parameters."""
@@ -49,24 +47,13 @@ def _of_length(call: Call, values: ListReel, count: int) -> FloatArray:
 @operator("LEVM", family="lists")
 def levm(
     call: Call,
-    abscissas: ListReel = Key(
-        "ABSC", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="points"
-    ),
-    measured: ListReel = Key(
-        "ORDO", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="values"
-    ),
-    spreads: ListReel = Key(
-        "SIGM", arg("list", "LISTREEL", range=ANY_NUMBER), optional=False, en="weights"
-    ),
+    abscissas: ListReel = Key("ABSC", "LISTREEL", range=ANY_NUMBER, optional=False, en="points"),
+    measured: ListReel = Key("ORDO", "LISTREEL", range=ANY_NUMBER, optional=False, en="values"),
+    spreads: ListReel = Key("SIGM", "LISTREEL", range=ANY_NUMBER, optional=False, en="weights"),
     start: ListReel = Key(
-        "PARA",
-        arg("list", "LISTREEL", range=ANY_NUMBER),
-        optional=False,
-        en="first parameters, none zero",
+        "PARA", "LISTREEL", range=ANY_NUMBER, optional=False, en="first parameters, none zero"
     ),
-    function: Procedure = Key(
-        "PROC", arg("procedure", "PROCEDUR"), optional=False, en="`LY LDY = PROC1 LX LP`"
-    ),
+    function: Procedure = Key("PROC", "PROCEDUR", optional=False, en="`LY LDY = PROC1 LX LP`"),
 ) -> tuple[ListReel, float]:
     """Levenberg's and Marquardt's method."""
     count = len(abscissas.values)
@@ -120,9 +107,7 @@ def _damped(
 def gane(
     call: Call,
     table: Table = Arg("TABLE", en="0: values, 1 to n: derivatives"),
-    damping: float = Key(
-        "AMOR", arg("factor", "FLOTTANT", range=NOT_NEGATIVE), default=0.0, en="damping"
-    ),
+    damping: float = Key("AMOR", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, en="damping"),
     matrices: bool = Flag("MATR", en="not available"),
 ) -> Table:
     """A step of Gauss and Newton."""

@@ -44,7 +44,8 @@ def cvol(
     response: ListReel = Arg("LISTREEL", en="response", range=ANY_NUMBER),
     before: int | None = Key(
         "NPNE",
-        arg("n", "ENTIER", range=NOT_NEGATIVE),
+        "ENTIER",
+        range=NOT_NEGATIVE,
         en="number of its values before 0; by default it is symmetric",
     ),
     ends: str = Choice(

@@ -33,7 +33,12 @@ def posi(
     item: Any = Lead(en="what is looked for"),
     where: Any = Key(
         "DANS",
-        arg("list", "LISTREEL", "LISTENTI", "LISTMOTS", "MOT", "MAILLAGE", range=CARRIED),
+        "LISTREEL",
+        "LISTENTI",
+        "LISTMOTS",
+        "MOT",
+        "MAILLAGE",
+        range=CARRIED,
         optional=False,
         en="where it is looked for",
     ),

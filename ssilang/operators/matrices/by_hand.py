@@ -17,7 +17,7 @@ from ssilang.operators.prelude import *
 _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
 
 
-_KIND = key("kind", "TYPE", arg("word", "MOT"), en="kind, such as RIGIDITE (default) or MASSE")
+_KIND = key("kind", "TYPE", "MOT", en="kind, such as RIGIDITE (default) or MASSE")
 
 
 def _sign(words: Sequence[str]) -> Any:
@@ -61,7 +61,7 @@ def one_column(
     kind: str | None = _KIND,
     sign: str | None = _sign(tuple(_SIGN)),
     partner: tuple[str, str] | None = Key(
-        ("DUAL", "PRIM"), arg("name", "MOT", kind="component"), en="its equation, or its unknown"
+        ("DUAL", "PRIM"), "MOT", kind="component", en="its equation, or its unknown"
     ),
     field: NodeField = Arg("CHPOINT", en="terms"),
     point: Point = Arg("POINT", en="node of the unknown"),

@@ -17,10 +17,11 @@ _ANGLE = arg(
 @operator("IMPO", said("IMPA"), family="relations", full_name="IMPOSE")
 def impo(
     call: Call,
-    master: Mesh = Key("MAIT", arg("line", "MAILLAGE"), optional=False, en="line of segments"),
+    master: Mesh = Key("MAIT", "MAILLAGE", optional=False, en="line of segments"),
     slave: Mesh | Point = Key(
         "ESCL",
-        arg("other", "MAILLAGE", "POINT"),
+        "MAILLAGE",
+        "POINT",
         optional=False,
         en="line that comes to touch it, or point of a rigid projectile",
     ),
@@ -45,7 +46,7 @@ def impo(
         },
         en="nose of the projectile: half a circle, flat, or a cone",
     ),
-    key("axis", "VECT", arg("vector", "POINT"), en="axis of the projectile, out of its nose"),
+    key("axis", "VECT", "POINT", en="axis of the projectile, out of its nose"),
 )
 def of_touching(
     call: Call, links: Mesh, nose: Chosen | None, axis: Point | None

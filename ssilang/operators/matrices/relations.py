@@ -133,9 +133,7 @@ _SIDE = choice("sense", tuple(_SENSE), en="the sum stays at or above the value, 
 def rela(
     field: NodeField = Arg("CHPOINT", en="factors of the unknowns"),
     sense: str | None = _SIDE,
-    dual: NodeField | None = Key(
-        "DUAL", arg("field", "CHPOINT"), en="force on the body for a multiplier of one"
-    ),
+    dual: NodeField | None = Key("DUAL", "CHPOINT", en="force on the body for a multiplier of one"),
 ) -> Matrix:
     """One relation, from a field of factors."""
     side = _SENSE.get(sense or "", 0)

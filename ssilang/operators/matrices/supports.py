@@ -48,7 +48,9 @@ _NAMES = (
     key(
         "direction",
         "DIRECTION",
-        arg("vector", "POINT", "CHPOINT", usual=NOT_ZERO),
+        "POINT",
+        "CHPOINT",
+        usual=NOT_ZERO,
         en="along a vector, or a field of vectors",
     ),
 )

@@ -59,9 +59,7 @@ _BASE = arg("base", "MAILLAGE", en="surface, or volume whose face 2 is swept")
 _CUTS = (
     LAYERS,
     SIZES,
-    key(
-        "places", "PROG", arg("places", "LISTREEL", range=ANY_NUMBER), en="positions of the layers"
-    ),
+    key("places", "PROG", "LISTREEL", range=ANY_NUMBER, en="positions of the layers"),
     flag("wordy", "VERB", en="accepted, without effect"),
 )
 

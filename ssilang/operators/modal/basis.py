@@ -257,10 +257,7 @@ class _Shifted:
 def _psmo(
     call: Call,
     frequency: float = Key(
-        "FREQ",
-        arg("frequency", "FLOTTANT", range=POSITIVE, unit="Hz"),
-        default=0.0,
-        en="frequency of the response",
+        "FREQ", "FLOTTANT", range=POSITIVE, unit="Hz", default=0.0, en="frequency of the response"
     ),
     seismic: bool = Flag("SEISME", en="displacements of supports, or accelerations of the base"),
     directions: list[str] = Key(("UX", "UY", "UZ"), repeated=True, en="of the base"),

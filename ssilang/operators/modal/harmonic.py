@@ -16,8 +16,8 @@ def _impe(
     kind_of: str | None = Choice(
         ("MASSE", "RAIDEUR", "AMORTISSEMENT"), en="what the matrix is, by its type without it"
     ),
-    chosen: ListReel | None = Key(
-        "QUELCONQUE", arg("factors", "LISTREEL", range=ANY_NUMBER), en="factors of the four blocks"
+    four: ListReel | None = Key(
+        "QUELCONQUE", "LISTREEL", range=ANY_NUMBER, en="factors of the four blocks"
     ),
     matrix: Matrix = Arg("RIGIDITE", en="matrix"),
     other: Matrix | None = Opt("RIGIDITE", en="of the imaginary rows"),
@@ -31,10 +31,10 @@ def _impe(
     buckling: bool = Opt("LOGIQUE", default=False, en="of type MASSE"),
 ) -> Matrix:
     kind = "MASSE" if buckling else matrix.kind
-    if chosen is not None:
-        values = [float(v) for v in chosen.values]
+    if four is not None:
+        values = [float(v) for v in four.values]
         if len(values) != 4:
-            raise call.error("operators.modal.four-numbers-wanted", chosen)
+            raise call.error("operators.modal.four-numbers-wanted", four)
         return impedance(matrix, (values[0], values[1], values[2], values[3]), kind, other)
     said = kind_of or _KINDS.get(matrix.kind[:4], "RAIDEUR")
     turned = other is not None and said == "AMORTISSEMENT"

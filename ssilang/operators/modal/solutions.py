@@ -101,9 +101,7 @@ _MAIN = arg("solution", "SOLUTION", en="modes")
 @MANU.form(said("MODE"))
 def mode_by_hand(
     call: Call,
-    number: int | None = Key(
-        "NUME", arg("n", "ENTIER", range=POSITIVE), en="its number, 1 without it"
-    ),
+    number: int | None = Key("NUME", "ENTIER", range=POSITIVE, en="its number, 1 without it"),
     frequency: float = Arg("FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER),
     mass: float = Arg("FLOTTANT", en="generalised mass", unit="kg", range=POSITIVE),
     x: float = Opt("FLOTTANT", default=0.0, en="generalised displacements", range=ANY_NUMBER),

@@ -58,22 +58,17 @@ class Wish:
 
 _WORDS = many("said", "MOT", kind="law", en="formulation, law and elements")
 _SETTINGS = (
-    key("constituent", "CONS", arg("name", "MOT"), en="constituent"),
+    key("constituent", "CONS", "MOT", en="constituent"),
     key(
         "section",
         "DPGE",
-        arg("point", "POINT"),
+        "POINT",
         en="point that carries the motion of the section in generalised plane strain",
     ),
-    key(
-        "layers",
-        "INTEGRE",
-        arg("count", "ENTIER", range=POSITIVE),
-        en="points across the thickness of shells",
-    ),
+    key("layers", "INTEGRE", "ENTIER", range=POSITIVE, en="points across the thickness of shells"),
     choice("rule", ("GAUSS", "LOBATTO"), length=8, en="integration of joints"),
     choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
-    key("measure", "EPSI", arg("name", "MOT"), en="LINEAIRE or QUADRATIQUE: changes nothing"),
+    key("measure", "EPSI", "MOT", en="LINEAIRE or QUADRATIQUE: changes nothing"),
 )
 MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
 

@@ -140,4 +140,5 @@ _HELD = (
 def _given(bulk: "Bulk", start: Any) -> "State | None":
     from ssilang.kernel.plasticity.bulk import state_from_fields
 
-    return state_from_fields(bulk, *(start.of(word) for word in _STATE))
+    given: Any = tuple(start.of(word) for word in _STATE)
+    return state_from_fields(bulk, given)

@@ -168,14 +168,17 @@ _STATE = (
     key(
         "precision",
         "PREC",
-        arg("precision", "FLOTTANT", range=POSITIVE),
+        "FLOTTANT",
+        range=POSITIVE,
         default=1e-3,
         en="distance to the surface, a share of the stress; 1.E-3 without it",
     ),
     key(
         "step",
         "DT",
-        arg("step", "FLOTTANT", range=POSITIVE, unit="s"),
+        "FLOTTANT",
+        range=POSITIVE,
+        unit="s",
         en="accepted: no law here has a viscosity",
     ),
     opt("number", "FLOTTANT", en="the same as PREC", range=POSITIVE),
@@ -232,16 +235,12 @@ def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     key(
         "share",
         "C1",
-        arg("share", "FLOTTANT", range=POSITIVE),
+        "FLOTTANT",
+        range=POSITIVE,
         default=1e-3,
         en="share of the step by which its strain is perturbed, 1.E-3 without it",
     ),
-    key(
-        "least",
-        "C2",
-        arg("least", "FLOTTANT", range=POSITIVE),
-        en="least perturbation, C1 / 100 without it",
-    ),
+    key("least", "C2", "FLOTTANT", range=POSITIVE, en="least perturbation, C1 / 100 without it"),
     _SYMMETRIC,
 )
 def perturbed(

@@ -180,7 +180,7 @@ def shell_pressure(
     model: Model = MODEL,
     value: NodeField | CellField | float = _PRESSURE,
     along: Point | None = Opt("POINT", en="vector on the side it pushes to"),
-    towards: Point | None = Key("POIN", arg("point", "POINT"), en="point on the side it pushes to"),
+    towards: Point | None = Key("POIN", "POINT", en="point on the side it pushes to"),
     fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Pressure on shells."""
@@ -291,9 +291,7 @@ def shell_forces(
 def line_forces(
     model: Model = MODEL,
     density: NodeField | Point = _DENSITY,
-    normal: Point | None = Key(
-        "PROJ", arg("normal", "POINT"), en="vector normal to the plane of projection"
-    ),
+    normal: Point | None = Key("PROJ", "POINT", en="vector normal to the plane of projection"),
 ) -> NodeField:
     """Forces along beams and bars."""
     return line_load(model, _values(density), None if normal is None else normal.coordinates)

@@ -28,7 +28,8 @@ _WORDS = (
     key(
         "passes",
         "ELIM",
-        arg("passes", "ENTIER", range=NOT_NEGATIVE),
+        "ENTIER",
+        range=NOT_NEGATIVE,
         en="0 keeps all conditions in a saddle point",
     ),
     key(

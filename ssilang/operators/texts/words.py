@@ -9,13 +9,7 @@ from ssilang.operators.texts.fortran_format import DEFAULT_FORMAT, formatted
 
 _MARKS = frozenset("*/<>")
 TEXT = (
-    key(
-        "form",
-        "FORMAT",
-        arg("form", "MOT"),
-        repeated=True,
-        en="Fortran format of the numbers that follow",
-    ),
+    key("form", "FORMAT", "MOT", repeated=True, en="Fortran format of the numbers that follow"),
     many(
         "items",
         "MOT",

@@ -1,7 +1,5 @@
 """What an editor knows of the library's procedures, against what the language reads in them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path

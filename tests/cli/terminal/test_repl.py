@@ -1,7 +1,5 @@
 """The interactive session, fed with lines: all that it prints, asks, keeps."""
 
-from __future__ import annotations
-
 import atexit
 import io
 import sys

@@ -1,7 +1,5 @@
 """The program on a real terminal: keys, Ctrl-C, completion, paging, the progress line."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -118,11 +118,12 @@ def test_a_state_goes_through_its_fields_and_back(line: str, law: str, more: str
     blank = PointState(*np.zeros((3, n, 6)), np.zeros_like(variables))
     blocks = points.stress_block(state), points.variable_block(state), points.plastic_block(state)
     assert len(points.law.variables) > 1
-    back, known = points.restored(blank, *(CellField((block,)) for block in blocks))
+    given = tuple(CellField((block,)) for block in blocks)
+    back, known = points.restored(blank, given)
     assert known
     for name in ("stress", "plastic", "variables"):
         np.testing.assert_allclose(getattr(back, name), getattr(state, name), rtol=1e-12)
-    _, known = points.restored(blank, None, *(CellField((block,)) for block in blocks[1:]))
+    _, known = points.restored(blank, (None, *given[1:]))
     assert not known
 
 

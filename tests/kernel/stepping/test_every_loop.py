@@ -4,8 +4,6 @@ Nothing is solved here: that balance, supports, Newmark's formulas, laws and ene
 step says that the step is right, whatever way led to it.
 """
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """Declared forms: what entries read, which form runs, what is said where none fits."""
 
-from __future__ import annotations
-
 import io
 
 import pytest

@@ -1,7 +1,5 @@
 """Which forms of operators a run has gone through."""
 
-from __future__ import annotations
-
 from typing import NoReturn
 
 import pytest

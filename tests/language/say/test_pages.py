@@ -1,7 +1,5 @@
 """The page of an operator says all that its forms declare, that of a procedure all of its head."""
 
-from __future__ import annotations
-
 import pytest
 
 from ssilang.language.registry import (

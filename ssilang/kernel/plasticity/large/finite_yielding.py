@@ -24,11 +24,8 @@ from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import Numbering, block_indices
 from ssilang.kernel.plasticity.bulk import Answer, State, without_stiffness
 from ssilang.kernel.plasticity.finite import FiniteBulk, FiniteSolid, finite_bulk, finite_zone
-from ssilang.kernel.plasticity.points import PlasticPoints, PointState
+from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
-
-Fields = tuple[CellField | None, CellField | None, CellField | None]
-"""Cauchy stresses, internal variables, plastic strains; None: none."""
 
 
 class InsideOutError(Exception):
@@ -218,7 +215,7 @@ def _start(made: YieldingSolid, u: FloatArray, given: Fields, time: float) -> Po
     points = made.points
     zero = np.zeros((points.count, 6))
     blank = PointState(zero, zero, zero, np.zeros((points.count, len(points.law.variables))), time)
-    state, _ = points.restored(blank, None, given[1], given[2])
+    state, _ = points.restored(blank, (None, *given[1:]))
     names = family_of(points.zone).stress_names(points.zone)
     values = zone_field(points.zone, given[0]).matrix(names, "STRESSES")
     return replace(state, stress=made.taken(values, u, state))

@@ -15,6 +15,7 @@ from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coul
 from ssilang.kernel.solvers.backends import factorise, goes_to_petsc
 from ssilang.kernel.solvers.multigrid.multigrid import conjugate_gradients
 from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.state import Motion
 
 MANY = 150_000  # heavy unknowns from which their accelerations are iterated, never factorised
 SOME = 20_000  # from which those of one force are: the factor takes minutes at 80 000 of a solid
@@ -49,6 +50,16 @@ def joint_state(problem: Problem) -> JointState:
     respond(joints.codes, w, problem.state, joints.parameters, t, state, D)
     interface_forces(joints.points, t, f)
     return JointState(delta, f, w, t, state, D)
+
+
+def motion_at_rest(problem: Problem) -> Motion:
+    """The motion of a problem that begins without velocity, whatever its `v`."""
+    joints, zero = joint_state(problem), np.zeros(problem.numbering.size)
+    return Motion(
+        problem.u.copy(), zero, zero.copy(), joints.delta, joints.f, joints.w, joints.t,
+        joints.state, zero.copy(), initial_energies(problem, zero, joints),
+        np.zeros(0 if problem.contact is None else problem.contact.size),
+    )  # fmt: skip
 
 
 def admissible_velocity(problem: Problem) -> FloatArray:

@@ -56,13 +56,7 @@ _SURFACE = group(
 RAYS = (
     group(
         "rays",
-        key(
-            "way",
-            ("CYLI", "CONI"),
-            arg("point", "POINT"),
-            optional=False,
-            en="along a vector, or from a point",
-        ),
+        key("way", ("CYLI", "CONI"), "POINT", optional=False, en="along a vector, or from a point"),
     ),
     _SURFACE,
 )

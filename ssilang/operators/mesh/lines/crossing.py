@@ -65,7 +65,9 @@ def crossing(
     sizes: Sizes = SIZES,
     length: float | None = Key(
         "LONG",
-        arg("length", "FLOTTANT", unit="m", range=POSITIVE),
+        "FLOTTANT",
+        unit="m",
+        range=POSITIVE,
         en="length of the curve, then the end only shows the way",
     ),
     end: Point | Mesh | None = END,

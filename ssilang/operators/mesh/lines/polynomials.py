@@ -75,14 +75,10 @@ def cour(
     count: int | None = COUNT,
     sizes: Sizes = SIZES,
     before: Point | Mesh | None = Key(
-        "PINI",
-        arg("point", "POINT", "MAILLAGE"),
-        en="existing point at the start, or a line to go on",
+        "PINI", "POINT", "MAILLAGE", en="existing point at the start, or a line to go on"
     ),
     after: Point | Mesh | None = Key(
-        "PFIN",
-        arg("point", "POINT", "MAILLAGE"),
-        en="existing point at the end, or a line to reach",
+        "PFIN", "POINT", "MAILLAGE", en="existing point at the end, or a line to reach"
     ),
     limits: tuple[float, float] = Key(
         "PARAMETRE",

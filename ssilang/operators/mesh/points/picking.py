@@ -35,7 +35,8 @@ ABSOLUTE = flag("absolute", "ABS", en="of absolute values")
 NAMED = key(
     "named",
     ("AVEC", "SANS"),
-    arg("names", "LISTMOTS", kind="component"),
+    "LISTMOTS",
+    kind="component",
     repeated=True,
     en="only these components, or all but these",
 )
@@ -194,7 +195,9 @@ def made(
     ),
     density: float | None = Key(
         "DENS",
-        arg("density", "FLOTTANT", unit="m", range=POSITIVE),
+        "FLOTTANT",
+        unit="m",
+        range=POSITIVE,
         en="mesh size there, that of OPTI DENS by default",
     ),
 ) -> Point:
@@ -213,7 +216,10 @@ def made_of_lists(
     ),
     density: float | ListReel | None = Key(
         "DENS",
-        arg("density", "FLOTTANT", "LISTREEL", unit="m", range=POSITIVE),
+        "FLOTTANT",
+        "LISTREEL",
+        unit="m",
+        range=POSITIVE,
         en="mesh size there, that of OPTI DENS by default",
     ),
 ) -> Mesh:

@@ -216,20 +216,18 @@ def _values(block: CellFieldBlock, named: Named, absolute: bool) -> FloatArray:
     return np.abs(table) if absolute else table
 
 
-@elem.form(
-    EXTREMES,
-    main("field", "MCHAML", en="field in cells"),
-    ABSOLUTE,
-    choice(
-        "how",
+@elem.form(EXTREMES, of=("MCHAML",))
+def by_values(
+    what: Chosen,
+    field: CellField = Main("MCHAML", en="field in cells"),
+    absolute: bool = ABSOLUTE,
+    how: str = Choice(
         ("LARG", "STRI"),
         default="LARG",
         en="one value of the cell fits, the default, or all do; a single cell where extreme",
     ),
-    NAMED,
-    of=("MCHAML",),
-)
-def by_values(what: Chosen, field: CellField, absolute: bool, how: str, named: Named) -> Mesh:
+    named: Named = NAMED,
+) -> Mesh:
     """Pick cells whose values are extreme or compare."""
     values = [_values(b, named, absolute) for b in field.blocks]
     good = picked(np.hstack([t.ravel() for t in values]), what.word, list(what.values.values()))

@@ -18,7 +18,7 @@ def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
     said("SEPA"),
     _MESH,
     key("branching", ("FACE", "LIGN"), repeated=True, en="sides of more than two cells separate"),
-    key("separator", "MAIL", arg("mesh", "MAILLAGE"), en="sides within these cells separate"),
+    key("separator", "MAIL", "MAILLAGE", en="sides within these cells separate"),
     select(
         "turn",
         {

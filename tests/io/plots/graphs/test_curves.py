@@ -1,7 +1,5 @@
 """Drawings of curves: what stands on the axes."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Sequence
 from pathlib import Path

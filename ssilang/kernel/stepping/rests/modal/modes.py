@@ -307,11 +307,8 @@ class SmallLoop:
     ) -> None:  # fmt: skip
         """Jumps, tractions and states of instants from those of the only joint."""
         p, (to_w, to_t, state) = self._joints.p[0], to
-        to_w[:, 0, -1], to_t[:, 0, -1], state[:, 0, Variable.XI] = (
-            w[:, 0, 0],
-            t[:, 0, 0],
-            xi[:, 0, 0],
-        )
+        to_w[:, 0, -1], to_t[:, 0, -1] = w[:, 0, 0], t[:, 0, 0]
+        state[:, 0, Variable.XI] = xi[:, 0, 0]
         if p[Parameter.FU] > 0.0:
             lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * xi[:, 0, 0])
             state[:, 0, Variable.DAMAGE] = np.where(t[:, 0, 0] < 0.0, 0.0, lost)
