@@ -17,16 +17,14 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.stepping.problem.plausibility import Swing, swings
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-from ssilang.kernel.waves.shaken import accelerations, matter, strong_frequency
+from ssilang.kernel.waves.shaken import accelerations, is_record, matter, strong_frequency
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
 MOST = 0.22  # of the critical damping: soil that shears by several thousandths has less
 OVERDAMPED = 2.0  # of it: what creeps, and does not swing
-FEWEST = 10  # points of a record
 FEWEST_LEVELS = 3  # of cells: fewer are no ground
-BOTH_WAYS = 0.1  # of its largest value: a record has as much of the other sign
-COUNTS = 0.9  # of the energy of its velocities: what lies above moves little
+COUNTS = 0.9  # of the energy of a record's velocities: what lies above moves little
 KINDS = ("RIGIDITE", "MASSE")
 
 
@@ -52,7 +50,7 @@ def damped_heavily(problem: Problem, inputs: Inputs) -> Told:
         return
     own = without_zones(inputs.damping, joint_zones(inputs.model or Model(())))
     parts = [Matrix(own.table, tuple(b for b in own.blocks if b.kind == k)) for k in KINDS]
-    records = [k for k, (_, y) in enumerate(problem.loading.curves) if _is_record(y)]
+    records = [k for k, (_, y) in enumerate(problem.loading.curves) if is_record(y)]
     if not records or not any(p.blocks for p in parts):
         return
     shaken, worst = accelerations(problem).any(axis=0), (0.0, 0.0, _Proportional(0.0, 0.0))
@@ -73,11 +71,6 @@ def damped_heavily(problem: Problem, inputs: Inputs) -> Told:
         told = {"ratio": ratio, "frequency": frequency, "wanted": 0.1 / (2.0 * np.pi * frequency)}
         by_mass = np.pi * damping.beta * frequency < ratio / 2.0
         yield "operators.dynamics.damped-heavily", {**told, **vars(damping), "by_mass": by_mass}
-
-
-def _is_record(y: Any) -> bool:
-    most = float(np.abs(y).max(initial=0.0))
-    return len(y) >= FEWEST and min(float(y.max()), -float(y.min())) > BOTH_WAYS * most
 
 
 def _of_motion(swing: Swing, problem: Problem, parts: list[Any]) -> tuple[float, _Proportional]:

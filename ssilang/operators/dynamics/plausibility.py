@@ -237,7 +237,8 @@ IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand, braked,
+    _masses_alone, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+    braked,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
