@@ -80,6 +80,14 @@ def accelerations(problem: "Problem") -> FloatArray:
     return found
 
 
+def largest_motions(problem: "Problem") -> FloatArray:
+    """Largest acceleration (k,) of each load that changes and shakes, largest factor of others."""
+    loading, sizes = problem.loading, np.linalg.norm(accelerations(problem), axis=0)
+    sizes = np.where(sizes > 0.0, sizes, np.abs(loading.imposed).max(axis=0, initial=0.0))
+    most = np.abs(loading.at(problem.times)).max(axis=0, initial=0.0)
+    return np.asarray((np.where(sizes > 0.0, sizes, 1.0) * most)[changing(problem)])
+
+
 def is_shaken(problem: "Problem", name: str) -> bool:
     """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
     axes = axes_of(problem)
