@@ -16,6 +16,8 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "INFERIEUR": np.less,
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
+_FLAT = 1e-9  # of a mesh's size: across, it has none
+_BESIDE = 0.5  # of a cell: farther out, no point of the mesh is meant
 _LIMIT = arg("limit", "FLOTTANT", en="value", range=ANY_NUMBER)
 EXTREMES = select(
     "what",
@@ -112,9 +114,28 @@ def junctions_of(session: Session, mesh: Mesh = _MESH) -> Mesh:
         en="the nearest to a point",
     )
 )
-def nearest(session: Session, near: Chosen, mesh: Mesh = _MESH) -> Point:
+def nearest(session: Session, call: Call, near: Chosen, mesh: Mesh = _MESH) -> Point:
     """The point of a mesh that is nearest to another one."""
-    return Point(workspace(session).nodes, nearest_node(mesh, near["point"].coordinates))
+    given, nodes = near["point"], workspace(session).nodes
+    found = nearest_node(mesh, given.coordinates)
+    if given.node == len(nodes) - 1:  # a place, and no point of another mesh
+        points = nodes.coordinates[mesh.node_ids]
+        low, high = points.min(axis=0), points.max(axis=0)
+        flat = high - low < _FLAT * (high - low).max()
+        beside = np.where(flat, 0.0, np.maximum(low - given.coordinates, given.coordinates - high))
+        size = _size_at(mesh, found)
+        if beside.max() > _BESIDE * size > 0.0:
+            told = {"found": nodes.told(found), "off": float(beside.max()), "size": size}
+            call.warn("operators.mesh.place-beside-mesh", axis="XYZ"[int(beside.argmax())], **told)
+    return Point(nodes, found)
+
+
+def _size_at(mesh: Mesh, node: int) -> float:
+    """The shortest way from a node to others of its cells, nought without."""
+    blocks = [b.connectivity[(b.connectivity == node).any(axis=1)] for b in mesh.blocks]
+    others = np.concatenate([b.ravel() for b in blocks])
+    ways = np.linalg.norm(mesh.nodes.coordinates[others] - mesh.nodes.coordinates[node], axis=1)
+    return float(ways[ways > 0.0].min(initial=np.inf)) if (ways > 0.0).any() else 0.0
 
 
 @poin.form(
