@@ -1,5 +1,7 @@
 """EVOL: curves from lists, along lines of nodes, in time."""
 
+from weakref import WeakKeyDictionary
+
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.language.filled import Filled
@@ -248,6 +250,8 @@ def _only(call: Call, field: NodeField) -> str:
 
 MISSING = object()
 _NONE = 1e-12  # of the model's size: what a body at rest moves by rounding
+_LOOKED_AT: WeakKeyDictionary[Any, set[int]] = WeakKeyDictionary()
+"""Nodes whose motion was read of what a calculation has recorded."""
 _ROUNDING = 1e-9  # of another translation of the same point
 _LOST = 5.0  # % of a largest value that may stand between two instants
 
@@ -323,7 +327,10 @@ def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str)
 def _tell_rounding(
     call: Call, fields: Sequence[Any], values: FloatArray, name: str, node: int
 ) -> None:
-    """Warn of a translation that is free and stays at nought where the point moves along others."""
+    """Warn of a translation that is free and stays at nought where the point moves along others.
+
+    A script that has looked at these first knows, and asks what is left.
+    """
     if not isinstance(fields, RecordedFields):
         return
     from ssilang.kernel.stepping.problem.bodies import held
@@ -334,9 +341,11 @@ def _tell_rounding(
     ways = {n: float(np.abs(v).max(initial=0.0)) for n, v in found.items() if v is not None}
     other = max(ways, key=lambda n: ways[n], default="")
     if name not in ways or ways[name] > _ROUNDING * ways[other] or not ways[other]:
+        _LOOKED_AT.setdefault(fields.track, set()).add(node)
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
-    if free and not any(w.code == code for w in call.session.warnings):
+    known = node in _LOOKED_AT.get(fields.track, ())
+    if free and not known and not any(w.code == code for w in call.session.warnings):
         told = {"most": float(np.abs(values).max(initial=0.0)), "other": other}
         node_told = problem.numbering.table.told(node)
         call.warn(code, name=name, node=node_told, **told, moved=ways[other])

@@ -1,5 +1,7 @@
 """POIN: points picked from meshes and fields, or made from coordinates."""
 
+from itertools import permutations
+
 from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines.lines import line_ends
@@ -17,7 +19,7 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
 _FLAT = 1e-9  # of a mesh's size: across, it has none
-_BESIDE = 0.5  # of a cell: farther out, no point of the mesh is meant
+_BESIDE = 0.5  # of a cell: farther out, a corner is asked for, or no point of the mesh
 _LIMIT = arg("limit", "FLOTTANT", en="value", range=ANY_NUMBER)
 EXTREMES = select(
     "what",
@@ -122,11 +124,16 @@ def nearest(session: Session, call: Call, near: Chosen, mesh: Mesh = _MESH) -> P
         points = nodes.coordinates[mesh.node_ids]
         low, high = points.min(axis=0), points.max(axis=0)
         flat = high - low < _FLAT * (high - low).max()
-        beside = np.where(flat, 0.0, np.maximum(low - given.coordinates, given.coordinates - high))
+        ways = [*permutations(given.coordinates[~flat])]
+        others = np.tile(given.coordinates, (len(ways), 1))
+        others[:, ~flat] = ways
+        beside = np.where(flat, 0.0, np.maximum(low - others, others - high)).max(axis=1)
         size = _size_at(mesh, found)
-        if beside.max() > _BESIDE * size > 0.0:
-            told = {"found": nodes.told(found), "off": float(beside.max()), "size": size}
-            call.warn("operators.mesh.place-beside-mesh", axis="XYZ"[int(beside.argmax())], **told)
+        if beside[0] > _BESIDE * size > 0.0 and beside.min() <= _BESIDE * size:
+            within = others[beside.argmin(), : workspace(session).dimension]
+            told = {"found": nodes.told(found), "off": float(beside[0]), "size": size}
+            other = "(" + " ".join(f"{x:g}" for x in within) + ")"
+            call.warn("operators.mesh.place-beside-mesh", other=other, **told)
     return Point(nodes, found)
 
 
