@@ -53,13 +53,13 @@ def damped_heavily(problem: Problem, inputs: Inputs) -> Told:
     records = [k for k, (_, y) in enumerate(problem.loading.curves) if is_record(y)]
     if not records or not any(p.blocks for p in parts):
         return
-    shaken, worst = accelerations(problem).any(axis=0), (0.0, 0.0, _Proportional(0.0, 0.0))
+    shaken, worst = accelerations(problem) != 0.0, (0.0, 0.0, _Proportional(0.0, 0.0))
     found = [] if plastic_zones(inputs.model) else swings(problem)
     found = [s for s in found if np.isfinite(s.period)]
     matrices = [assemble(p, problem.numbering) for p in parts]
     ground = None
     for k in records:
-        power = -1 if shaken[k] else int(problem.loading.imposed[:, k].any())
+        power = -1 if shaken[:, k].any() else int(problem.loading.imposed[:, k].any())
         most = strong_frequency(*problem.loading.curves[k], power, COUNTS)
         moved = [_of_motion(s, problem, matrices) for s in found if s.load == k]
         ground = ground or (None if moved else _ground(inputs, parts))

@@ -218,8 +218,7 @@ def _swings(problem: Problem) -> Iterator[Swing]:
         if moved > 0.0 and 0.0 < work < np.inf:
             period, damped = 2.0 * np.pi * np.sqrt(moved / work), float(x @ (problem.C @ x))
             damped *= abs(damped) > ROUNDING * (x**2 @ abs(problem.C.diagonal()))
-            ratio = damped / (2.0 * np.sqrt(work * moved))
-            yield Swing(float(period), ratio, sudden, k, x)
+            yield Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden, k, x)
 
 
 def is_dragged(problem: Problem, motion: FloatArray) -> bool:
@@ -357,8 +356,7 @@ def contact_resolution(problem: Problem) -> Resolution | None:
     mobility = float(np.sum(pushes[moving] ** 2 / masses[moving]))
     if mobility <= 0.0:
         return None
-    dt = float(np.diff(problem.times).max())
-    return Resolution(float(np.pi / np.sqrt(k * mobility)), dt)
+    return Resolution(float(np.pi / np.sqrt(k * mobility)), float(np.diff(problem.times).max()))
 
 
 def _uniform_opening(pairs: IntArray, B: FloatArray, size: int) -> FloatArray:
