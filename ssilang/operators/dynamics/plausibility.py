@@ -378,6 +378,9 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
             warn_repeated(*place, matrix, kind, inputs.stiffness)
+    others = {b.kind for b in inputs.stiffness.blocks} & {"MASSE", "AMORTISSEMENT"}
+    if others and not all(b.kind == "MASSE" for b in inputs.stiffness.blocks):
+        entries.warn("operators.matrices.kind-in-stiffness", kind="AMORTISSEMENT" in others)
     damping = () if inputs.damping is None else inputs.damping.blocks
     dashpots = [b for b in damping if b.kind == "AMORTISSEMENT"]
     for node in idle_nodes(dashpots, inputs.stiffness)[:1].tolist():

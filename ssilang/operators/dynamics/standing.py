@@ -55,6 +55,7 @@ BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height
 OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
 PAIR = 2  # terms of a relation of two nodes
 CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
+STRONG = 0.3  # of it: what no ground motion but the strongest makes yield
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
 TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
@@ -219,7 +220,7 @@ def braked(problem: Problem, _: Inputs) -> Told:
 
 
 def weak_cores(problem: Problem, _: Inputs) -> Told:
-    """Lead cores that yield under next to nothing of the weight above."""
+    """Lead cores that yield under next to nothing of the weight above, or never."""
     bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
     lead = [] if joints is None else joints.codes == LawCode.LEAD
     force = problem.loading.forces @ steady(problem)
@@ -228,10 +229,12 @@ def weak_cores(problem: Problem, _: Inputs) -> Told:
         up, w = bodies.along(body, axes[-1]), np.zeros((joints.n_points, joints.dimension))
         local_jumps(joints.points, joints.J @ up, w)
         cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
-        if 0.0 < cores < CORES * (weight := -float(up @ force)):
+        weight = -float(up @ force)
+        if weight > 0.0 and cores > 0.0 and not CORES <= cores / weight <= STRONG:
             node = problem.numbering.table.told(int(problem.numbering.nodes[(up != 0.0).argmax()]))
             told = {"node": node, "cores": cores, "weight": weight, "share": cores / weight}
-            yield "operators.dynamics.cores-weak", told
+            weak = cores < CORES * weight
+            yield f"operators.dynamics.cores-{'weak' if weak else 'strong'}", told
 
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
