@@ -45,6 +45,7 @@ WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
 LARGEST = 100.0  # m; a structure that is a point on a short joint may have less
 OFF = 1e-3  # of a load's factor: less is no other one
+FEW_STOPS = 50
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
 AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
@@ -74,6 +75,9 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
     if problem.interface is not None:
         held = held + problem.interface.J.T @ joint_state(problem).f
     held, forces = T.T @ held, T.T @ loading.forces
+    if problem.contact is not None and problem.contact.G.shape[0] <= FEW_STOPS:
+        stops = (T.T @ problem.contact.G.T).toarray()  # whatever they bear
+        held, forces = (f - stops @ np.linalg.lstsq(stops, f)[0] for f in (held, forces))
     share = shares(forces, held[:, None])[:, 0]
     begins, ends = loading.at(problem.times[[0, -1]])
     off = np.abs(forces @ begins - held).max(initial=0.0) > OFF * np.abs(held).max(initial=0.0)
