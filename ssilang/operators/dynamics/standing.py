@@ -237,8 +237,8 @@ def weak_cores(problem: Problem, _: Inputs) -> Told:
         if weight > 0.0 and cores > 0.0 and not CORES <= cores / weight <= STRONG:
             node = problem.numbering.table.told(int(problem.numbering.nodes[(up != 0.0).argmax()]))
             told = {"node": node, "cores": cores, "weight": weight, "share": cores / weight}
-            weak = cores < CORES * weight
-            yield f"operators.dynamics.cores-{'weak' if weak else 'strong'}", told
+            codes = "operators.dynamics.cores-strong", "operators.dynamics.cores-weak"
+            yield codes[cores < CORES * weight], told
 
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
