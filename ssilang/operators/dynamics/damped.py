@@ -25,6 +25,7 @@ MOST = 0.22  # of the critical damping: soil that shears by several thousandths 
 OVERDAMPED = 2.0  # of it: what creeps, and does not swing
 FEWEST_LEVELS = 3  # of cells: fewer are no ground
 COUNTS = 0.9  # of the energy of a record's velocities: what lies above moves little
+SMALL, BELOW = 0.015, 0.3  # least ratio that is meant; its frequency over that which is moved
 KINDS = ("RIGIDITE", "MASSE")
 
 
@@ -67,10 +68,18 @@ def damped_heavily(problem: Problem, inputs: Inputs) -> Told:
             low = min(natural, most or natural)
             worst = max(worst, (damping.ratio(low, natural), low, damping), key=lambda w: w[0])
     ratio, frequency, damping = worst
-    if ratio > MOST and all(s.damping <= OVERDAMPED for s in found):
+    if any(s.damping > OVERDAMPED for s in found):
+        return
+    if ratio > MOST:
         told = {"ratio": ratio, "frequency": frequency, "wanted": 0.1 / (2.0 * np.pi * frequency)}
         by_mass = np.pi * damping.beta * frequency < ratio / 2.0
         yield "operators.dynamics.damped-heavily", {**told, **vars(damping), "by_mass": by_mass}
+        return
+    low = float(np.sqrt(damping.alpha * damping.beta))
+    least = float(np.sqrt(damping.alpha / (damping.beta or np.inf)) / (2.0 * np.pi))
+    if low > SMALL and least < BELOW * frequency:
+        told = {"ratio": ratio, "frequency": frequency, "least": least, "low": low}
+        yield "operators.dynamics.damped-below", {**told, **vars(damping)}
 
 
 def _of_motion(swing: Swing, problem: Problem, parts: list[Any]) -> tuple[float, _Proportional]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -378,15 +378,23 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
             warn_repeated(*place, matrix, kind, inputs.stiffness)
+    others = {b.kind for b in inputs.stiffness.blocks} & {"MASSE", "AMORTISSEMENT"}
+    if others and not all(b.kind == "MASSE" for b in inputs.stiffness.blocks):
+        entries.warn("operators.matrices.kind-in-stiffness", kind="AMORTISSEMENT" in others)
     damping = () if inputs.damping is None else inputs.damping.blocks
     dashpots = [b for b in damping if b.kind == "AMORTISSEMENT"]
     for node in idle_nodes(dashpots, inputs.stiffness)[:1].tolist():
         told = {"node": inputs.stiffness.table.told(node)}
         entries.warn("operators.dynamics.dashpots-on-supports", **told)
-    for node, unknown, value in _alike(dashpots, inputs.stiffness):
+    springs, braking = _nodal(inputs.stiffness.blocks), _nodal(dashpots)
+    for (node, unknown), value in sorted(braking.items() & springs.items())[:1]:
         told = {"node": inputs.stiffness.table.told(node), "unknown": unknown, "value": value}
         entries.warn("operators.dynamics.dashpot-of-spring", **told)
-        break
+    for found in (springs, braking):
+        ways = [(n, u, v, a) for (n, u), v in found.items() for a in AXES if u[0] == "R"]
+        for node, unknown, value, other in [w for w in ways if found.get((w[0], w[3])) == w[2]][:1]:
+            told = {"node": inputs.stiffness.table.told(node), "value": value, "other": other}
+            entries.warn("operators.dynamics.turns-as-moves", unknown=unknown, **told)
     for block in damping:
         diagonal = np.diagonal(block.values, axis1=1, axis2=2)
         drives = diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0)
@@ -396,21 +404,16 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
             break
 
 
-def _alike(dashpots: list[Any], stiffness: Matrix) -> Iterator[tuple[int, str, float]]:
-    """Nodes and unknowns whose dashpot has the very number of the spring, and no round one."""
-    springs, found = (
-        {
-            (node, unknown): value
-            for b in blocks
-            if b.raw_nodes.shape == (1, 1)
-            for node in b.nodes[:, 0].tolist()
-            for unknown, value in zip(b.unknowns, np.diagonal(b.values[0]).tolist(), strict=True)
-        }
-        for blocks in (stiffness.blocks, dashpots)
-    )
-    for (node, unknown), value in found.items():
-        if value == springs.get((node, unknown)) and float(f"{value:.3g}") != value:
-            yield node, unknown, value
+def _nodal(blocks: Iterable[Any]) -> dict[tuple[int, str], float]:
+    """Springs or dashpots by node and unknown, but those of round numbers."""
+    return {
+        (node, unknown): value
+        for b in blocks
+        if b.raw_nodes.shape == (1, 1)
+        for node in b.nodes[:, 0].tolist()
+        for unknown, value in zip(b.unknowns, np.diagonal(b.values[0]).tolist(), strict=True)
+        if float(f"{value:.3g}") != value
+    }
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:

@@ -27,6 +27,7 @@ from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
     GRAVITIES,
+    LARGE,
     SAME,
     accelerations,
     axes_of,
@@ -181,8 +182,12 @@ class _Entering:
         load, mass = self.inputs.load, self.inputs.mass
         terms = [p for p in load.parts for _ in nodal_terms(p)] if load and mass else []
         shakes = self.loads * self.changing
-        for part, pushed, moved in zip(terms, shakes.T, self.base.T, strict=False):
-            along, power = (pushed, -1) if pushed.any() else (moved, 1)
+        waves, few = np.zeros_like(shakes), self.problem.loading.forces.size < LARGE
+        if terms and few and not shakes.any():  # that dashpots let in, at their velocities
+            braked = self.problem.C @ self.along
+            waves = shares(braked, self.problem.loading.forces) * self.changing
+        for part, pushed, moved, let in zip(terms, shakes.T, self.base.T, waves.T, strict=False):
+            along, power = (pushed, -1) if pushed.any() else (moved, 1) if moved.any() else (let, 0)
             if not part.time or not along.any() or len(part.time.parts[0].abscissas) < MANY:
                 continue
             curve = part.time.parts[0]
