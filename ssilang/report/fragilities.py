@@ -22,7 +22,15 @@ from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import table, text
 from ssilang.report.records import FRAGILITY, read_record
-from ssilang.report.sweep_table import MOTION, Sweep, link_to, real, summary_of
+from ssilang.report.sweep_table import (
+    MOTION,
+    Sweep,
+    link_to,
+    real,
+    summary_of,
+    unscaled,
+    usual_intensities,
+)
 from ssilang.report.verdict import is_endless
 
 FRACTILES = (16, 84)
@@ -94,10 +102,7 @@ def _spectra(
 
 ASKED = "fragility.json"
 """What a sweep was asked for, beside its table."""
-INTENSITIES = ("PGA", "SA", "PGV", "PGD", "CAV", "ARIAS")
-"""Figures taken as intensities if none is named; SA1 or SA(T1) is one of SA."""
 _LIMIT = re.compile(r"\s*(.+?)\s*([<>])\s*([^<>]+)")
-_KIND = re.compile(r"[A-Za-z]+")
 _FEWEST = 5
 """Runs of which one may be told to stand apart."""
 _APART = 8.0
@@ -203,10 +208,7 @@ def intensities_of(sweep: Sweep, asked: Asked) -> list[str]:
     """Names that were asked for, else those that are known as such, else what was swept."""
     if asked.intensities:
         return list(dict.fromkeys(asked.intensities))
-    usual = [
-        name for name in sweep.figures
-        if (kind := _KIND.match(name)) and kind[0].upper() in INTENSITIES
-    ]  # fmt: skip
+    usual = usual_intensities(sweep.figures)
     swept = [n for n in sweep.swept if len({real(row[n]) for row in sweep.rows}) > 1]
     return usual or [n for n in swept if all(real(row[n]) is not None for row in sweep.rows)][:1]
 
@@ -307,17 +309,10 @@ def _notes(sweep: Sweep, fits: list[Fit], told: Teller) -> Iterator[str]:
         if name in sweep.figures:
             for run, ratio in _apart(sweep, name):
                 yield told("report.fragility-apart", run=run, name=name, ratio=ratio)
-            for swept in [n for n in sweep.swept if n != MOTION and _still(sweep, n, name)]:
-                if not all(_still(sweep, swept, fit.limit.figure) for fit in fits):
-                    yield told("report.fragility-still", name=name, swept=swept)
-
-
-def _still(sweep: Sweep, swept: str, figure: str) -> bool:
-    """Whether a figure is the same whatever a swept value, the others as they are."""
-    others = [n for n in sweep.swept if n != swept]
-    done = [row for row in sweep.rows if row["exit_code"] == "0"]
-    few, more = ({tuple(row[n] for n in k) for row in done} for k in (others, [*others, figure]))
-    return len(more) == len(few) < len(done)
+            judged = [name, *(fit.limit.figure for fit in fits)]
+            done = [row for row in sweep.rows if row["exit_code"] == "0"]
+            for _, swept in unscaled(sweep.folder, done, sweep.swept, judged, [name]):
+                yield told("report.fragility-still", name=name, swept=swept)
 
 
 def _apart(sweep: Sweep, name: str) -> Iterator[tuple[str, float]]:

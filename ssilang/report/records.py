@@ -90,6 +90,7 @@ SUMMARY = {
             "procedure?": TEXT, "unknowns?": NUMBER, "interface_unknowns?": NUMBER,
             "steps?": NUMBER, "method?": TEXT, "solver?": TEXT,
             "most_interface_iterations?": NUMBER, "energy_imbalance?": NUMBER, "seconds?": NUMBER,
+            "motions?": [NUMBER],
         }],
         "verdicts?": [VERDICT],
     },

@@ -3,8 +3,9 @@
 import csv
 import json
 import math
+import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 from pathlib import Path
@@ -22,6 +23,10 @@ from ssilang.report.records import MOST_BYTES, read_record
 
 TABLE, RUNS, KEPT = "sweep.csv", "runs", "row.json"
 MOTION = "MOTION"
+MOTIONS = "motions of the calculations"
+INTENSITIES = ("PGA", "SA", "PGV", "PGD", "CAV", "ARIAS")
+"""Figures taken as intensities if none is named; SA1 or SA(T1) is one of SA."""
+_KIND = re.compile(r"[A-Za-z]+")
 
 
 @dataclass(frozen=True)
@@ -106,6 +111,44 @@ def warnings_of(folder: Path, rows: Sequence[Mapping[str, Any]]) -> list[Warned]
         text = next((str(w["text"]) for w in given if w["code"] == code), code)
         found.append(Warned(text, str(row["run"]), str(row["folder"]), count[code]))
     return found[::-1]
+
+
+def is_still(
+    rows: Sequence[Mapping[str, Any]], swept: Sequence[str], name: str, figures: Sequence[str]
+) -> bool:
+    """Whether figures are the same whatever a swept value, the others as they are."""
+    others = [n for n in swept if n != name]
+    few, more = ({repr([r.get(n) for n in k]) for r in rows} for k in (others, [*others, *figures]))
+    return len(more) == len(few) < len(rows)
+
+
+def usual_intensities(figures: Sequence[str]) -> list[str]:
+    """Figures that are taken as intensities if none is named."""
+    return [n for n in figures if (kind := _KIND.match(n)) and kind[0].upper() in INTENSITIES]
+
+
+def unscaled(
+    folder: Path,
+    rows: Sequence[Mapping[str, Any]],
+    swept: Sequence[str],
+    figures: Sequence[str],
+    intensities: Sequence[str],
+) -> Iterator[tuple[str, str]]:
+    """Intensities that a swept value leaves as they are, which scales the motions and the rest."""
+    asked = [
+        (figure, name)
+        for figure in intensities
+        for name in swept
+        if name != MOTION
+        and is_still(rows, swept, name, [figure])
+        and not is_still(rows, swept, name, figures)
+    ]
+    made = []
+    for row in rows if asked else ():
+        told = summary_of(folder, row["folder"]).get("statistics", {}).get("calculations", [])
+        made.append({**row, MOTIONS: [c.get("motions") for c in told]})
+    known = any(any(row[MOTIONS]) for row in made)
+    yield from (a for a in asked if not known or not is_still(made, swept, a[1], [MOTIONS]))
 
 
 def link_to(folder: Path, run: str) -> str:

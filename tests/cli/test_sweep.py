@@ -380,6 +380,22 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     assert (code, "MOTION is set twice" in wrong) == (2, True)
 
 
+def test_a_peak_that_what_is_swept_does_not_scale_is_told(tmp_path):
+    """The motion is A times a sine of 2 m/s2, PGA the sine's; K moves the drift alone."""
+    path = tmp_path / "case.ssi"
+    path.write_text("""OPTI DIME 2 ELEM SEG2 ; A = 1. ; B = 1. ; C = 400. ;
+    LT = PROG 0. PAS 0.01 1. ; E = EVOL 'MANU' 'TEMP' LT 'ACCE' (2. * (SIN (LT * 720.))) ;
+    P = 0. 0. ; M = MASS 'UX' 1. P ; T = TABL ; T . 'RIGI' = RIGI 'UX' C P ; T . 'MASS' = M ;
+    T . 'CHAR' = CHAR 'MECA' (M * (MANU 'CHPO' P 1 'UX' -1.)) (A * B * E) ;
+    T . 'TEMPS_CALCULES' = LT ; T . 'PAS_SAUVES' = 1 ; R = DYNAMIC T ;
+    SORT 'BILA' 'drift' (MAXI (ABS (EXTR (EVOL 'TEMP' R 'DEPL' 'UX' P) 'ORDO'))) ;
+    SORT 'BILA' 'PGA' (MAXI (EXTR (B * E) 'ORDO')) ;""")
+    settings = ["A=1.,2.", "B=1.,2.", "C=400.,500."]
+    _, _, wrong = run(SweepOptions(path, settings, out=tmp_path / "o", jobs=1))
+    assert "PGA does not change with A, as the motions" in wrong
+    assert wrong.count("does not change") == 1
+
+
 def test_the_table_is_a_csv_file_too(deck, tmp_path, monkeypatch):
     out = tmp_path / "out"
     run(SweepOptions(deck, ["AG=0.5,0.9", "N=1"], out=out, jobs=1))

@@ -86,6 +86,26 @@ def test_an_intensity_that_a_scale_leaves_as_it_was_is_told(tmp_path):
     assert pages == [True, False]
 
 
+def test_an_intensity_that_a_stiffness_leaves_as_it_was_is_not(tmp_path):
+    """Told where the motions change with what was swept, as the runs' summaries say."""
+    told = []
+    for scales in (True, False):
+        rows = suite()
+        for number, row in enumerate(rows, 1):
+            row["PGA"] = float(row["MOTION"][3:-4]) + 1.0
+            (run := tmp_path / "runs" / f"r{number}").mkdir(parents=True, exist_ok=True)
+            peak = row["PGA"] * (row["AG"] if scales else 1.0)
+            summary = {"version": "", "deck": "", "seconds": 1.0, "files": [], "figures": [],
+                       "warnings": [], "errors": [],
+                       "statistics": {"calculations": [{"motions": [peak]}]}}  # fmt: skip
+            (run / "summary.json").write_text(json.dumps(summary))
+        made = sweep_of(tmp_path, rows)
+        asked = Asked(read_limits("drift>1"), ["PGA"])
+        page = fragility_html(made, fits_of(made, asked), [], TOLD)
+        told.append("PGA does not change with AG" in page)
+    assert told == [True, False]
+
+
 def test_counts_and_cloud_of_known_capacities_and_the_run_that_governs(tmp_path):
     rows = suite()
     made = sweep_of(tmp_path, rows[::-1])  # names and numbers out of order

@@ -23,6 +23,7 @@ from ssilang.cli.sweeping.table import (
     RESERVED,
     Row,
     can_write,
+    columns_of,
     draw_figures,
     idle_names,
     write_plain_table,
@@ -42,7 +43,7 @@ from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
-from ssilang.report.sweep_table import read_sweep, warnings_of
+from ssilang.report.sweep_table import read_sweep, unscaled, usual_intensities, warnings_of
 
 TABLE, PLAIN_TABLE, FITS = "sweep.parquet", "sweep.csv", "fragility.csv"
 
@@ -311,7 +312,12 @@ def _tell_warnings(
     script = options.deck.read_text(encoding="utf-8", errors="replace")
     done = [row for row in rows if row["exit_code"] == 0]
     idle = [name for name in idle_names(done, swept) if not _chooses(name, script)]
-    for code, data in [*told, *(("cli.value-idle", {"name": name}) for name in idle)]:
+    told += [("cli.value-idle", {"name": name}) for name in idle]
+    figures = [n for n in columns_of(done) if n not in (*RESERVED, *swept)]
+    known = options.intensity or usual_intensities(figures)
+    for name, value in unscaled(options.folder, done, swept, figures, known):
+        told.append(("report.fragility-still", {"name": name, "swept": value}))
+    for code, data in told:
         err.write(sentence(code, data, options.language) + "\n")
 
 

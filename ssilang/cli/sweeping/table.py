@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ssilang.cli.sweeping.given import MOTION
-from ssilang.report.sweep_table import grouped
+from ssilang.report.sweep_table import grouped, is_still
 
 Row = dict[str, Any]
 RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
@@ -59,15 +59,13 @@ def write_plain_table(rows: Sequence[Row], path: Path) -> None:
 def idle_names(rows: Sequence[Row], swept: Sequence[str]) -> list[str]:
     """Names of several numbers or motions of which no figure depends, to the last digit."""
     figures = [n for n in columns_of(rows) if n not in (*RESERVED, *swept)]
-    found = []
-    for name in swept if figures else ():
-        others = [n for n in swept if n != name]
-        few, more = (
-            {repr([r.get(n) for n in k]) for r in rows} for k in (others, others + figures)
-        )
-        if len(more) == len(few) < len(rows) and (name == MOTION or _numbers(rows, name)):
-            found.append(name)
-    return found
+    return [
+        name
+        for name in swept
+        if figures
+        and is_still(rows, swept, name, figures)
+        and (name == MOTION or _numbers(rows, name))
+    ]
 
 
 def draw_figures(rows: Sequence[Row], swept: Sequence[str], folder: Path) -> list[Path]:

@@ -242,6 +242,27 @@ def bodies_apart(matrix: Matrix, zones: Iterable[Zone] = ()) -> IntArray:
     return found if len(found) > 1 else found[:0]  # that meet in a single node are seldom one
 
 
+def ends_apart(matrix: Matrix) -> IntArray:
+    """Ends (n,) of lines at the place of another node of their body, which nothing joins there."""
+    cells = [b for b in matrix.blocks if b.zone and b.nodes.shape[1] > 1 and not is_joint(b.zone)]
+    lines = [b.nodes for b in cells if b.zone and b.zone.cells.kind.dimension == 1]
+    if not lines:
+        return np.zeros(0, np.int64)
+    joined = [b.nodes.ravel() for b in matrix.blocks if not b.zone or is_joint(b.zone)]
+    joined += [r.nodes for r in matrix.relations]
+    counts = np.bincount(np.concatenate([b.nodes.ravel() for b in cells]))
+    nodes = np.unique(np.concatenate([x.ravel() for x in lines]))
+    points, found = matrix.table.coordinates, list[int]()
+    loose = (counts[nodes] == 1) & ~np.isin(nodes, np.concatenate([nodes[:0], *joined]))
+    body = bodies_of_nodes(matrix, [b.nodes for b in cells])[nodes]
+    near = NEAR * float(np.ptp(points[nodes], axis=0).max())
+    for place in _met(points, nodes, np.arange(len(nodes))).tolist() if loose.any() else ():
+        here = np.linalg.norm(points[nodes] - points[place], axis=1) <= near
+        if (here & loose).any() and len(np.unique(body[here])) == 1:
+            found.append(int(nodes[(here & loose).argmax()]))
+    return np.array(found, np.int64)
+
+
 def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
     """Nodes (n,) in the plane of surface joints, on nodes of another body, that no joint has.
 

@@ -30,6 +30,7 @@ LARGE = 30_000_000  # numbers of loads beyond which copies of them are not made 
 STRONG = 0.9  # of the energy of the ground's velocity: what lies below carries the motion
 FEWER = 0.625  # of the usual cells of a wavelength: five linear ones, where each costs a tenth
 LOOKED_AT = 2000  # cells of a block
+FEWEST, BOTH_WAYS = 10, 0.1  # points of a record; its values of the lesser sign over the largest
 GRAVITIES = (9.81, 9810.0)  # in metres or millimetres
 SIDEWAYS = ((0, "UX"), (0, "UR"), (1, "UY"))
 ALIKE = (0.75, 6.0)  # impedances of sides over that of their cells; rock beside soil has some
@@ -79,11 +80,25 @@ def accelerations(problem: "Problem") -> FloatArray:
     return found
 
 
+def largest_motions(problem: "Problem") -> FloatArray:
+    """Largest acceleration (k,) of each load that changes and shakes, largest factor of others."""
+    loading, sizes = problem.loading, np.linalg.norm(accelerations(problem), axis=0)
+    sizes = np.where(sizes > 0.0, sizes, np.abs(loading.imposed).max(axis=0, initial=0.0))
+    most = np.abs(loading.at(problem.times)).max(axis=0, initial=0.0)
+    return np.asarray((np.where(sizes > 0.0, sizes, 1.0) * most)[changing(problem)])
+
+
 def is_shaken(problem: "Problem", name: str) -> bool:
     """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
     axes = axes_of(problem)
     shaking = accelerations(problem) * changing(problem)
     return name in axes and bool(shaking[axes.index(name)].any())
+
+
+def is_record(values: FloatArray) -> bool:
+    """Whether the values (n,) of a curve swing to both sides."""
+    ends = float(values.max(initial=0.0)), -float(values.min(initial=0.0))
+    return len(values) >= FEWEST and min(ends) > BOTH_WAYS * max(ends)
 
 
 def strong_frequency(

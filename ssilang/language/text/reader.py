@@ -73,6 +73,7 @@ def statement_of(targets: tuple[tree.Item, ...] | None, items: list[tree.Item]) 
 
 _Maker = Callable[[str, Span], tree.Item]
 _Step = Callable[[str, int, int], None]
+_Dotted = dict[int, list[tree.Item]]  # indices behind items, by the items' places
 _NO_PATH = (tree.Symbol, tree.Attribute)  # what no dot follows
 
 
@@ -84,7 +85,8 @@ class _Assembly:
         self.statements: list[tree.Statement] = []
         self.items: list[tree.Item] = []
         self.targets: tuple[tree.Item, ...] | None = None
-        self.outer: list[tuple[list[tree.Item], str, int]] = []  # of open parentheses
+        self.dotted: _Dotted = {}
+        self.outer: list[tuple[list[tree.Item], _Dotted, str, int]] = []  # of open parentheses
         self.sign = 0  # where the % of an own attribute stands
         self.joint = ""  # what ends just before: '.', '%' or 'own'
         self.steps: dict[str, _Step] = {
@@ -113,10 +115,7 @@ class _Assembly:
         """An index behind a dot, or an attribute's name behind %."""
         joint, self.joint = self.joint, ""
         if joint == ".":
-            base = self.items[-1]
-            span = base.span.to(item.span)
-            path = (base.base, (*base.indices, item)) if isinstance(base, tree.Path) else None
-            self.items[-1] = tree.Path(*(path or (base, (item,))), span)
+            self.dotted.setdefault(len(self.items) - 1, []).append(item)
             return
         if not isinstance(item, tree.Name | tree.Quoted):
             raise Unsound
@@ -130,15 +129,15 @@ class _Assembly:
         self.items.append(symbol_of(text, Span(self.source, start, end)))
 
     def _open(self, text: str, start: int, end: int) -> None:
-        self.outer.append((self.items, self.joint, start))
-        self.items, self.joint = [], ""
+        self.outer.append((self.items, self.dotted, self.joint, start))
+        self.items, self.dotted, self.joint = [], {}, ""
 
     def _close(self, text: str, start: int, end: int) -> None:
         self._free()
         if not self.outer:
             raise Unsound
-        inner = tuple(self.items)
-        self.items, self.joint, opened = self.outer.pop()
+        inner = self._taken()
+        self.items, self.dotted, self.joint, opened = self.outer.pop()
         if not self.joint:
             self.items.append(tree.Paren(inner, Span(self.source, opened, end)))
         elif inner:
@@ -154,7 +153,9 @@ class _Assembly:
 
     def _percent(self, text: str, start: int, end: int) -> None:
         self._free()
-        if not self.items or isinstance(self.items[-1], (*_NO_PATH, tree.Path)):
+        if not self.items or isinstance(self.items[-1], _NO_PATH):
+            raise Unsound
+        if len(self.items) - 1 in self.dotted:
             raise Unsound
         self.joint = "%"
 
@@ -166,15 +167,23 @@ class _Assembly:
         self._free()
         if self.outer or self.targets is not None or not self.items:
             raise Unsound
-        self.targets, self.items = tuple(self.items), []
+        self.targets, self.items = self._taken(), []
 
     def _end(self, text: str, start: int, end: int) -> None:
         self._free()
         if self.outer:
             raise Unsound
         if self.items or self.targets:
-            self.statements.append(statement_of(self.targets, self.items))
+            self.statements.append(statement_of(self.targets, [*self._taken()]))
         self.items, self.targets = [], None
+
+    def _taken(self) -> tuple[tree.Item, ...]:
+        """The items so far; those that dots follow as paths, each made once."""
+        for at, indices in self.dotted.items():
+            span = self.items[at].span.to(indices[-1].span)
+            self.items[at] = tree.Path(self.items[at], tuple(indices), span)
+        self.dotted = {}
+        return tuple(self.items)
 
     def _free(self) -> None:
         if self.joint:

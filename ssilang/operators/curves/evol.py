@@ -1,5 +1,7 @@
 """EVOL: curves from lists, along lines of nodes, in time."""
 
+from weakref import WeakKeyDictionary
+
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.language.filled import Filled
@@ -248,6 +250,9 @@ def _only(call: Call, field: NodeField) -> str:
 
 MISSING = object()
 _NONE = 1e-12  # of the model's size: what a body at rest moves by rounding
+_LOOKED_AT: WeakKeyDictionary[Any, set[int]] = WeakKeyDictionary()
+"""Nodes whose motion was read of what a calculation has recorded."""
+_ROUNDING = 1e-9  # of another translation of the same point
 _LOST = 5.0  # % of a largest value that may stand between two instants
 
 
@@ -283,6 +288,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
         for node in nodes:
             values = value_in_time(call, fields, name, node)
             _tell_peak(call, fields, values, name)
+            _tell_rounding(call, fields, values, name, node)
             legend = f"{name} {called[node]}"
             colour = colours[len(parts) % len(colours)]
             made = CurvePart(times, values, "TEMP", name, legend, colour)
@@ -316,6 +322,33 @@ def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str)
     told = {"share": 100.0 * bend / (abs(values[top]) or 1.0), "kept": len(values), "steps": steps}
     if told["share"] > _LOST and not any(w.code == code for w in call.session.warnings):
         call.warn(code, name=name, **told)
+
+
+def _tell_rounding(
+    call: Call, fields: Sequence[Any], values: FloatArray, name: str, node: int
+) -> None:
+    """Warn of a translation that is free and stays at nought where the point moves along others.
+
+    A script that has looked at these first knows, and asks what is left.
+    """
+    if not isinstance(fields, RecordedFields):
+        return
+    from ssilang.kernel.stepping.problem.bodies import held
+    from ssilang.kernel.waves.shaken import axes_of
+
+    problem, code = fields.track.problem, "operators.curves.only-rounding"
+    found = {n: fields.track.history(fields.name, n, node) for n in axes_of(problem)}
+    ways = {n: float(np.abs(v).max(initial=0.0)) for n, v in found.items() if v is not None}
+    other = max(ways, key=lambda n: ways[n], default="")
+    if name not in ways or ways[name] > _ROUNDING * ways[other] or not ways[other]:
+        _LOOKED_AT.setdefault(fields.track, set()).add(node)
+        return
+    free = not held(problem)[problem.numbering.index_of(node, name)]
+    known = node in _LOOKED_AT.get(fields.track, ())
+    if free and not known and not any(w.code == code for w in call.session.warnings):
+        told = {"most": float(np.abs(values).max(initial=0.0)), "other": other}
+        node_told = problem.numbering.table.told(node)
+        call.warn(code, name=name, node=node_told, **told, moved=ways[other])
 
 
 def _point_names(call: Call, support: Operand) -> dict[int, str]:

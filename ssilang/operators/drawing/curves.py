@@ -94,6 +94,12 @@ _OPTIONS: tuple[Entry, ...] = (
 )
 
 
+_NAMED = {"DEPL": "m", "VITE": "m/s", "ACCE": "m/s2"}
+_MOTIONS = {"m": "m", "cm": "m", "mm": "m", "m/s": "m/s", "cm/s": "m/s", "mm/s": "m/s"}
+_MOTIONS |= {"m/s2": "m/s2", "m/s^2": "m/s2", "cm/s2": "m/s2", "g": "m/s2"}
+"""Units of motions by what they measure; names of curves of a motion."""
+
+
 @operator(
     "DESS",
     many("curves", "EVOLUTIO", at_least=1, whole=True, en="curves"),
@@ -122,6 +128,7 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
             raise call.error(
                 "operators.drawing.format-of-powers", word=f"{axis}FMT", scale=f"LOG{axis}"
             )
+    _tell_unit(call, parts, str(found.get("y_title", "")))
     if table is not None:
         found |= _styles(call, table, [len(part.abscissas) for part in parts])
     found["names"] = _told_apart(curves) | found.get("names", {})
@@ -137,6 +144,14 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     recording = run_output(call.session).recording
     if recording is not None:
         _take_down(recording, curve, options, title, [f.name for f in files])
+
+
+def _tell_unit(call: Call, parts: Sequence[CurvePart], title: str) -> None:
+    """Warn of a title of the ordinates whose unit is that of another kind of motion."""
+    said = _MOTIONS.get(title.rpartition("(")[2].rstrip().removesuffix(")")) if "(" in title else ""
+    kinds = {_MOTIONS.get(p.units[1]) or _NAMED.get(p.ordinate_name.strip()) for p in parts}
+    if said and len(kinds) == 1 and (kind := kinds.pop()) and kind != said:
+        call.warn("operators.drawing.unit-of-another", title=title, kind=kind)
 
 
 def _told_apart(curves: tuple[Operand, ...]) -> dict[int, str]:

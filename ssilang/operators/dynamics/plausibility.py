@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import cache, partial
+from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +21,6 @@ from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
     Bodies,
-    Swing,
     against_supports,
     contact_resolution,
     masses_alone,
@@ -32,6 +30,7 @@ from ssilang.kernel.stepping.problem.plausibility import (
     swings,
 )
 from ssilang.kernel.waves.shaken import AXES, accelerations, changing, translations
+from ssilang.operators.dynamics.damped import OVERDAMPED, damped_heavily
 from ssilang.operators.dynamics.reports import conserved
 from ssilang.operators.dynamics.shaking import (
     beside_free_field,
@@ -73,7 +72,6 @@ MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked 
 AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
 HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stages sees less
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
-OVERDAMPED = 2.0  # of the critical damping: more is a slip of the pen
 FEWEST, WANTED = 3, 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 TURNED = 1.0  # rad
@@ -187,13 +185,7 @@ def _held_on_the_other_side(problem: Problem) -> bool:
     return any(np.isin(a, nodes[still]).all() and np.isin(b, free).all() for a, b in ways)
 
 
-def _motions(problem: Problem, _: Inputs) -> Told:
-    asked = cache(partial(swings, problem))  # takes a factorisation
-    yield from _loose(problem, asked)
-    yield from _swings(problem, asked)
-
-
-def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
+def _loose(problem: Problem, _: Inputs) -> Told:
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
@@ -203,7 +195,7 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
         yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
     zones, loose = () if (joints := problem.interface) is None else joints.joints, [*bodies.loose()]
     slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
-    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in asked()):
+    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
         told = {"macro": any(is_macro(j.zone) for j in zones), "slides": slides}
         yield "operators.dynamics.turns-away", told
     for found in loose:
@@ -215,8 +207,8 @@ def _loose(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
             yield "operators.dynamics.slides-away", told
 
 
-def _swings(problem: Problem, asked: Callable[[], list[Swing]]) -> Told:
-    dt, found = float(np.diff(problem.times).max()), asked()
+def _swings(problem: Problem, _: Inputs) -> Told:
+    dt, found = float(np.diff(problem.times).max()), swings(problem)
     period = min((s.period for s in found if s.sudden), default=dt)
     ratio = max((s.damping for s in found), default=0.0)
     if FEWEST * dt > period > 0.0 and any(s.sudden for s in found):
@@ -238,14 +230,15 @@ GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
-    rotary_alone, weak_cores, mass_of_both,
+    rotary_alone, weak_cores, mass_of_both, damped_heavily,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _motions, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand, braked,
+    _masses_alone, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+    braked,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
@@ -385,15 +378,23 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
     for kind, matrix in (("MASS", inputs.mass), ("AMOR", inputs.damping)):
         if matrix is not None:
             warn_repeated(*place, matrix, kind, inputs.stiffness)
+    others = {b.kind for b in inputs.stiffness.blocks} & {"MASSE", "AMORTISSEMENT"}
+    if others and not all(b.kind == "MASSE" for b in inputs.stiffness.blocks):
+        entries.warn("operators.matrices.kind-in-stiffness", kind="AMORTISSEMENT" in others)
     damping = () if inputs.damping is None else inputs.damping.blocks
     dashpots = [b for b in damping if b.kind == "AMORTISSEMENT"]
     for node in idle_nodes(dashpots, inputs.stiffness)[:1].tolist():
         told = {"node": inputs.stiffness.table.told(node)}
         entries.warn("operators.dynamics.dashpots-on-supports", **told)
-    for node, unknown, value in _alike(dashpots, inputs.stiffness):
+    springs, braking = _nodal(inputs.stiffness.blocks), _nodal(dashpots)
+    for (node, unknown), value in sorted(braking.items() & springs.items())[:1]:
         told = {"node": inputs.stiffness.table.told(node), "unknown": unknown, "value": value}
         entries.warn("operators.dynamics.dashpot-of-spring", **told)
-        break
+    for found in (springs, braking):
+        ways = [(n, u, v, a) for (n, u), v in found.items() for a in AXES if u[0] == "R"]
+        for node, unknown, value, other in [w for w in ways if found.get((w[0], w[3])) == w[2]][:1]:
+            told = {"node": inputs.stiffness.table.told(node), "value": value, "other": other}
+            entries.warn("operators.dynamics.turns-as-moves", unknown=unknown, **told)
     for block in damping:
         diagonal = np.diagonal(block.values, axis1=1, axis2=2)
         drives = diagonal.max(initial=0.0) <= 0.0 > diagonal.min(initial=0.0)
@@ -403,21 +404,16 @@ def warn_of_connections(entries: Entries, inputs: Inputs) -> None:
             break
 
 
-def _alike(dashpots: list[Any], stiffness: Matrix) -> Iterator[tuple[int, str, float]]:
-    """Nodes and unknowns whose dashpot has the very number of the spring, and no round one."""
-    springs, found = (
-        {
-            (node, unknown): value
-            for b in blocks
-            if b.raw_nodes.shape == (1, 1)
-            for node in b.nodes[:, 0].tolist()
-            for unknown, value in zip(b.unknowns, np.diagonal(b.values[0]).tolist(), strict=True)
-        }
-        for blocks in (stiffness.blocks, dashpots)
-    )
-    for (node, unknown), value in found.items():
-        if value == springs.get((node, unknown)) and float(f"{value:.3g}") != value:
-            yield node, unknown, value
+def _nodal(blocks: Iterable[Any]) -> dict[tuple[int, str], float]:
+    """Springs or dashpots by node and unknown, but those of round numbers."""
+    return {
+        (node, unknown): value
+        for b in blocks
+        if b.raw_nodes.shape == (1, 1)
+        for node in b.nodes[:, 0].tolist()
+        for unknown, value in zip(b.unknowns, np.diagonal(b.values[0]).tolist(), strict=True)
+        if float(f"{value:.3g}") != value
+    }
 
 
 def warn_at_rest(entries: Entries, problem: Problem) -> None:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.waves.shaken import largest_motions
 from ssilang.language.values import LazyTable, promises
 from ssilang.messages.message import sentence
 from ssilang.operators.prelude import *
@@ -76,6 +77,7 @@ def report(
         "energy_imbalance": _relative(history.worst_imbalance, history.largest_energy),
         "energy_imbalance_joules": history.worst_imbalance * _joules(session),
         "static": in_statics,
+        "motions": [] if in_statics else largest_motions(problem).tolist(),
     }
     if history.reduction is not None:
         line |= {

@@ -19,7 +19,7 @@ from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
-from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import Bodies
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
@@ -27,10 +27,12 @@ from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
     GRAVITIES,
+    LARGE,
     SAME,
     accelerations,
     axes_of,
     changing,
+    is_record,
     longest_cell,
     shares,
     steady,
@@ -47,6 +49,8 @@ STRONG = 3.0  # g; more than the ground of any earthquake but one
 WEIGHT = (0.05, 3.0)  # g; what pulls down
 MANY = 3  # nodes, or instants: fewer say nothing of a rule
 PART, WHOLE = 0.2, 0.8  # of what moves along another axis, at a node and in all: less is forgotten
+IN_PART = 0.3  # of a body's mass: ground that moves with a footing may have some, and no load
+ITS_OWN = 0.4  # of a node's mass by its cells: what a field on this node alone takes of it
 LEVELS = 3  # heights of a side; a base has one
 GROUND, HIGH = 360.0, 5.0  # m/s, of waves of shear in soil; height over width of a column of it
 PAIR = 2  # nodes of a spring, at most
@@ -93,7 +97,8 @@ class _Entering:
             shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
-        yield from chain(self._sides(), self._masses_one_way(), self._long_cells(), self._columns())
+        finds = self._sides(), self._masses_one_way(), self._long_cells(), self._columns()
+        yield from chain(*finds, self._driven_in_part())
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load
@@ -142,13 +147,47 @@ class _Entering:
                 told["other"] = self.axes[int(mass[less.argmax()].argmax())]
                 yield "operators.dynamics.masses-one-way", told
 
+    def _driven_in_part(self) -> Told:
+        """Bodies of which a record drives by their mass a small part, and nothing the rest."""
+        problem, load, curves = self.problem, self.inputs.load, self.problem.loading.curves
+        records = [k for k in np.flatnonzero(self.changing) if is_record(curves[k][1])]
+        solids = [b for b, *_ in bordered_solids(self.inputs.stiffness)]
+        if not records or load is None or any(len({*b.unknowns}) == len(self.axes) for b in solids):
+            return  # of ground that is meshed a part may be meant
+        label, free, forces = bodies_of(problem), ~held(problem), problem.loading.forces[:, records]
+        names = [part.name for part in load.parts for _ in nodal_terms(part)]
+        for axis, e in zip(self.axes, self.along.T, strict=True):
+            pushed, mass = np.abs(forces) * e[:, None], (problem.M @ e) * e
+            some = pushed > 0.0
+            meant = np.zeros(len(records), bool)
+            for value in (1.0, *GRAVITIES):
+                chosen = pushed > ITS_OWN * value * mass[:, None]
+                off = np.abs(value * (problem.M @ (chosen * e[:, None])) * e[:, None] - pushed)
+                same = chosen.any(axis=0) & (off.max(axis=0) < SAME * pushed.max(axis=0))
+                some[:, same], meant = chosen[:, same], meant | same
+            moved = (problem.M @ (some.any(axis=1) * e)) * e
+            whole, own = (np.bincount(label, m * free) for m in (mass, moved))
+            for body in np.flatnonzero((own > 0.0) & (own < IN_PART * whole)):
+                within = label == body
+                if (some[within].any(axis=0) & meant).any():
+                    k = records[int((some[within].any(axis=0) & meant).argmax())]
+                    at = int((mass * within * free * ~some.any(axis=1)).argmax())
+                    told = {"name": names[k], "axis": axis, "driven": own[body]}
+                    told["node"] = problem.numbering.table.told(int(problem.numbering.nodes[at]))
+                    yield "operators.dynamics.driven-in-part", {**told, "whole": whole[body]}
+                    return
+
     def _long_cells(self) -> Told:
         """Cells with too few of them in a wavelength of what shakes, the worst of each load."""
         load, mass = self.inputs.load, self.inputs.mass
         terms = [p for p in load.parts for _ in nodal_terms(p)] if load and mass else []
         shakes = self.loads * self.changing
-        for part, pushed, moved in zip(terms, shakes.T, self.base.T, strict=False):
-            along, power = (pushed, -1) if pushed.any() else (moved, 1)
+        waves, few = np.zeros_like(shakes), self.problem.loading.forces.size < LARGE
+        if terms and few and not shakes.any():  # that dashpots let in, at their velocities
+            braked = self.problem.C @ self.along
+            waves = shares(braked, self.problem.loading.forces) * self.changing
+        for part, pushed, moved, let in zip(terms, shakes.T, self.base.T, waves.T, strict=False):
+            along, power = (pushed, -1) if pushed.any() else (moved, 1) if moved.any() else (let, 0)
             if not part.time or not along.any() or len(part.time.parts[0].abscissas) < MANY:
                 continue
             curve = part.time.parts[0]

@@ -45,6 +45,7 @@ WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
 LARGEST = 100.0  # m; a structure that is a point on a short joint may have less
 OFF = 1e-3  # of a load's factor: less is no other one
+FEW_STOPS = 50
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
 AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
@@ -55,6 +56,7 @@ BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height
 OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
 PAIR = 2  # terms of a relation of two nodes
 CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
+STRONG = 0.3  # of it: what no ground motion but the strongest makes yield
 BESIDE = 1e-6  # of a footing's width
 WIDE = 20.0  # sizes of a model
 TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
@@ -73,6 +75,9 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
     if problem.interface is not None:
         held = held + problem.interface.J.T @ joint_state(problem).f
     held, forces = T.T @ held, T.T @ loading.forces
+    if problem.contact is not None and problem.contact.G.shape[0] <= FEW_STOPS:
+        stops = (T.T @ problem.contact.G.T).toarray()  # whatever they bear
+        held, forces = (f - stops @ np.linalg.lstsq(stops, f)[0] for f in (held, forces))
     share = shares(forces, held[:, None])[:, 0]
     begins, ends = loading.at(problem.times[[0, -1]])
     off = np.abs(forces @ begins - held).max(initial=0.0) > OFF * np.abs(held).max(initial=0.0)
@@ -219,7 +224,7 @@ def braked(problem: Problem, _: Inputs) -> Told:
 
 
 def weak_cores(problem: Problem, _: Inputs) -> Told:
-    """Lead cores that yield under next to nothing of the weight above."""
+    """Lead cores that yield under next to nothing of the weight above, or never."""
     bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
     lead = [] if joints is None else joints.codes == LawCode.LEAD
     force = problem.loading.forces @ steady(problem)
@@ -228,10 +233,12 @@ def weak_cores(problem: Problem, _: Inputs) -> Told:
         up, w = bodies.along(body, axes[-1]), np.zeros((joints.n_points, joints.dimension))
         local_jumps(joints.points, joints.J @ up, w)
         cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
-        if 0.0 < cores < CORES * (weight := -float(up @ force)):
+        weight = -float(up @ force)
+        if weight > 0.0 and cores > 0.0 and not CORES <= cores / weight <= STRONG:
             node = problem.numbering.table.told(int(problem.numbering.nodes[(up != 0.0).argmax()]))
             told = {"node": node, "cores": cores, "weight": weight, "share": cores / weight}
-            yield "operators.dynamics.cores-weak", told
+            codes = "operators.dynamics.cores-strong", "operators.dynamics.cores-weak"
+            yield codes[cores < CORES * weight], told
 
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:

@@ -15,6 +15,7 @@ from ssilang.kernel.statics.doubled import (
     bodies_apart,
     clamped_alone,
     doubled_supports,
+    ends_apart,
     held_nowhere,
     idle_nodes,
     repeated_cells,
@@ -84,6 +85,7 @@ def warn_connections(
         "operators.matrices.clamped-alone": clamped_alone(matrix),
         "operators.matrices.relation-sign": wrong_signs(matrix),
         "operators.matrices.lines-crossed": crossed_lines(matrix),
+        "operators.matrices.ends-apart": ends_apart(matrix),
         "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
     if operator == "VIBR":

@@ -46,6 +46,10 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
             _warn(call, meant, unusual, said, system)
 
 
+_HARD, _SOFT = Range(2300.0, 2800.0), Range(1e6, 1e8)
+"""Densities (kg/m3) of concrete and rock, and moduli (Pa) that neither has."""
+
+
 def _of_matter(call: Call, given: Mapping[str, Given]) -> UnitSystem | None:
     """The system in which a modulus and a density belong together; warn where there is none."""
     known = {n: _ends(a) for n, (a, _) in given.items() if n in MATTER[0] and a.dtype == float}
@@ -55,6 +59,10 @@ def _of_matter(call: Call, given: Mapping[str, Given]) -> UnitSystem | None:
     if not any(fits):
         told = {n.lower(): max(ends) for n, ends in known.items()}
         call.warn("operators.models.no-units", given["RHO"][1], **told)
+    hard = all(v in _HARD for v in known["RHO"]) and all(v in _SOFT for v in known["YOUN"])
+    if hard and fits[0]:
+        told = {n.lower(): max(ends) for n, ends in known.items()}
+        call.warn("operators.models.soft-for-its-density", given["YOUN"][1], **told)
     first = next((s for s, there in zip(SYSTEMS.values(), fits, strict=False) if there), None)
     return first if sum(fits) == 1 else None
 

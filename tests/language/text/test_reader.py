@@ -1,6 +1,7 @@
 """The quick reader gives what the grammar gives, and gives up on what the grammar refuses."""
 
 import dataclasses
+import time
 from pathlib import Path
 
 import pytest
@@ -150,3 +151,25 @@ def test_numbers_have_their_values(read, text, value):
     (statement,) = read(Source("x", f"A = {text} ;"))
     found = statement.items[0].value
     assert (type(found), found) == (type(value), value)
+
+
+@pytest.mark.parametrize("written", [" . T", " . (1)", " . 'U' . 2"])
+def test_a_long_path_is_read_in_a_time_that_grows_with_it(written):
+    """A copy of all indices at each dot would take some 30 s."""
+    count = 60_000
+    text = f"X = T{written * count} ;"
+    start = time.process_time()
+    (statement,) = quick(Source("long", text))
+    assert time.process_time() - start < 5.0
+    (path,) = statement.items
+    assert len(path.indices) == count * written.count(".")
+    assert (path.span.start, path.span.end) == (4, len(text) - 2)
+
+
+def test_paths_within_paths_keep_their_own_indices():
+    (statement,) = quick(Source("nested", "A . 1 . (B . 2 . 3 + (C . 4)) . 5 = D . 6 E . 7 ;"))
+    (outer,) = statement.targets
+    assert [len(p.indices) for p in (outer, *statement.items)] == [3, 1, 1]
+    inner, _, last = outer.indices[1].items
+    assert len(inner.indices) == 2
+    assert [i.value for i in last.items[0].indices] == [4]

@@ -8,6 +8,7 @@ What presses on ground that yields, against what the ground bears.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -59,12 +60,19 @@ class Sunk:
 class Swing:
     """The motion that a load asks for: period (s), damping ratio, whether it comes at once.
 
-    Without stiffness or dashpots against it the period is infinite.
+    Without stiffness or dashpots against it the period is infinite. The motion (n,) is that of
+    the forces at rest; `load` is the number of what asks for it, -1 a velocity.
     """
 
     period: float
     damping: float
     sudden: bool
+    load: int
+    motion: FloatArray
+
+
+_KNOWN: WeakKeyDictionary[Problem, list[Swing]] = WeakKeyDictionary()
+"""Swings of problems that are still there: they take a factorisation."""
 
 
 class Bodies:
@@ -178,35 +186,39 @@ class Bodies:
 
 
 def swings(problem: Problem) -> list[Swing]:
-    """The motions that loads and first velocities ask for; of small problems alone.
+    """The motions that loads and first velocities ask for; of small problems alone, found once.
 
     Of a force f the static displacement x has the period `2 pi sqrt(x M x / x f)`, an upper
     estimate of those of the modes that it excites, weighed by their compliance (Rayleigh).
     """
+    if problem not in _KNOWN:
+        _KNOWN[problem] = [*_swings(problem)]
+    return _KNOWN[problem]
+
+
+def _swings(problem: Problem) -> Iterator[Swing]:
     T, given = problem.constraints.T, _forces(problem)
     if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
-        return []
-    forces = np.column_stack([T.T @ f for f, _ in given])
+        return
+    forces = np.column_stack([T.T @ f for f, _, _ in given])
     K = closed_stiffness(problem)
     largest = float(abs(K).max()) if K.nnz else 0.0
     if not largest or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
-        return []
+        return
     # held by next to nothing: a load that moves a part of what is free is seen, too
     motions = solved(K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest), forces)
     free = np.abs(motions).max(axis=0) * largest * WEAK > np.abs(forces).max(axis=0)
     free |= (motions * (K @ motions)).sum(axis=0) < WEAK * (K.diagonal() @ motions**2)
-    found = []
-    for x, (force, sudden), unheld in zip((T @ motions).T, given, free, strict=True):
+    for x, (force, sudden, k), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
             if not is_dragged(problem, x):
-                found.append(Swing(np.inf, 0.0, sudden))
+                yield Swing(np.inf, 0.0, sudden, k, x)
             continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
         if moved > 0.0 and 0.0 < work < np.inf:
             period, damped = 2.0 * np.pi * np.sqrt(moved / work), float(x @ (problem.C @ x))
             damped *= abs(damped) > ROUNDING * (x**2 @ abs(problem.C.diagonal()))
-            found.append(Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden))
-    return found
+            yield Swing(float(period), damped / (2.0 * np.sqrt(work * moved)), sudden, k, x)
 
 
 def is_dragged(problem: Problem, motion: FloatArray) -> bool:
@@ -233,19 +245,19 @@ def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
         raise SingularFactorError(str(error)) from None
 
 
-def _forces(problem: Problem) -> list[tuple[FloatArray, bool]]:
-    """Forces (n,) of loads that change, moving supports, velocities; whether within a step."""
+def _forces(problem: Problem) -> list[tuple[FloatArray, bool, int]]:
+    """Forces (n,) of loads that change, moving supports, velocities; if in a step, the number."""
     loading, found = problem.loading, []
     factors = loading.at(problem.times)
     sizes = np.abs(factors).max(axis=0, initial=0.0)
     bends = np.abs(np.diff(factors, 2, axis=0)).max(axis=0, initial=0.0)
     for k in np.flatnonzero(np.ptp(factors, axis=0) > 0.0):
         sudden = bool(bends[k] > SUDDEN * sizes[k])
-        found.append((loading.forces[:, k], sudden))
+        found.append((loading.forces[:, k], sudden, int(k)))
         if loading.imposed[:, k].any():
             moved = problem.constraints.particular(loading.imposed[:, k])
-            found.append((closed_forces(problem, moved), sudden))
-    return [(f, sudden) for f, sudden in (*found, (problem.M @ problem.v, True)) if f.any()]
+            found.append((closed_forces(problem, moved), sudden, int(k)))
+    return [given for given in (*found, (problem.M @ problem.v, True, -1)) if given[0].any()]
 
 
 def against_supports(problem: Problem) -> dict[str, IntArray]:
@@ -344,8 +356,7 @@ def contact_resolution(problem: Problem) -> Resolution | None:
     mobility = float(np.sum(pushes[moving] ** 2 / masses[moving]))
     if mobility <= 0.0:
         return None
-    dt = float(np.diff(problem.times).max())
-    return Resolution(float(np.pi / np.sqrt(k * mobility)), dt)
+    return Resolution(float(np.pi / np.sqrt(k * mobility)), float(np.diff(problem.times).max()))
 
 
 def _uniform_opening(pairs: IntArray, B: FloatArray, size: int) -> FloatArray:

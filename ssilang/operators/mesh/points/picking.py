@@ -1,5 +1,7 @@
 """POIN: points picked from meshes and fields, or made from coordinates."""
 
+from itertools import permutations
+
 from ssilang.kernel.elements.zone_fields import carry
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.lines.lines import line_ends
@@ -16,6 +18,8 @@ _COMPARISONS: dict[str, Callable[[FloatArray, float], NDArray[np.bool_]]] = {
     "INFERIEUR": np.less,
     "DIFFERENT": lambda v, x: ~np.isclose(v, x, rtol=1e-12, atol=0.0),
 }
+_FLAT = 1e-9  # of a mesh's size: across, it has none
+_BESIDE = 0.5  # of a cell: farther out, a corner is asked for, or no point of the mesh
 _LIMIT = arg("limit", "FLOTTANT", en="value", range=ANY_NUMBER)
 EXTREMES = select(
     "what",
@@ -113,9 +117,33 @@ def junctions_of(session: Session, mesh: Mesh = _MESH) -> Mesh:
         en="the nearest to a point",
     )
 )
-def nearest(session: Session, near: Chosen, mesh: Mesh = _MESH) -> Point:
+def nearest(session: Session, call: Call, near: Chosen, mesh: Mesh = _MESH) -> Point:
     """The point of a mesh that is nearest to another one."""
-    return Point(workspace(session).nodes, nearest_node(mesh, near["point"].coordinates))
+    given, nodes = near["point"], workspace(session).nodes
+    found = nearest_node(mesh, given.coordinates)
+    if given.node == len(nodes) - 1:  # a place, and no point of another mesh
+        points = nodes.coordinates[mesh.node_ids]
+        low, high = points.min(axis=0), points.max(axis=0)
+        flat = high - low < _FLAT * (high - low).max()
+        ways = [*permutations(given.coordinates[~flat])]
+        others = np.tile(given.coordinates, (len(ways), 1))
+        others[:, ~flat] = ways
+        beside = np.where(flat, 0.0, np.maximum(low - others, others - high)).max(axis=1)
+        size = _size_at(mesh, found)
+        if beside[0] > _BESIDE * size > 0.0 and beside.min() <= _BESIDE * size:
+            within = others[beside.argmin(), : workspace(session).dimension]
+            told = {"found": nodes.told(found), "off": float(beside[0]), "size": size}
+            other = "(" + " ".join(f"{x:g}" for x in within) + ")"
+            call.warn("operators.mesh.place-beside-mesh", other=other, **told)
+    return Point(nodes, found)
+
+
+def _size_at(mesh: Mesh, node: int) -> float:
+    """The shortest way from a node to others of its cells, nought without."""
+    blocks = [b.connectivity[(b.connectivity == node).any(axis=1)] for b in mesh.blocks]
+    others = np.concatenate([b.ravel() for b in blocks])
+    ways = np.linalg.norm(mesh.nodes.coordinates[others] - mesh.nodes.coordinates[node], axis=1)
+    return float(ways[ways > 0.0].min(initial=np.inf)) if (ways > 0.0).any() else 0.0
 
 
 @poin.form(
