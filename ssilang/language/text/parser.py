@@ -63,7 +63,10 @@ _BETWEEN_DIGITS = re.compile(r"\d,\d")
 
 
 def decimal_commas(source: Source) -> list[SsiError]:
-    """An error for each `2,5` of what is run, a warning where it is only printed; (0,0) and 1,2,3 are lists of numbers."""
+    """An error for each `2,5` of what is run, a warning where it is only printed.
+
+    (0,0) and 1,2,3 are lists of numbers.
+    """
     code = source.code
     if _BETWEEN_DIGITS.search(code) is None:
         return []

@@ -23,7 +23,6 @@ from ssilang.operators.curves.words import (
 )
 from ssilang.operators.prelude import *
 
-
 _PARTS = {"PREE": "PART REEL", "PIMA": "PART IMAG"}
 _POLAR = {"MODU": "MODU", "PHAS": "PHAS"}
 
