@@ -70,6 +70,6 @@ def typed_source(
     allow_nesting(session.limits.recursion)
     try:
         names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
-        return [*script.unclosed, *checker.check(script)], names, checker.types
+        return [*script.warnings, *script.unclosed, *checker.check(script)], names, checker.types
     except RecursionError:
         return [SsiError("nesting", None)], set(), {}

@@ -148,7 +148,7 @@ def execute(session: Session, source: Source) -> None:
         session.root.assign(name, session.given.pop(name))
     for again, told in values_lost(source, script.body, session.given):
         session.warn("cli.value-lost", again, **told)
-    for left in script.unclosed:
+    for left in (*script.warnings, *script.unclosed):
         session.report(left)
     try:
         session.evaluator.run_top(script.body)

@@ -211,6 +211,22 @@ G = R . 'CONTRAINTES_POUTRE' . 'POU1' ;
 """
 
 
+def test_a_domain_that_is_a_model_gives_nodes_to_displacements_and_zones_to_forces():
+    """A part has the values that the whole has there."""
+    text = FRAME.format(modes=4, rule="SRSS").partition("R = SISSIB")[0] + (
+        "T . 'SORTIES' . 'DEPLACEMENTS' = VRAI ; R = SISSIB T ;"
+        "MB = REDU MO (ELEM L 'APPU' 'LARG' B) ;"
+        "T . 'SORTIES' . 'DOMAINE' = MB ; R2 = SISSIB T ; U2 = R2 . 'X' . 'DEPLACEMENTS' ;"
+        "NB = NBNO (EXTR U2 'MAIL') ; D = MAXI (ABS (U2 - (REDU (R . 'X' . 'DEPLACEMENTS') U2))) ;"
+        "Q2 = R2 . 'Y' . 'CONTRAINTES' ; NE = NBEL (EXTR Q2 'MAIL') ;"
+        "E = MAXI (ABS (Q2 - (REDU (R . 'Y' . 'CONTRAINTES') MB))) ; S = MAXI Q2 ;"
+    )
+    root = ran(text).session.root
+    assert (root.find("NB"), root.find("NE")) == (2, 1)
+    assert root.find("D") == 0.0
+    assert root.find("E") == 0.0 < root.find("S")
+
+
 def components(field):
     block = field.blocks[0]
     return {name: np.asarray(values).ravel() for name, values in block.components.items()}

@@ -1,6 +1,7 @@
 """Reading a phrase with types in place of values, as the evaluator reads it with values."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -372,8 +373,8 @@ class PhraseReader:
         if isinstance(item, tree.Paren):
             return self._paren(item, scope)
         if isinstance(item, tree.Path):
-            self._path(item, scope)
-        elif item.base is not None:
+            return self._path(item, scope)
+        if item.base is not None:
             self._operand(item.base, scope)
         return [Operand(UNKNOWN, item.span)]
 
@@ -416,7 +417,7 @@ class PhraseReader:
             for o in left[:1]
         ]
 
-    def _path(self, item: tree.Path, scope: Scope) -> None:
+    def _path(self, item: tree.Path, scope: Scope) -> list[Operand]:
         base = item.base
         if isinstance(base, tree.Name) and not scope.open:
             value = self._name(base, scope).value
@@ -424,12 +425,22 @@ class PhraseReader:
             if known and known not in ("TABLE", "OBJET") and value is not ANY_WORD:
                 if isinstance(value, Mot) and base.text not in scope.values:
                     raise SsiError("undefined-table", base.span, name=base.text)
-                raise SsiError("not-a-table", base.span, found=known, name=base.span.text)
+                refused = SsiError("not-a-table", base.span, found=known, name=base.span.text)
+                behind = self._operand(item.indices[0], scope)
+                if known not in ("ENTIER", "FLOTTANT") or any(
+                    isinstance(o.value, Mot) for o in behind
+                ):
+                    raise refused
+                self.report(SsiError("dot-of-number", base.span, **refused.data))
+                if len(item.indices) == 1:
+                    behind = [replace(o, refusal=refused) for o in behind]
+                    return [Operand(value, base.span, base.text), *behind]
         elif not isinstance(base, tree.Name):
             self._operand(base, scope)
         for index in item.indices:
             if isinstance(index, tree.Paren):
                 self._paren(index, scope)
+        return [Operand(UNKNOWN, item.span)]
 
 
 def _only_unknown_is_mesh(call: AbstractCall) -> None:

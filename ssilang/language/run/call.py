@@ -25,6 +25,7 @@ class Operand:
     span: Span
     name: str = ""  # the variable it was read from
     result: bool = False  # came out of an operator
+    refusal: SsiError | None = None  # what is wrong if nothing reads it
 
 
 def name_of(operand: Operand) -> str:

@@ -42,6 +42,9 @@ def leftover_error(
     left = [o for o in left if o.value is not ANNULE]
     if not left:
         return None
+    refused = next((o.refusal for o in left if o.refusal), None)
+    if refused is not None:
+        return refused
     words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
     unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
     if unread is not None and not (_quoted(unread) and not _quoted(words[0])):

@@ -107,9 +107,21 @@ class OperandReader(ABC):
 
     def _path(self, item: tree.Path) -> list[Operand]:
         value = self.single(item.base)
+        apart: list[Operand] = []
+        refusal = None
         for index in item.indices:
-            value = self.element(value, index, item)
-        return [Operand(value, item.span)]
+            if type(value) not in (int, float):
+                value = self.element(value, index, item)
+                continue
+            # the dot of a number, `a0. 0.`, separates nothing, unless a word is an index
+            refused, following = self.no_table(value, item, index), self.single(index)
+            if isinstance(following, Mot):
+                raise refused
+            self.session.warn("dot-of-number", refused.span, **refused.data)
+            apart.append(Operand(value, refused.span or item.span, refusal=refusal))
+            value, refusal = following, refused
+        span = item.indices[-1].span if apart else item.span
+        return [*apart, Operand(value, span, refusal=refusal)]
 
     def element(
         self, holder: Any, index: tree.Item, item: tree.Path, missing: str = "no-index"

@@ -156,7 +156,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if error.code == "wrong-argument":
         made["found_text"] = _found(data, language)
         made["caller_hint"] = hints.caller_hint(_code_before(error.span), str(data.get("operator")))
-    if error.code == "not-a-table":
+    if error.code in ("not-a-table", "dot-of-number"):
         made["a_found"] = _article(str(data["found"]), language)
         named = data["name"] or (error.span.text.split(".")[0].strip() if error.span else "it")
         made["not_a_table_hint"] = hints.not_a_table_hint({**data, "name": named})

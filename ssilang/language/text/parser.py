@@ -63,7 +63,10 @@ _BETWEEN_DIGITS = re.compile(r"\d,\d")
 
 
 def decimal_commas(source: Source) -> list[SsiError]:
-    """An error for each `2,5` of what is run; (0,0) and 1,2,3 are lists of numbers."""
+    """An error for each `2,5` of what is run, a warning where it is only printed.
+
+    (0,0) and 1,2,3 are lists of numbers.
+    """
     code = source.code
     if _BETWEEN_DIGITS.search(code) is None:
         return []
@@ -73,12 +76,18 @@ def decimal_commas(source: Source) -> list[SsiError]:
             code[m.start() - 1 : m.start()] == "(" and code[m.end() : m.end() + 1] == ")"
         )
         statement = code[: m.start()].rpartition(";")[2].split()
-        if m.group(1) and not in_parentheses and statement[:1] != ["COMM"]:
+        word = statement[0].strip("'").upper()[:4] if statement else ""
+        if m.group(1) and not in_parentheses and word != "COMM":
             first, second = m.groups()
-            span = Span(source, m.start(), m.end())
-            errors.append(
-                SsiError("decimal-comma", span, text=m.group(), first=first, second=second)
+            error = SsiError(
+                "comma-in-print" if word == "MESS" else "decimal-comma",
+                Span(source, m.start(), m.end()),
+                text=m.group(),
+                first=first,
+                second=second,
             )
+            error.warns = word == "MESS"  # a line printed wrong changes no result
+            errors.append(error)
     return errors
 
 

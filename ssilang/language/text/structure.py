@@ -1,6 +1,6 @@
 """Nesting of statements into blocks, by their first word, as the language skips branches."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.parser import decimal_commas, end_of_run, parse_statements
@@ -62,15 +62,18 @@ def parse(source: Source) -> Script:
             if end is None or not source.code[end:].strip():
                 raise
             statements = parse_statements(source, end)
-        if commas := decimal_commas(source):
+        commas = decimal_commas(source)
+        if any(not c.warns for c in commas):
             raise SeveralErrors(commas)
-        return structure(statements, source)
+        script = structure(statements, source)
+        return replace(script, warnings=(*commas, *script.warnings)) if commas else script
 
 
 def structure(statements: list[Statement], source: Source) -> Script:
     """Nest a flat list of statements; see `parse`."""
     errors: list[SsiError] = []
     stack = [_Open("", None)]
+    strays: list[SsiError] = []
     crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
     for statement in map(_without_strays, statements):
         word = control_word(statement)
@@ -84,7 +87,11 @@ def structure(statements: list[Statement], source: Source) -> Script:
             late = error.code == "stray-block-end" and str(error.data["word"])[:4] in {
                 c[:4] for c in crossed
             }
-            if not late:
+            if error.code == "stray-block-end" and word == "FINS" and len(stack) == 1 and not late:
+                # outside of all blocks it ends nothing
+                strays.append(SsiError("finsi-without-si", error.span, **error.data))
+                strays[-1].warns = True
+            elif not late:
                 errors.append(error)
     unclosed = [_unclosed(left) for left in reversed(stack[1:]) if not left.unnamed]
     if errors or (unclosed and not _ends_run(stack)):
@@ -98,7 +105,8 @@ def structure(statements: list[Statement], source: Source) -> Script:
             stack[-1].body.append(_loop(top, statements[-1]))
         else:
             _finsi(stack, statements[-1])
-    return Script(tuple(stack[0].body), Span(source, 0, len(source.text)), tuple(unclosed))
+    whole = Span(source, 0, len(source.text))
+    return Script(tuple(stack[0].body), whole, tuple(unclosed), tuple(strays))
 
 
 def _ends_run(stack: list[_Open]) -> bool:

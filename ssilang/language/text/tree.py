@@ -167,11 +167,14 @@ class Script:
     ----------
     unclosed : tuple of SsiError
         What opens blocks that are never closed, but in which FIN ends the run.
+    warnings : tuple of SsiError
+        What is read otherwise than it looks.
     """
 
     body: tuple[Node, ...]
     span: Span
     unclosed: "tuple[SsiError, ...]" = ()
+    warnings: "tuple[SsiError, ...]" = ()
 
 
 def first_assignments(nodes: tuple[Node, ...]) -> dict[str, Span]:

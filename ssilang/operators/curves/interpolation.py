@@ -188,8 +188,15 @@ def integrate(
         arg("high", *_PLACE, en="last ones", range=POSITIVE),
         en="between places",
     ),
+    low: Any = Opt(*_PLACE, en="first places, without a word: a list comes", range=POSITIVE),
+    high: Any = Opt(*_PLACE, en="last places", range=POSITIVE),
 ) -> Any:
     """Integrals of curves."""
+    bare = low is not None
+    if bare:
+        if high is None:
+            raise call.missing(_PLACE)
+        places = low, high
     word = "BORN" if bounds is not None else "INDI" if places is not None else ""
     bounds = bounds if bounds is not None else places
     way = integral if word == "BORN" else integral_along
@@ -200,7 +207,11 @@ def integrate(
     if len(curve.parts) > 1 and len(results[0]) > 1:
         return Cloud({f"IE{i}": (ListReel(row),) for i, row in enumerate(results, start=1)})
     flat = [v for row in results for v in row]
-    one = len(curve.parts) == 1 and (bounds is None or isinstance(bounds[0], int | float))
+    one = (
+        not bare
+        and len(curve.parts) == 1
+        and (bounds is None or isinstance(bounds[0], int | float))
+    )
     return flat[0] if one else ListReel(flat)
 
 

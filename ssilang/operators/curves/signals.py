@@ -23,18 +23,21 @@ from ssilang.operators.curves.words import (
 )
 from ssilang.operators.prelude import *
 
+_PARTS = {"PREE": "PART REEL", "PIMA": "PART IMAG"}
+_POLAR = {"MODU": "MODU", "PHAS": "PHAS"}
+
 
 def spectrum(
     x: Any, values: Any, form: str, colours: tuple[int, int] = (0, 0), title: str = ""
 ) -> Curve:
     """A complex curve over frequencies, as real and imaginary parts or modulus and phase."""
     if form == "REIM":
-        names, both = ("PREE", "PIMA"), (values.real, values.imag)
+        names, both = _PARTS, (values.real, values.imag)
     else:
-        names, both = ("MODU", "PHAS"), (np.abs(values), np.degrees(np.angle(values)))
+        names, both = _POLAR, (np.abs(values), np.degrees(np.angle(values)))
     parts = tuple(
-        CurvePart(x, np.asarray(y, dtype=float), "FREQ (HZ)", name, name, colour, (), name)
-        for y, name, colour in zip(both, names, colours, strict=True)
+        CurvePart(x, np.asarray(y, dtype=float), "FREQ (HZ)", name, name, colour, (), kind)
+        for y, (kind, name), colour in zip(both, names.items(), colours, strict=True)
     )
     return Curve(parts, title, "COMPLEXE")
 

@@ -91,6 +91,18 @@ def _type_of_items(value: ListObje, kind: bool) -> Mot:
 EXTR.form(_list("LISTOBJE"), _PLACES, gives=ANY)(_extract)
 
 
+@EXTR.form()
+def _number_alone(
+    call: Call,
+    value: float = Arg("FLOTTANT", en="a number that stands for a list of one", range=ANY_NUMBER),
+    place: int = Arg("ENTIER", en="its place, 1", range=POSITIVE),
+) -> float:
+    if place != 1:
+        raise call.error("operators.lists.no-such-place", place, size=1, place=place)
+    call.warn("operators.lists.item-of-a-number", value)
+    return value
+
+
 @ENLE.form(gives=Like("value"))
 def _remove(call: Call, value: AnyList = _LIST, places: int | ListEnti = _PLACES) -> Any:
     gone = set(_places(call, len(value), places))

@@ -53,6 +53,8 @@ def _tab(call: Call) -> tuple[str, int] | None:
     """The tab mark (`*N /N <N >N`) that follows the item just read."""
     if not call.operands or call.operands[0].span.text not in _MARKS:
         return None
+    if len(call.operands) < 2 or not isinstance(call.operands[1].value, int | float):
+        return None  # without a column the mark is a word as others
     mark = call.operands.pop(0)
     call.used.append(mark)
     column = call.given(_COLUMN)

@@ -48,3 +48,34 @@ def test_a_scalar_or_a_word_too_many_in_a_parenthesis_is_refused(fails, inside):
         "unknown-operator",
         "glued-sign",
     )
+
+
+@pytest.mark.parametrize(
+    ("number", "script"),
+    [("a0", "a0 = 2. ; p = a0. 0. ;"), ("(a0 - 1)", "a0 = 3. ; q = 0. ; p = (a0 - 1) . q ;")],
+)
+def test_a_dot_behind_a_number_separates_nothing(run, number, script):
+    made = run(f"OPTI DIME 2 ; {script} x y = COOR p ;")
+    assert (made["x"], made["y"]) == (2.0, 0.0)
+    (warning,) = made.result.session.warnings
+    assert (warning.code, warning.span.text) == ("dot-of-number", number)
+
+
+def test_a_dot_between_two_operands_of_an_operator_is_none_of_a_table(run):
+    made = run("n = 3 ; l = PROG 4. 5. 6. ; t = TABL ; t . 1 = l ; x = EXTR n . t . 1 ;")
+    assert made["x"] == 6.0
+
+
+@pytest.mark.parametrize(
+    "phrase", ["x = «a» . 'B'", "x = «a» . B", "x = «a» . 1", "x = SIN «a» . 1", "x = «a» . l"]
+)
+def test_an_index_of_a_number_that_nothing_reads_is_refused_as_one(fails, phrase):
+    assert fails(f"a = 3 ; l = PROG 1. ; {phrase} ;") == "not-a-table"
+
+
+@pytest.mark.parametrize("script", ["OPTI DIME 2 ; a = 2. ; p = a. 0. ; MESS (TYPE p) ;"])
+def test_a_dot_behind_a_number_is_checked_as_it_runs(script):
+    from ssilang.cli.check import check_source
+    from ssilang.language.text.source import Source
+
+    assert [p.code for p in check_source(Source("test", script))[0]] == ["dot-of-number"]

@@ -47,6 +47,37 @@ def test_commas_that_separate_are_none_of_a_decimal(script, said, run):
     assert [line.strip() for line in run(script).lines if line.strip()] == [said]
 
 
+def test_what_is_only_printed_has_its_commas_for_blanks(run):
+    script = run("MESS 'theory' 46,8 ;\nX = 1 ; 'MESS' 2,5 ' ' X ;")
+    assert script.lines == ["theory468", "25 1"]
+    assert [w.code for w in script.result.session.warnings] == ["comma-in-print"] * 2
+
+
+@pytest.mark.parametrize(
+    ("phrase", "line"), [("'a' * SAUT 2 LIGN", "a*SAUT2LIGN"), ("3 / 'b'", "3/b"), ("3 *", "3*")]
+)
+def test_a_mark_without_a_column_is_printed(phrase, line, run):
+    assert run(f"MESS {phrase} ;").lines == [line]
+    assert run(f"X = CHAI {phrase} ;")["x"] == line
+
+
+def test_an_end_of_a_condition_that_nothing_begins_is_told_and_left_out(run):
+    script = run("X = 1 ; FINSI ; SI (X EGA 1) ; Y = 2 ; FINSI ; 'FINS' ;")
+    assert (script["x"], script["y"]) == (1, 2)
+    warnings = script.result.session.warnings
+    assert [(w.code, w.span.start) for w in warnings] == [
+        ("finsi-without-si", 8),
+        ("finsi-without-si", 47),
+    ]
+
+
+@pytest.mark.parametrize(
+    "script", ["REPE B 2 ; «FINSI» ; FIN B ;", "DEBP P ; «FINSI» ; FINP ;", "«SINON» ;"]
+)
+def test_inside_of_other_blocks_it_is_refused(script, fails):
+    assert fails(script) == "stray-block-end"
+
+
 @pytest.mark.parametrize("script", ["X = 2,5 ;", "L = PROG 1. -2,5 ;", "X = (2,5E3 * 2) ;"])
 def test_a_decimal_comma_is_refused_before_anything_runs(script):
     result = run_text(f"MESS 'begun' ; {script}")

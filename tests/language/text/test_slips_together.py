@@ -24,7 +24,7 @@ SOUND = [
     "REPE b1 2 ; e = 3 ;\nFIN b1 ;", "t . 1 . 'A' = -.5 ;", "DEBP P1 x*ENTIER ; FINP x ;",
 ]  # fmt: skip
 BLOCKS = [
-    ("«FINSI» ;", "stray-block-end"), ("«FIN nobody» ;", "stray-block-end"),
+    ("REPE b2 2 ; «FINSI» ; FIN b2 ;", "stray-block-end"), ("«FIN nobody» ;", "stray-block-end"),
     ("REPE b2 2 ; FIN «b3» ;", "wrong-loop-name"), ("«SINON» ;", "stray-block-end"),
     ("«FINP x» ;", "stray-block-end"), ("SI VRAI ; «SINON (VRAI)» ; FINSI ;", "sinon-condition"),
     ("SI VRAI ; SINON ; «SINON» ; FINSI ;", "second-sinon"),

@@ -67,6 +67,41 @@ def test_raff_cuts_cells_and_ties_what_hangs():
     assert result.output.split()[3] == "5"
 
 
+@pytest.mark.parametrize(
+    ("mesh", "size"),
+    [
+        ("OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 3 (0. 3.) ;",
+         "(0.15 + (0.4 * (COOR 1 S)))"),
+        ("OPTI DIME 2 ELEM TRI3 MODE PLAN DEFO ; S = (DROI 3 (0. 0.) (4. 0.)) TRAN 2 (1. 3.) ;",
+         "(0.2 + (0.4 * (COOR 2 S)))"),
+        ("OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (4. 0. 0.)) TRAN 2 (0. 3. 0.) ; "
+         "S = S VOLU 2 'TRAN' (0. 0. 2.) ;", "(0.3 + (0.5 * (COOR 1 S)))"),
+    ],
+)  # fmt: skip
+def test_a_mesh_refined_before_is_refined_as_in_one_go(mesh, size):
+    """Each division has its cause in the sizes, whenever it is made."""
+    script = (
+        f"{mesh} FIRST = RAFF S (2. * {size}) ; ONCE = RAFF S {size} ; "
+        f"AGAIN = RAFF FIRST {size.replace(' S)', ' FIRST)')} ;"
+    )
+    first, once, again = found(script, "FIRST", "ONCE", "AGAIN")
+    assert any(b.cell_type.startswith("SURE") for b in first.blocks)
+
+    def cells(mesh):
+        places = np.round(mesh.nodes.coordinates, 9)
+        return {
+            (b.cell_type, *sorted(tuple(places[n]) for n in c))
+            for b in mesh.blocks
+            for c in b.connectivity
+        }
+
+    assert len(cells(first)) < len(cells(once))
+    assert cells(again) == cells(once)
+    assert len(np.unique(np.round(again.nodes.coordinates[again.node_ids], 9), axis=0)) == len(
+        again.node_ids
+    )  # no node twice at a place
+
+
 def test_ties_are_named_kept_in_saves_and_left_out_of_pictures(tmp_path):
     text = (
         "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 4 (0. 4.) ; "

@@ -4,7 +4,7 @@ Each division halves the edges of a cell (two, four or eight cells of the same k
 differ by one division at most, so that a node hangs in the middle of an edge or of a face.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise, product
@@ -171,6 +171,9 @@ def _face_keys(faces: IntArray) -> IntArray:
     return _edge_keys(np.concatenate(ends, axis=-1))
 
 
+_TIED = {3: ("edges", _edge_keys), 5: ("faces", _face_keys)}
+
+
 @dataclass
 class _Cells:
     """Cells of one type that are not divided."""
@@ -209,13 +212,15 @@ class _State:
 # --- the division ----------------------------------------------------------------------------
 
 
-def divided_to_sizes(mesh: Mesh, sizes: FloatArray) -> Mesh:
+def divided_to_sizes(mesh: Mesh, sizes: FloatArray, ties: Iterable[CellBlock] = ()) -> Mesh:
     """Divide cells until no edge is longer than the size wanted in its cell.
 
     Parameters
     ----------
     mesh : Mesh
         Of SEG2, TRI3, QUA4, TET4, CUB8, PRI6 and POI1.
+    ties : CellBlocks
+        Of an earlier division: nodes that stand in the middle of edges and faces.
     sizes : array (n,)
         Size wanted at each node of `mesh.node_ids`, positive. New nodes take the mean of those
         between which they lie; a cell wants the mean of its corners.
@@ -236,6 +241,9 @@ def divided_to_sizes(mesh: Mesh, sizes: FloatArray) -> Mesh:
     wanted = np.full(len(mesh.nodes), np.inf)
     wanted[mesh.node_ids] = sizes
     state = _State(mesh.nodes, wanted)
+    for nodes in (block.connectivity for block in ties):
+        known, key = _TIED[nodes.shape[1]]
+        getattr(state, known).put(key(nodes[:, 1:]), nodes[:, 0])
     cells = [_Cells(b.cell_type, b.connectivity, b.colours) for b in mesh.blocks]
     still = [c for c in cells if c.cell_type == "POI1"]
     active = [c for c in cells if c.cell_type != "POI1"]
@@ -321,14 +329,14 @@ def _divided(state: _State, cells: _Cells, marks: NDArray[np.bool_]) -> _Cells:
 
 def _ties(state: _State, active: list[_Cells]) -> Iterator[CellBlock]:
     """Nodes in the middle of an edge or a face of a cell that is not divided."""
-    for known, place, size in ((state.edges, "edges", 3), (state.faces, "faces", 5)):
+    for size, (place, keys_of) in _TIED.items():
+        known = getattr(state, place)
         rows = [np.empty((0, size), dtype=np.int64)]
         for cells in active:
             groups = cells.table[:, getattr(_division(cells.cell_type), place)]
             if not groups.shape[1]:
                 continue
-            keys = _edge_keys(groups) if size == 3 else _face_keys(groups)
-            middles = known.at(keys)
+            middles = known.at(keys_of(groups))
             hanging = middles >= 0
             rows.append(np.column_stack([middles[hanging], groups[hanging]]))
         every = np.concatenate(rows)

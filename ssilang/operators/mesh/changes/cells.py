@@ -157,13 +157,11 @@ def refined(mesh: Mesh, sizes: NodeField) -> Mesh:
     if len(sizes.components) != 1:
         raise MeshError("operators.mesh.one-size-wanted", n_components=len(sizes.components))
     cells, ties = parted(mesh)
-    if ties:
-        raise MeshError("operators.mesh.refined-before")
     wanted = sizes.values_at(next(iter(sizes.components)), cells.node_ids, np.nan)
     if np.isnan(wanted).any():
         node = mesh.nodes.told(cells.node_ids[np.isnan(wanted)][0])
         raise MeshError("operators.mesh.no-size-at-node", node=node)
-    return divided_to_sizes(cells, wanted)
+    return divided_to_sizes(cells, wanted, ties)
 
 
 def tie_relations(model: Model, table: NodeTable) -> Matrix:
