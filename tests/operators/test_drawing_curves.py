@@ -151,3 +151,11 @@ def test_white_lines_are_black_on_white_paper(tmp_path, script):
     drawn = picture.read_text(encoding="utf-8")
     assert "stroke: #ffffff" not in drawn
     assert "stroke: #1b1f24" in drawn
+
+
+def test_words_that_say_nothing_of_a_style_are_told(tmp_path: Path) -> None:
+    result = run("T = TABLE ; T . 1 = 'MARQ TRIA TITR M1' ; DESS E T ;", tmp_path)
+    (told,) = result.session.warnings
+    assert (told.code, told.data["words"], told.data["n"]) == (
+        "io.no-line-option", ("TITR", "M1"), 1,
+    )  # fmt: skip

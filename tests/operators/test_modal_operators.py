@@ -51,6 +51,25 @@ def test_an_interval_without_a_mode_is_told(ends, told):
     )
 
 
+FREE_BODIES = {
+    "OPTI DIME 3 MODE TRID ELEM SEG2 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; M = MODE L MECANIQUE "
+    "POUT ; A = MATE M YOUN 2.E11 NU 0.3 RHO 1400. SECT 0.01 INRY 1.E-5 INRZ 3.E-5 TORS 4.E-5 ;": 6,
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = (DROI 3 (0. 0.) (2. 1.)) TRAN 2 (0. 1.) ; M = MODE "
+    "L MECANIQUE ; A = MATE M YOUN 7.E10 NU 0.2 RHO 2500. ;": 3,
+    "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = (DROI 30 (0. 0.) (2. 1.)) TRAN 9 (0. 1.) ; M = "
+    "MODE L MECANIQUE ; A = MATE M YOUN 7.E10 NU 0.2 RHO 2500. ;": 3,
+}
+
+
+@pytest.mark.parametrize("ends", ["0. 1.", "0. 300.", "-1. 0.", "0.1 300."])
+@pytest.mark.parametrize("body", FREE_BODIES)
+def test_an_interval_has_the_free_motions_at_its_edge(body, ends):
+    """Whose eigenvalues rounding puts on either side of zero."""
+    table = objects(f"{body} T = VIBR 'INTE' {ends} (RIGI M A) (MASS M A) ;", "T").get("MODES")
+    found = [table.get(i).get("FREQUENCE") for i in range(1, len(table) - 1)]
+    assert found == ([] if ends[2] == "1" else [0.0] * FREE_BODIES[body])
+
+
 def test_damped_structure_wants_iram_and_gives_complex_entries():
     damped = TWO_MASSES + "C1 = CHAN 'TYPE' (0.2 * M1) 'AMORTISS' ;"
     assert run_text(damped + "T = VIBR 'SIMU' 0. 1 K1 M1 C1 ;").exit_code == 1

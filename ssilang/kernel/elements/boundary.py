@@ -73,11 +73,13 @@ def require_parents(faces: CellBlock, model: Model) -> Parents:
     return found
 
 
-def face_geometry(faces: CellBlock, mode: Mode, harmonic: int = 0) -> SurfaceGeometry:
+def face_geometry(
+    faces: CellBlock, mode: Mode, harmonic: int = 0, rule: Rule | None = None
+) -> SurfaceGeometry:
     """Area vectors of faces (times 2 pi r in axisymmetry, pi r for a harmonic > 0)."""
     dim = 3 if mode is Mode.THREE_DIMENSIONAL else mode.dimension
     x = faces.coordinates[..., :dim]
-    geometry = surface_geometry(faces.cell_type, x, face_rule(faces.cell_type))
+    geometry = surface_geometry(faces.cell_type, x, rule or face_rule(faces.cell_type))
     if mode not in (Mode.AXISYMMETRIC, Mode.FOURIER):
         return geometry
     ring = (np.pi if harmonic else 2 * np.pi) * (x[..., 0] @ geometry.shapes.T)

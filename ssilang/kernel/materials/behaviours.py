@@ -53,8 +53,8 @@ UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
 UNIAXIAL_FAMILIES = ("fibre", "bar")
 """Families of elements that have them."""
 
-CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop")
-"""Families of elements that creep."""
+CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "plate", "meridian")
+"""Families of elements that creep, thin shells by the forces of their sections."""
 
 CREEP_WORDS = ("FLUAGE", *CREEP_LAWS)
 

@@ -24,6 +24,7 @@ from ssilang.kernel.solvers.factor import Factor
 DENSE = 400  # unknowns up to which all eigenvalues are computed
 MASSLESS = 1e-13  # theta (relative to the largest) taken for zero
 NUDGE = 1e-8  # shift off an eigenvalue, relative to the largest |lambda|, then to |s|
+BESIDE = 1e-10  # of zero, relative to the largest |lambda|: where a free motion's eigenvalue lies
 STRANGE = 1e-2  # share of its forces by which a shape may miss the equation of modes
 
 Solve = Callable[[FloatArray], FloatArray]
@@ -287,9 +288,12 @@ def _normal(problem: ReducedProblem, shapes: FloatArray) -> FloatArray:
 
 
 def between(problem: ReducedProblem, low: float, high: float) -> Pairs:
-    """All eigenvalues in [low, high], increasing."""
+    """All eigenvalues in [low, high], increasing; about zero those that rounding may have moved."""
     check(problem)
     middle, count = 0.5 * (low + high), 12
+    if low <= 0.0 <= high:
+        beside = BESIDE * largest_value(problem)
+        low, high = min(low, -beside), max(high, beside)
     while True:
         found = nearest(problem, middle, count)
         inside = (found.values >= low) & (found.values <= high)

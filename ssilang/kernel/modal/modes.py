@@ -93,9 +93,11 @@ def modes_between(
     high: float,
     solver: Solver = FIRST_FIT,
 ) -> list[Mode]:
-    """All modes of frequencies in [low, high] Hz, increasing."""
+    """All modes of frequencies in [low, high] Hz, increasing; 0 is a free motion's."""
     problem = reduced_problem(stiffness, mass, solver=solver)
-    return _modes(problem, between(problem, eigenvalue(low), eigenvalue(high)))
+    found = _modes(problem, between(problem, eigenvalue(low), eigenvalue(high)))
+    edge = ROUNDING * max(abs(low), abs(high))
+    return [m for m in found if low - edge <= m.frequency <= high + edge]
 
 
 def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:

@@ -123,7 +123,7 @@ class PlasticPoints:
         given = self.parameters
         if self.law.timed:
             steps = np.full(self.count, max(duration, 0.0))
-            given = PointParameters({**given.values, DURATION: steps}, given.curves)
+            given = replace(given, values={**given.values, DURATION: steps})
         return respond_held(self.law, given, stress, strain, variables, self.held)
 
     def stored(self, state: PointState) -> float:

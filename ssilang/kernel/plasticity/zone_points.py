@@ -99,7 +99,8 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
 
     D = placed(family.moduli(zone, given, "STRESSES"))
     own = law_parameters(zone, law, given)
-    parameters = section_flow.SectionParameters(
+    kind_of = section_flow.CreepingSections if law.timed else section_flow.SectionParameters
+    parameters = kind_of(
         own.values, own.curves, D, np.asarray(np.linalg.pinv(D, hermitian=True), dtype=np.float64),
         placed(section_form(zone, given, "STRESSES")), np.broadcast_to(size, (n, p)).ravel(),
     )  # fmt: skip

@@ -4,7 +4,7 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
-from ssilang.io.plots.graphs.line_style import DASHES, LineStyle, parse_style
+from ssilang.io.plots.graphs.line_style import DASHES, LINE_OPTIONS, LineStyle, parse_style
 from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing.pictures import (
     picture_formats,
@@ -232,7 +232,9 @@ def _styles(call: Call, table: Table, sizes: list[int]) -> dict[str, Any]:
     styles: dict[int, LineStyle] = {}
     for index, value in table.items():
         if isinstance(index, int) and isinstance(value, str):
-            styles[index] = parse_style(value)
+            styles[index] = style = parse_style(value)
+            if style.unread:
+                call.warn("io.no-line-option", words=style.unread, n=index, options=LINE_OPTIONS)
     first, last = _by_number(table, "INITIAL"), _by_number(table, "FINAL")
     for spans in (first, last):
         for n, value in spans.items():

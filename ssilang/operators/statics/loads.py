@@ -114,7 +114,7 @@ _PRESSURE = arg(
     unit="Pa",
     range=ANY_NUMBER,
 )
-_OF_SHELLS = many("fields", "MCHAML", en="parameters of shells: accepted, change nothing")
+_OF_SHELLS = many("fields", "MCHAML", en="parameters of shells: DIM3 counts in plane stress")
 _FACES = opt("faces", "MAILLAGE", en="sides")
 
 
@@ -172,7 +172,7 @@ def along_normals(
     fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Pressure along the normals of shells."""
-    return shell_load(model, value)
+    return shell_load(model, value, material=_joined(fields))
 
 
 @pres.form(said("COQU"))
@@ -185,7 +185,7 @@ def shell_pressure(
 ) -> NodeField:
     """Pressure on shells."""
     aim, point = (None if p is None else p.coordinates for p in (along, towards))
-    return shell_load(model, value, aim, point)
+    return shell_load(model, value, aim, point, _joined(fields))
 
 
 @pres.form(said("SHB8"))
@@ -259,6 +259,10 @@ _DENSITY = arg("density", "CHPOINT", "POINT", en="force per area or length, as a
 _THICKNESS = many("fields", "MCHAML", en="thickness in plane stress")
 
 
+def _joined(fields: tuple[CellField, ...]) -> CellField | None:
+    return joined(fields) if fields else None
+
+
 def _values(density: NodeField | Point) -> NodeField | FloatArray:
     return density if isinstance(density, NodeField) else density.coordinates
 
@@ -274,7 +278,7 @@ def fsur(
 ) -> NodeField:
     """Forces on sides of continuous elements."""
     sides = _sides(call, model, density, faces)
-    return traction(model, sides, _values(density), joined(fields) if fields else None)
+    return traction(model, sides, _values(density), _joined(fields))
 
 
 @fsur.form(said("COQU"))
@@ -284,7 +288,7 @@ def shell_forces(
     fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Forces on shells."""
-    return shell_load(model, _values(density))
+    return shell_load(model, _values(density), material=_joined(fields))
 
 
 @fsur.form(said("POUT"))

@@ -173,7 +173,7 @@ def bsig(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
     stress, material = state_and_rest(fields)
     forces = [families.internal_forces(z, stress, material) for z in present(call, model).zones]
     loads = [z for z in model.zones if z.formulation == "CHARGEMENT"]
-    forces += [pressure_vectors(z, stress) for z in loads]
+    forces += [pressure_vectors(z, stress, material) for z in loads]
     return total(forces[0].table, forces)
 
 

@@ -94,3 +94,56 @@ def test_a_calculation_goes_on(tmp_path):
 def test_exponents_without_a_single_answer_are_refused(tmp_path):
     text = (SQUARE + HELD).format(mode="PLAN DEFO", times=TIMES, a="1.E-7", n="0.5", m="0.5")
     assert "AF2" in refused(text, tmp_path)
+
+
+PLATE = """
+OPTI DIME 3 MODE TRID ELEM TRI3 ;
+S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; LX = COTE S 4 ; LR = COTE S 2 ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'FLUAGE' 'NORTON' {element} ;
+MA = MATE MO 'YOUN' 1.E5 'NU' 0.3 'AF1' {a} 'AF2' {n} 'AF3' {m} 'SMAX' 100. 'EPAI' 0.1 ;
+B = (BLOQ 'UZ' 'RX' 'RY' 'RZ' S) ET (BLOQ 'UX' LX) ET (BLOQ 'UY' (S POIN 'PROC' (0. 0. 0.))) ;
+BR = BLOQ 'UX' LR ;
+T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; T . 'TEMPS_CALCULES' = {times} ;
+"""
+
+
+@pytest.mark.parametrize("element", ["'DKT'", "'COQ3'", "'DKT' 'INTEGRE' 3"])
+@pytest.mark.parametrize("age", [0.5, 1.2])
+def test_a_stretched_plate_relaxes_as_a_body_in_plane_stress(element, age, tmp_path):
+    words = {"element": element, "m": age, "a": "1.E-6"}
+    forces = []
+    for number, model in enumerate((SQUARE, PLATE)):
+        find = run(model + HELD, tmp_path / str(number), **words)
+        reactions = find("T").get("REACTIONS").items()
+        right = [r.values_at("FX", find("LR").node_ids).sum() for _, r in reactions]
+        forces.append(np.array(right))
+    assert forces[0][2:] == pytest.approx(10.0 * forces[1][2:], rel=1e-6)
+    assert abs(forces[0][-1]) < 0.9 * abs(forces[0][1])
+
+
+STRIP = """
+OPTI DIME 2 MODE {mode} ELEM SEG2 ; S = DROI 3 (0. 0.) (2. 0.) ;
+A = S POIN 'INIT' ; E = S POIN 'FINA' ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'FLUAGE' 'NORTON' 'COQ2' ;
+MA = MATE MO 'YOUN' 1.E5 'NU' 0.3 'AF1' {a} 'AF2' {n} 'AF3' {m} 'SMAX' 100. 'EPAI' 0.1 ;
+T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; T . 'TEMPS_CALCULES' = {times} ;
+T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' A ;
+T . 'CHARGEMENT' = CHAR 'MECA' ({load}) (EVOL 'MANU' (PROG 0. 1.E-6 1.E6) (PROG 0. 1. 1.)) ;
+PASAPAS T ; Q = MAXI (VMIS MO (T . 'CONTRAINTES' . 4) MA) ;
+X = EXTR (T . 'DEPLACEMENTS' . 4) '{what}' E ;
+"""
+
+
+@pytest.mark.parametrize(
+    ("load", "what", "force", "soft"),
+    [("FORC E 'FX' 5.", "UX", 5.0, 1e5 * 0.1), ("MOME 'MZ' 0.08 E", "RZ", 0.08, 1e5 * 1e-3 / 12)],
+)
+def test_a_strip_pulled_or_bent_takes_the_power_of_its_equivalent_stress(
+    load, what, force, soft, tmp_path
+):
+    """Its creep p under q flows so that the force times the flow is q h p: 2 m of strip here."""
+    find = run(STRIP, tmp_path, load=load, what=what)
+    q = find("Q")
+    assert q == pytest.approx(50.0 if what == "UX" else q)
+    creep = 1e-7 * q**2 * 10.0**0.5
+    assert abs(find("X")) == pytest.approx(2.0 * (force / soft + q * 0.1 * creep / force), rel=1e-3)

@@ -5,7 +5,11 @@ import pytest
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.materials.plastic.section_flow import SectionParameters, respond
+from ssilang.kernel.materials.plastic.section_flow import (
+    CreepingSections,
+    SectionParameters,
+    respond,
+)
 
 SY = 2e8
 PUSH = """
@@ -217,3 +221,42 @@ def test_what_the_criterion_cannot_do_without_is_asked_for(tmp_path, element, se
     text = f"{LINE}{PUSH}".format(path="1.", at="1.", end="1.", more="", **PERFECT, **words)
     result = run_text(text, output_directory=tmp_path)
     assert [e.code.rpartition(".")[2] for e in result.errors] == [said]
+
+
+@pytest.mark.parametrize("age", [0.4, 1.2])
+def test_creep_goes_by_nortons_law_and_its_tangent_is_its_slope(age):
+    """From an earlier strain of some points: p = (p0^(1/m) + (A q^n)^(1/m) t)^m."""
+    rng, D, P, _ = _points(5)
+    m, one = len(D), np.ones(len(D))
+    law = {"YOUN": one, "AF1": 0.3 * one, "AF2": 3.0 * one, "AF3": age * one, "DT": 0.7 * one}
+    given = CreepingSections(law, {}, D, np.linalg.pinv(D, hermitian=True), P, 0.7 * one)
+    strain, zero = rng.normal(size=(m, 6)), np.zeros((m, 6))
+    before = np.where(np.arange(m) % 2, 0.2, 0.0)[:, None]
+    found = respond(given, zero, strain, before)
+    q = np.sqrt(np.einsum("mi,mij,mj->m", found.stress, P, found.stress))
+    expected = (before[:, 0] ** (1 / age) + (0.3 * q**3) ** (1 / age) * 0.7) ** age
+    assert found.variables[:, 0] == pytest.approx(expected, rel=1e-9)
+    released = np.einsum("mij,mj->mi", D, strain) - found.stress
+    flow = np.einsum("mij,mj->mi", given.compliance, released)
+    dp = found.variables[:, 0] - before[:, 0]
+    assert np.vecdot(found.stress, flow) == pytest.approx(q * 0.7 * dp, rel=1e-8, abs=1e-10)
+    for k in range(6):
+        step = np.zeros(6)
+        step[k] = 1e-6
+        up, down = (respond(given, zero, strain + s, before) for s in (step, -step))
+        slope = (up.stress - down.stress) / 2e-6
+        assert found.tangent[:, :, k] == pytest.approx(slope, rel=1e-5, abs=1e-5)
+
+
+def test_sections_without_time_or_with_weak_stress_do_not_creep():
+    _, D, P, _ = _points(2)
+    one = np.ones(len(D))
+    for duration, size in ((0.0, 1.0), (1.0, 1e-30), (1.0, 0.0)):
+        law = {"YOUN": one, "AF1": 0.3 * one, "AF2": 4.0 * one, "AF3": one, "DT": duration * one}
+        given = CreepingSections(law, {}, D, np.linalg.pinv(D, hermitian=True), P, one)
+        strain = size * np.ones((len(D), 6))
+        found = respond(given, 0 * strain, strain, np.full((len(D), 1), 0.1))
+        elastic = np.einsum("mij,mj->mi", D, strain)
+        np.testing.assert_allclose(found.stress, elastic, rtol=1e-12)
+        np.testing.assert_allclose(found.variables, 0.1, rtol=1e-12)
+        assert np.isfinite(found.tangent).all()

@@ -25,12 +25,14 @@ MARKERS = {
     "CARR": "s",
     "LOSA": "D",
     "ROND": "o",
+    "POIN": ".",
     "TRID": "v",
     "TRIU": "^",
     "TRIL": "<",
     "TRIR": ">",
 }
-_SIZES = {"SS": 2.5, "S": 4.0, "M": 5.5, "L": 8.0, "XL": 11.0}
+_OLD_MARKERS = {"TRIA": "v", "TRIB": "^"}  # names of older scripts
+_SIZES = {"SS": 2.5, "S": 4.0, "M": 5.5, "L": 8.0, "XL": 11.0, "XXL": 15.0}
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,7 @@ class LineStyle:
     fill: bool = False
     fill_white: bool = False
     label: str = ""
+    unread: tuple[str, ...] = ()  # words that say nothing of a style
 
 
 def parse_style(text: str) -> LineStyle:
@@ -54,9 +57,9 @@ def parse_style(text: str) -> LineStyle:
     Raises
     ------
     OutputError
-        For a word that is no option.
+        For a marker that there is not.
     """
-    words = text.split()
+    words, unread = text.split(), []
     chosen: dict[str, object] = {}
     while words:
         word = words.pop(0).upper()
@@ -69,9 +72,8 @@ def parse_style(text: str) -> LineStyle:
         elif word == "MARQ":
             chosen |= _marker(words)
         else:
-            options = " ".join([*_SIMPLE, *DASHES, "LABEL", "MARQ"])
-            raise OutputError("io.no-line-option", word=word, options=options)
-    return LineStyle(**chosen)  # type: ignore[arg-type]
+            unread.append(word)
+    return LineStyle(**chosen, unread=tuple(unread))  # type: ignore[arg-type]
 
 
 _SIMPLE: dict[str, dict[str, object]] = {
@@ -80,6 +82,7 @@ _SIMPLE: dict[str, dict[str, object]] = {
     "BLAN": {"fill_white": True},
     "REGU": {"few_markers": True},
 }
+LINE_OPTIONS = (*_SIMPLE, *DASHES, "LABEL", "MARQ")
 
 
 def _marker(words: list[str]) -> dict[str, object]:
@@ -90,9 +93,8 @@ def _marker(words: list[str]) -> dict[str, object]:
             chosen["marker_size"] = _SIZES[word]
         elif word[:4] == "PLEI":
             chosen["solid"] = True
-        elif word[:4] in MARKERS:
-            chosen["marker"] = MARKERS[word[:4]]
-            return chosen
+        elif (marker := (MARKERS | _OLD_MARKERS).get(word[:4])) is not None:
+            return chosen | {"marker": marker}
         else:
             raise OutputError("io.no-marker", word=word, markers=MARKERS)
     raise OutputError("io.marq-no-marker", markers=MARKERS)

@@ -1,7 +1,8 @@
 """Change of the forces of a pressure when the sides that carry it move and turn.
 
 The force on a side is p times its vector area; its derivative by the displacements is exact for
-the interpolated geometry. In a Fourier series UR and UZ go with cos, UT with sin.
+the interpolated geometry, straight and without moments in COQ2. In a Fourier series UR and UZ go
+with cos, UT with sin.
 """
 
 import numpy as np

@@ -22,6 +22,7 @@ from ssilang.kernel.elements.family import Layout, node_major_layout
 from ssilang.kernel.elements.results.supports import nodal_of_cells
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, chunks
 from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.shells.meridian_shell import meridian_forces
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS, harmonic
 from ssilang.kernel.elements.solids.solid import integration_weights, zone_geometry
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
@@ -311,8 +312,9 @@ def shell_load(
     value: float | FloatArray | NodeField | CellField,
     along: FloatArray | None = None,
     towards: FloatArray | None = None,
+    material: CellField | None = None,
 ) -> NodeField:
-    """Forces on shells: a pressure, or a force per area.
+    """Forces on shells: a pressure or a force per area (on COQ2 with moments).
 
     Parameters
     ----------
@@ -321,6 +323,8 @@ def shell_load(
         The side to which a pressure pushes; the shells' own normals without.
     towards : array (3,), optional
         A point on the side to which a pressure pushes [m].
+    material : CellField, optional
+        Gives the width DIM3 of COQ2 in plane stress.
 
     Raises
     ------
@@ -331,37 +335,39 @@ def shell_load(
     for zone in model.zones:
         if ELEMENTS[zone.element].family not in SHELLS:
             raise MeshError("kernel.elements.load-shells-not-element", element=zone.element)
-        geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
         aim = along
         if towards is not None:
             corners = zone.cells.nodes.coordinates[zone.cells.connectivity]
             aim = towards[: corners.shape[-1]] - corners.mean(axis=1)
-        out.append(_scatter(zone, zone.cells, _shell_forces(zone, geometry, value, aim)))
+        out.append(_on_shell(zone, value, aim, material))
     return total(model.mesh.nodes, out)
 
 
-def _shell_forces(
+def _on_shell(
     zone: Zone,
-    geometry: SurfaceGeometry,
     value: float | FloatArray | NodeField | CellField,
     along: FloatArray | None,
-) -> FloatArray:
-    force = isinstance(value, np.ndarray) or (
+    material: CellField | None,
+) -> NodeField:
+    """Forces of one zone, whose area vectors are those of its faces."""
+    meridian = ELEMENTS[zone.element].family == "meridian"
+    rule = support_rule(zone.element, "MASSE") if meridian else None
+    geometry = face_geometry(zone.cells, zone.mode, harmonic(zone), rule)
+    if isinstance(value, np.ndarray) or (
         isinstance(value, NodeField) and any(n in value.components for n in force_names(zone))
-    )
-    if force:
-        density = _vector_values(zone.cells, geometry, zone, value)  # type: ignore[arg-type]
-        w = geometry.measures
-        forces: FloatArray = np.einsum("cp,cpd,pk->ckd", w, density, geometry.shapes)
-        return forces
-    p = _face_values(zone.cells, geometry, value)  # type: ignore[arg-type]
-    normals = geometry.normals
-    if normals.shape[-1] == 2:  # a quarter turn from the line, not the other way
-        normals = -normals
-    if along is not None:
-        normals = normals * _side(normals, along)[:, None, None]
-    pushed: FloatArray = np.einsum("cp,cpd,pk->ckd", p, normals, geometry.shapes)
-    return pushed
+    ):
+        density = _vector_values(zone.cells, geometry, zone, value)
+        pushed = density * geometry.measures[..., None]
+    else:
+        normals = geometry.normals
+        if normals.shape[-1] == 2:  # a quarter turn from the line, not the other way
+            normals = -normals
+        if along is not None:
+            normals = normals * _side(normals, along)[:, None, None]
+        pushed = normals * _face_values(zone.cells, geometry, value)[..., None]
+    if meridian:
+        return meridian_forces(zone, pushed, zone_field(zone, material))
+    return _scatter(zone, zone.cells, np.einsum("cpd,pk->ckd", pushed, geometry.shapes))
 
 
 _LEAST_ANGLE = float(np.sin(np.radians(1.0)))
@@ -396,10 +402,9 @@ def on_sides(model: Model, field: CellField) -> NodeField | CellField:
     return NodeField(nodal.table, kept, "DIFFUS")
 
 
-def pressure_vectors(zone: Zone, field: CellField) -> NodeField:
+def pressure_vectors(zone: Zone, field: CellField, material: CellField | None = None) -> NodeField:
     """Forces of the pressure field on a zone of pressure loads, along the sides' own normals."""
-    geometry = face_geometry(zone.cells, zone.mode, harmonic(zone))
-    return _scatter(zone, zone.cells, _shell_forces(zone, geometry, field, None))
+    return _on_shell(zone, field, None, material)
 
 
 def body_force(

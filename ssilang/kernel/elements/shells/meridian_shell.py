@@ -19,6 +19,7 @@ from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.solids.solid import circumference
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 
 REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
@@ -187,3 +188,24 @@ class MeridianShell(ShellFamily):
             turn = m.slope_around(harmonic(zone))
             values += np.einsum("cp,cpi,cpj->cij", w * stress[:, 1], turn, turn, optimize=True)
         return values
+
+
+def meridian_forces(zone: Zone, pushed: FloatArray, parameters: ZoneField) -> NodeField:
+    """Forces and moments that do the work of a load on the cubic deflection.
+
+    Parameters
+    ----------
+    pushed : array (n_cells, points of 'MASSE', 2 or 3)
+        The load times the area that a point stands for, UR UZ (UT).
+    parameters : ZoneField
+        DIM3 is the width in plane stress.
+    """
+    m = _Meridian(zone, "MASSE", slice(0, len(zone.cells)))
+    along, across = (np.einsum("cpd,cd->cp", pushed[..., :2], axis) for axis in (m.t, m.n))
+    work = np.einsum("cp,cpi->ci", along, m.u) + np.einsum("cp,cpi->ci", across, m.w)
+    if pushed.shape[-1] == 3:
+        work += np.einsum("cp,cpi->ci", pushed[..., 2], m.v)
+    if zone.mode is Mode.PLANE_STRESS:
+        width = np.asarray(parameters.at("DIM3", "GRAVITE", 1.0))
+        work *= width.mean(axis=1, keepdims=True)
+    return MeridianShell().layout(zone).scatter(work)

@@ -1,10 +1,11 @@
-"""Plasticity on the forces of sections: associated flow on their equivalent stress."""
+"""Plasticity and creep on the forces of sections: associated flow on their equivalent stress."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 TURNS = 100
@@ -37,14 +38,48 @@ class SectionParameters(PointParameters):
     def at(self, points: IntArray) -> "SectionParameters":
         """The same for some of the points."""
         own = PointParameters(self.values, self.curves).at(points)
-        parts = (self.rigidity, self.softness, self.form, self.size)
-        return SectionParameters(own.values, own.curves, *(part[points] for part in parts))
+        names = ("rigidity", "softness", "form", "size")
+        return replace(
+            self,
+            values=own.values,
+            curves=own.curves,
+            **{n: getattr(self, n)[points] for n in names},
+        )
 
-    def strength(self, p: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Limit of the equivalent stress after a flow p (m,), and its slope."""
+    def strength(self, p: FloatArray, dp: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Limit of the equivalent stress after a flow p + dp (m,), and its slope."""
         if "ECRO" in self.curves:
-            return self.curve("ECRO", p)
+            return self.curve("ECRO", p + dp)
         return self["SIGY"], np.zeros(len(p))
+
+    def most(self, q: FloatArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """What a flow (m,) begins with, and what it does not pass."""
+        return np.zeros(len(p)), np.full(len(p), np.inf)
+
+
+@dataclass(frozen=True, eq=False)
+class CreepingSections(SectionParameters):
+    """Sections that creep by Norton's law: the stress of a flow in the step is their limit."""
+
+    def strength(self, p: FloatArray, dp: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Stress under which the creep strain p (m,) grows by dp in the step, and its slope."""
+        age, power = self["AF3"], self["AF2"]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            grown = np.expm1(np.log1p(dp / p) / age) * p ** (1.0 / age)
+            grown = np.where(p > 0.0, grown, dp ** (1.0 / age))
+            q = ((grown / self[DURATION]) ** age / self["AF1"]) ** (1.0 / power)
+            slope = q / power * (p + dp) ** (1.0 / age - 1.0) / grown
+        idle = (self[DURATION] <= 0.0) | (self["AF1"] <= 0.0)
+        return np.where(idle, np.inf, q), slope
+
+    def most(self, q: FloatArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """The creep of the stress (m,) that does not relax: never less than the flow."""
+        age = self["AF3"]
+        unit = (self["AF1"] * q ** self["AF2"]) ** (1.0 / age) * self[DURATION]
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            dp = p * np.expm1(age * np.log1p(unit / p ** (1.0 / age)))
+        dp = np.where(p > 0.0, dp, unit**age)
+        return dp, dp
 
 
 def respond(
@@ -61,13 +96,14 @@ def respond(
     centre = variables[:, 1:7] if variables.shape[1] > 1 else np.zeros_like(trial)
     reduced, p, inner = trial - centre, variables[:, 0], variables.copy()
     q = np.sqrt(np.einsum("mi,mij,mj->m", reduced, parameters.form, reduced))
-    rows = np.flatnonzero(q > parameters.strength(p)[0] * (1 + 1e-14))
+    limit, most = parameters.strength(p, np.zeros(len(p)))[0], parameters.most(q, p)[1]
+    rows = np.flatnonzero((q > limit * (1 + 1e-14)) & (most > 0.0))
     found, tangent = trial.copy(), moduli.copy()
     if len(rows):
         given = parameters.at(rows)
         dp, moved = _flow(given, reduced[rows], p[rows])
         inner[rows, 0] += dp
-        flow, shift, tangent[rows] = _consistent(given, moved, dp, p[rows] + dp)
+        flow, shift, tangent[rows] = _consistent(given, moved, dp, p[rows])
         found[rows] -= dp[:, None] * flow
         if variables.shape[1] > 1:
             inner[rows, 1:7] += dp[:, None] * shift
@@ -85,10 +121,11 @@ def _flow(given: SectionParameters, reduced: FloatArray, p: FloatArray) -> tuple
     """The flow (m,) that brings reduced forces (m, 6) back onto the criterion, and where to."""
     back, H = _directions(given)
     change = back + H[:, None, :] * np.eye(6)
-    low, high, dp = np.zeros(len(p)), np.full(len(p), np.inf), np.zeros(len(p))
+    top = np.sqrt(np.einsum("mi,mij,mj->m", reduced, given.form, reduced))
+    low, (dp, high) = np.zeros(len(p)), given.most(top, p)
     first = np.abs(reduced).max() / given["YOUN"].min() / given.size.min()
     for _ in range(TURNS):
-        limit, slope = given.strength(p + dp)
+        limit, slope = given.strength(p, dp)
         A = np.eye(6) + (dp / limit)[:, None, None] * change
         moved = np.linalg.solve(A, reduced[..., None])[..., 0]
         weighed = np.einsum("mij,mj->mi", given.form, moved)
@@ -124,7 +161,7 @@ def _consistent(
     except np.linalg.LinAlgError:  # of a step far beyond any equilibrium
         inverse = np.linalg.pinv(change)
     whole, v = inverse @ given.moduli, np.einsum("mij,mj->mi", inverse, flow + shift)
-    hard = given.strength(p)[1] + np.vecdot(n, v)
+    hard = given.strength(p, dp)[1] + np.vecdot(n, v)
     w = np.einsum("mji,mj->mi", whole, n) / hard[:, None]
     reduced = whole - v[:, :, None] * w[:, None]
     return flow, shift, given.moduli - flow[:, :, None] * w[:, None] - step * (DN @ reduced)

@@ -114,6 +114,18 @@ def test_styles_of_the_table() -> None:
         parse_style("MARQ ROUND")
 
 
+@pytest.mark.parametrize(
+    ("style", "marker", "unread"),
+    [("MARQ TRIA", "v", ()), ("MARQ XXL TRIB REGU", "^", ()), ("MARQ POIN POIN", ".", ()),
+     ("marq tria titr m1", "v", ("TITR", "M1"))],
+)  # fmt: skip
+def test_older_markers_are_drawn_and_idle_words_kept_apart(style, marker, unread) -> None:
+    found = parse_style(style)
+    assert (found.marker, found.unread) == (marker, unread)
+    (axes,) = draw_curves(curve(0), CurveOptions(styles={1: found})).axes
+    assert axes.lines[0].get_marker() == marker
+
+
 @pytest.mark.parametrize(("style", "rows"), [("", range(11)), (" REGU", [0, 2, 4, 6, 8, 10])])
 def test_points_have_the_label_of_their_style(style: str, rows: Sequence[int]) -> None:
     given = {2: parse_style("LABEL here" + style)}

@@ -85,16 +85,21 @@ def _quadrangle():
     return Zone(block, "CHARGEMENT", ("PRESSION",), "QUA4", Mode.THREE_DIMENSIONAL)
 
 
+def _line(mode):
+    zone = line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], mode)
+    return Zone(zone.cells, "CHARGEMENT", ("PRESSION",), "SEG2", mode)
+
+
 SIDES = [
     ("space", _quadrangle, ("UX", "UY", "UZ")),
     (
         "plane",
-        lambda: line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], Mode.PLANE_STRAIN),
+        lambda: _line(Mode.PLANE_STRAIN),
         ("UX", "UY"),
     ),
     (
         "ring",
-        lambda: line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], Mode.AXISYMMETRIC),
+        lambda: _line(Mode.AXISYMMETRIC),
         ("UR", "UZ"),
     ),
 ]
