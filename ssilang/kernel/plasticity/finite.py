@@ -6,7 +6,7 @@ shown are Cauchy's (of bars: the present force).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Protocol, cast
 
 import numpy as np
@@ -18,7 +18,7 @@ from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of, integration_weights, moduli_of
-from ssilang.kernel.elements.family import cell_block, per_cell
+from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
@@ -35,68 +35,22 @@ from ssilang.kernel.plasticity.finite_space_beam import (
     is_plane_beam,
     is_space_beam,
 )
+from ssilang.kernel.plasticity.large.carried import Array, Carried, CarriedShell, seen_and_held
 from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_shell
 from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 
 @dataclass(frozen=True, eq=False)
-class FinitePlaneShell:
-    """Strips that are carried by their chords like beams of the plane.
-
-    Attributes
-    ----------
-    chord : FiniteBeam
-    seen : array (n, n_stresses, n_points, 3)
-        Stresses for one unit of lengthening and of the turns of both ends.
-    held : array (n, 3, n_stresses, n_points)
-        Forces of the chord that stresses make.
-    initial : array (n, n_stresses, n_points)
-        Stresses without displacement.
-    """
-
-    zone: Zone
-    chord: FiniteBeam
-    seen: FloatArray
-    held: FloatArray
-    initial: FloatArray
-
-    def forces(self, u: FloatArray) -> FloatArray:
-        """Internal forces."""
-        return self.chord.forces(u)
-
-    def tangent(self, u: FloatArray) -> FloatArray:
-        """Their derivative."""
-        return self.chord.tangent(u)
-
-    def stored(self, u: FloatArray) -> float:
-        """Elastic energy."""
-        return self.chord.stored(u)
-
-    def shown(self, u: FloatArray) -> FloatArray:
-        """Membrane forces and moments per length, in the axes of the present chord."""
-        return np.asarray(self.initial + np.einsum("cspi,ci->csp", self.seen, self.chord.small(u)))
-
-    def stressed(self, given: FloatArray, u: FloatArray) -> "FinitePlaneShell":
-        """Initial stresses from present ones."""
-        start = given - np.einsum("cspi,ci->csp", self.seen, self.chord.small(u))
-        pulled = np.einsum("cisp,csp->ci", self.held, start)
-        return replace(self, chord=replace(self.chord, initial=pulled), initial=start)
+class FinitePlaneShell(CarriedShell, FiniteBeam):
+    """Strips that are carried by their chords like beams of the plane."""
 
 
 def finite_plane_shell(zone: Zone, material: CellField, points: int) -> FinitePlaneShell:
     """A zone of shells without stress."""
-    parameters, family = zone_field(zone, material), family_of(zone)
-    whole = slice(0, len(zone.cells))
-    operator = family.strain_operator(zone, parameters, "STRESSES", whole)
-    carried = np.swapaxes(beam_frame(zone, parameters).rotation(zone), 1, 2) @ CARRIED
-    strains = np.einsum("cspm,cmi->cspi", operator.matrix, carried)
-    D = per_cell(moduli_of(zone, parameters, "STRESSES"), whole)
-    D = np.broadcast_to(D, (len(strains), points, *D.shape[2:]))
-    seen = np.einsum("cpst,ctpi->cspi", D, strains)
-    held = np.moveaxis(strains * operator.weights[:, None, :, None], 3, 1)
-    return FinitePlaneShell(
-        zone, finite_beam(zone, material, points), seen, held, np.zeros(seen.shape[:3])
-    )
+    turn = beam_frame(zone, zone_field(zone, material)).rotation(zone)
+    seen, held = seen_and_held(zone, material, points, np.swapaxes(turn, 1, 2) @ CARRIED)
+    chord, start = finite_beam(zone, material, points), np.zeros(seen.shape[:3])
+    return FinitePlaneShell(zone, chord.stiffness, start, points, chord.span, seen, held)
 
 
 class FiniteZone(Protocol):
@@ -212,56 +166,34 @@ class FiniteSolid:
 
 
 @dataclass(frozen=True, eq=False)
-class FiniteBar:
-    """Bars: span (n, d) from end to end, stiffness ES (n,), force without displacement (n,)."""
+class FiniteBar(Carried):
+    """Bars: their lengthening; span (n, d) from end to end at rest."""
 
-    zone: Zone
     span: FloatArray
-    stiffness: FloatArray
-    initial: FloatArray
-    points: int
 
-    def _present(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Lengths at rest and now, present directions."""
+    def _measured(self, u: Array) -> tuple[Array, Array]:
         d = self.span.shape[1]
         now = self.span + u[:, d:] - u[:, :d]
         length = np.linalg.norm(now, axis=1)
         if (length == 0.0).any():
             raise FieldError("kernel.plasticity.bar-shrunk-nothing")
-        return np.linalg.norm(self.span, axis=1), length, now / length[:, None]
-
-    def _force(self, u: FloatArray) -> FloatArray:
-        rest, length, _ = self._present(u)
-        return np.asarray(self.initial + self.stiffness * (length / rest - 1.0))
-
-    def forces(self, u: FloatArray) -> FloatArray:
-        """Internal forces."""
-        pull = self._force(u)[:, None] * self._present(u)[2]
-        return np.concatenate([-pull, pull], axis=1)
+        rest, t = np.linalg.norm(self.span, axis=1), now / length[:, None]
+        return (length - rest)[:, None], np.concatenate([-t, t], axis=1)[:, None]
 
     def tangent(self, u: FloatArray) -> FloatArray:
         """Stretching and turning parts."""
-        rest, length, t = self._present(u)
-        along = t[:, :, None] * t[:, None, :]
-        across = np.eye(t.shape[1]) - along
-        k = (self.stiffness / rest)[:, None, None] * along
-        k = k + (self._force(u) / length)[:, None, None] * across
-        return np.block([[k, -k], [-k, k]])
-
-    def stored(self, u: FloatArray) -> float:
-        """Elastic energy."""
-        rest, length, _ = self._present(u)
-        return float(0.5 * (self.initial + self._force(u)) @ (length - rest))
+        d, B = self._measured(u)
+        length, t = np.linalg.norm(self.span, axis=1) + d[:, 0], B[:, 0, self.span.shape[1] :]
+        across = np.eye(t.shape[1]) - t[:, :, None] * t[:, None, :]
+        k = (self._inner(d)[:, 0] / length)[:, None, None] * across
+        return np.asarray(np.swapaxes(B, 1, 2) @ self.stiffness @ B + np.block([[k, -k], [-k, k]]))
 
     def shown(self, u: FloatArray) -> FloatArray:
         """Present forces."""
-        return np.repeat(self._force(u)[:, None, None], self.points, axis=2)
+        return np.repeat(self._inner(self.small(u))[:, :, None], self.points, axis=2)
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteBar":
-        """Initial forces from present ones."""
-        zero = FiniteBar(self.zone, self.span, self.stiffness, 0.0 * self.initial, self.points)
-        start = given[:, 0].mean(axis=1) - zero._force(u)
-        return FiniteBar(self.zone, self.span, self.stiffness, start, self.points)
+    def _stretched(self, given: FloatArray) -> FloatArray:
+        return np.asarray(given[:, :1].mean(axis=2))
 
 
 def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
@@ -287,9 +219,10 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))
         ends = zone.cells.nodes.coordinates[zone.cells.connectivity][..., :d]
-        stiffness = np.broadcast_to(moduli[:, 0, 0, 0], (len(ends),)).copy()
         span = ends[:, 1] - ends[:, 0]
-        return FiniteBar(zone, span, stiffness, np.zeros(len(ends)), weights.shape[1])
+        stiffness = moduli[:, 0, 0, 0] / np.linalg.norm(span, axis=1)
+        start = np.zeros((len(ends), 1))
+        return FiniteBar(zone, stiffness[:, None, None], start, weights.shape[1], span)
     turning = zone.mode is Mode.FOURIER or (zone.mode in REVOLUTION and harmonic(zone))
     if not is_solid(zone) or turning:
         raise FieldError("kernel.plasticity.finite-displacements-not-built", element=zone.element)

@@ -12,12 +12,9 @@ of the ends against the chord, is small and meets the stiffness of small displac
 1991, chapter 7). Shears follow from the moments at the ends.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
@@ -27,6 +24,7 @@ from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.plasticity.large.carried import Array, Carried
 
 _BEAMS = ("beam", "timoshenko")
 # displacements of both nodes, in the axes of the chord, for one unit of lengthening and end turns
@@ -41,29 +39,20 @@ def is_plane_beam(zone: Zone) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class FiniteBeam:
-    """Beams of the plane.
+class FiniteBeam(Carried):
+    """Beams of the plane: lengthening and turns of both ends against the chord.
 
     Attributes
     ----------
     span : array (n, 2)
         From end to end at rest.
-    stiffness : array (n, 3, 3)
-        Of the normal force and the moments at both ends over lengthening and turns of the ends.
-    initial : array (n, 3)
-        The same forces without displacement.
     points : int
         Where section forces are shown: 1, the middle, or 2, the ends.
     """
 
-    zone: Zone
     span: FloatArray
-    stiffness: FloatArray
-    initial: FloatArray
-    points: int
 
-    def _present(self, u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Lengthening and turns of the ends (n, 3), present lengths (n,), directions (n, 2)."""
+    def _measured(self, u: Array) -> tuple[Array, Array]:
         now = self.span + u[:, 3:5] - u[:, :2]
         rest, length = np.linalg.norm(self.span, axis=1), np.linalg.norm(now, axis=1)
         if (length == 0.0).any():
@@ -73,19 +62,10 @@ class FiniteBeam:
         # of the angles that differ by whole turns, the one nearest to the ends'
         turn += 2 * np.pi * np.round((0.5 * (u[:, 2] + u[:, 5]) - turn) / (2 * np.pi))
         small = np.stack([length - rest, u[:, 2] - turn, u[:, 5] - turn], axis=1)
-        return small, length, now / length[:, None]
+        along = now / length[:, None]
+        return small, self._variations(along, length)
 
-    def small(self, u: FloatArray) -> FloatArray:
-        """Lengthening and turns of both ends against the chord (n, 3)."""
-        return self._present(u)[0]
-
-    def _inner(self, u: FloatArray) -> FloatArray:
-        """Normal force and moments at both ends (n, 3)."""
-        elastic = np.einsum("nij,nj->ni", self.stiffness, self._present(u)[0])
-        return np.asarray(self.initial + elastic)
-
-    def _variations(self, length: FloatArray, t: FloatArray) -> FloatArray:
-        """Lengthening and turns of the ends (n, 3, 6) for one unit of each unknown."""
+    def _variations(self, t: FloatArray, length: FloatArray) -> FloatArray:
         across = np.stack([-t[:, 1], t[:, 0]], axis=1) / length[:, None]
         B = np.zeros((len(t), 3, 6))
         B[:, 0, :2], B[:, 0, 3:5] = -t, t
@@ -93,19 +73,14 @@ class FiniteBeam:
             B[:, row, :2], B[:, row, 3:5], B[:, row, own] = across, -across, 1.0
         return B
 
-    def forces(self, u: FloatArray) -> FloatArray:
-        """Internal forces."""
-        _, length, t = self._present(u)
-        return np.asarray(np.einsum("nij,ni->nj", self._variations(length, t), self._inner(u)))
-
     def tangent(self, u: FloatArray) -> FloatArray:
         """Bending and stretching, and the turning of the chord under its forces."""
-        _, length, t = self._present(u)
-        B, inner = self._variations(length, t), self._inner(u)
-        n = np.stack([-t[:, 1], t[:, 0]], axis=1)
-        mixed = t[:, :, None] * n[:, None, :]
-        g = (inner[:, 0] / length)[:, None, None] * n[:, :, None] * n[:, None, :]
-        moments = (inner[:, 1] + inner[:, 2]) / length**2
+        d, B = self._measured(u)
+        inner, length = self._inner(d), np.linalg.norm(self.span, axis=1) + d[:, 0]
+        t, turned = B[:, 0, 3:5], B[:, 1, :2]
+        mixed = t[:, :, None] * turned[:, None, :]
+        g = (inner[:, 0] * length)[:, None, None] * turned[:, :, None] * turned[:, None, :]
+        moments = (inner[:, 1] + inner[:, 2]) / length
         g = g + moments[:, None, None] * (mixed + np.swapaxes(mixed, 1, 2))
         K = np.swapaxes(B, 1, 2) @ self.stiffness @ B
         for rows, i in ((slice(0, 2), -1.0), (slice(3, 5), 1.0)):
@@ -113,29 +88,21 @@ class FiniteBeam:
                 K[:, rows, columns] += i * j * g
         return np.asarray(K)
 
-    def stored(self, u: FloatArray) -> float:
-        """Elastic energy."""
-        mean = 0.5 * (self.initial + self._inner(u))
-        return float(np.einsum("ni,ni->", mean, self._present(u)[0]))
-
     def shown(self, u: FloatArray) -> FloatArray:
         """Normal force, shear and moment in the axes of the present chord."""
-        N, first, second = self._inner(u).T
+        N, first, second = self._inner(self.small(u)).T
         V = -(first + second) / np.linalg.norm(self.span, axis=1)
         ends = np.stack([[N, V, -first], [N, V, second]], axis=-1)
         if self.points == 1:
             ends = ends.mean(axis=-1, keepdims=True)
         return np.moveaxis(ends, 1, 0)
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteBeam":
-        """Initial forces from present ones."""
+    def _stretched(self, given: FloatArray) -> FloatArray:
         half = 0.5 * given[:, 1].mean(axis=1) * np.linalg.norm(self.span, axis=1)
         moments = (-given[:, 2, 0], given[:, 2, -1])
         if self.points == 1:
             moments = (-given[:, 2, 0] - half, given[:, 2, 0] - half)
-        wanted = np.stack([given[:, 0].mean(axis=1), *moments], axis=1)
-        zero = replace(self, initial=np.zeros_like(self.initial))
-        return replace(self, initial=wanted - zero._inner(u))
+        return np.stack([given[:, 0].mean(axis=1), *moments], axis=1)
 
 
 def finite_beam(zone: Zone, material: CellField, points: int) -> FiniteBeam:
@@ -146,13 +113,9 @@ def finite_beam(zone: Zone, material: CellField, points: int) -> FiniteBeam:
     ends = zone.cells.coordinates
     span = (ends[:, -1] - ends[:, 0])[:, :2]
     inner = CARRIED.T @ local @ CARRIED
-    return FiniteBeam(zone, span, inner, np.zeros((len(span), 3)), points)
+    return FiniteBeam(zone, inner, np.zeros((len(span), 3)), points, span)
 
 
-Array = NDArray[Any]
-"""Real, or complex where it is differentiated by a step along the imaginary axis."""
-
-_STEP = 1e-30
 SMALL = 1e-3
 """Squared angle below which functions of an angle are their series."""
 # displacements of both nodes in the cell's axes for one unit of lengthening and end turns
@@ -219,23 +182,12 @@ def vector_of(R: Array) -> Array:
     return axial * np.where(near, series, np.arcsin(sine) / sine)[:, None]
 
 
-def derivative(forces: Callable[[Array], Array], u: FloatArray) -> FloatArray:
-    """Derivative (n, m, m) of an energy's forces (n, m): steps along the imaginary axis."""
-    n, size = u.shape
-    K = np.empty((n, size, size))
-    for k in range(size):
-        moved = u.astype(complex)
-        moved[:, k] += 1j * _STEP
-        K[:, :, k] = forces(moved).imag / _STEP
-    return 0.5 * (K + np.swapaxes(K, 1, 2))
-
-
 # --- the cells -----------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, eq=False)
-class FiniteSpaceBeam:
-    """Beams in space.
+class FiniteSpaceBeam(Carried):
+    """Beams in space: lengthening and turns of both ends against the cell's frame.
 
     Attributes
     ----------
@@ -243,23 +195,14 @@ class FiniteSpaceBeam:
         From end to end at rest.
     axes : array (n, 3, 3)
         Axes at rest, as rows.
-    stiffness : array (n, 7, 7)
-        Of the normal force and the moments at both ends over lengthening and turns of the ends.
-    initial : array (n, 7)
-        The same forces without displacement.
     points : int
         Where section forces are shown: 1, the middle, or 2, the ends.
     """
 
-    zone: Zone
     span: FloatArray
     axes: FloatArray
-    stiffness: FloatArray
-    initial: FloatArray
-    points: int
 
     def _measured(self, u: Array) -> tuple[Array, Array]:
-        """Lengthening and turns of the ends (n, 7), and (n, 7, 12) for one unit of each unknown."""
         now = self.span + u[:, 6:9] - u[:, :3]
         rest = np.linalg.norm(self.span, axis=1)
         # l - L without the rounding of their difference
@@ -306,35 +249,9 @@ class FiniteSpaceBeam:
             B[:, row : row + 3] = np.linalg.solve(spin_of(v), spin)
         return B @ T
 
-    def _balanced(self, u: Array) -> Array:
-        d, B = self._measured(u)
-        inner = self.initial + np.einsum("cij,cj->ci", self.stiffness, d)
-        return np.asarray(np.einsum("cij,ci->cj", B, inner))
-
-    def small(self, u: FloatArray) -> FloatArray:
-        """Lengthening and turns of both ends against the cell's frame (n, 7)."""
-        return np.asarray(self._measured(u)[0], dtype=float)
-
-    def _inner(self, u: FloatArray) -> FloatArray:
-        elastic = np.einsum("cij,cj->ci", self.stiffness, self.small(u))
-        return np.asarray(self.initial + elastic)
-
-    def forces(self, u: FloatArray) -> FloatArray:
-        """Internal forces."""
-        return np.asarray(self._balanced(u), dtype=float)
-
-    def tangent(self, u: FloatArray) -> FloatArray:
-        """Their derivative, exact to rounding."""
-        return derivative(self._balanced, u)
-
-    def stored(self, u: FloatArray) -> float:
-        """Elastic energy."""
-        mean = 0.5 * (self.initial + self._inner(u))
-        return float(np.einsum("ci,ci->", mean, self.small(u)))
-
     def shown(self, u: FloatArray) -> FloatArray:
         """Section forces in the axes of the present frame."""
-        inner, L = self._inner(u), np.linalg.norm(self.span, axis=1)
+        inner, L = self._inner(self.small(u)), np.linalg.norm(self.span, axis=1)
         N, first, second = inner[:, 0], inner[:, 1:4], inner[:, 4:7]
         both = (first + second) / L[:, None]
         forces = np.stack([N, -both[:, 2], both[:, 1]], axis=1)
@@ -342,8 +259,7 @@ class FiniteSpaceBeam:
         found = np.stack(ends, axis=-1)
         return found.mean(axis=-1, keepdims=True) if self.points == 1 else found
 
-    def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteSpaceBeam":
-        """Initial forces from present ones."""
+    def _stretched(self, given: FloatArray) -> FloatArray:
         first, second = -given[:, 3:6, 0], given[:, 3:6, -1]
         if self.points == 1:
             L = np.linalg.norm(self.span, axis=1)
@@ -351,9 +267,7 @@ class FiniteSpaceBeam:
             for m in (first, second):
                 m[:, 2] += half[:, 0]
                 m[:, 1] += half[:, 1]
-        wanted = np.concatenate([given[:, 0].mean(axis=1)[:, None], first, second], axis=1)
-        zero = replace(self, initial=np.zeros_like(self.initial))
-        return replace(self, initial=wanted - zero._inner(u))
+        return np.concatenate([given[:, 0].mean(axis=1)[:, None], first, second], axis=1)
 
 
 def finite_space_beam(zone: Zone, material: CellField, points: int) -> FiniteSpaceBeam:
@@ -363,6 +277,5 @@ def finite_space_beam(zone: Zone, material: CellField, points: int) -> FiniteSpa
     local = T @ stiffness(zone, material).values @ np.swapaxes(T, 1, 2)
     ends = zone.cells.coordinates
     inner = _CARRIED.T @ local @ _CARRIED
-    return FiniteSpaceBeam(
-        zone, ends[:, -1] - ends[:, 0], frame.axes, inner, np.zeros((len(ends), 7)), points
-    )
+    start = np.zeros((len(ends), 7))
+    return FiniteSpaceBeam(zone, inner, start, points, ends[:, -1] - ends[:, 0], frame.axes)

@@ -6,26 +6,18 @@ Rankin 1991). The rotations RX RY RZ of a node are the components of one rotatio
 mesh at rest, as those of beams in space.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.families import family_of, moduli_of, stiffness
-from ssilang.kernel.elements.family import per_cell
+from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
-from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.plasticity.finite_space_beam import (
-    Array,
-    derivative,
-    rotation,
-    skew,
-    spin_of,
-    vector_of,
-)
+from ssilang.kernel.plasticity.finite_space_beam import rotation, skew, spin_of, vector_of
+from ssilang.kernel.plasticity.large.carried import Array, CarriedShell, seen_and_held
 
 
 def is_facet_shell(zone: Zone) -> bool:
@@ -34,7 +26,7 @@ def is_facet_shell(zone: Zone) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class FinitePlate:
+class FinitePlate(CarriedShell):
     """Flat triangular shells.
 
     Attributes
@@ -43,26 +35,12 @@ class FinitePlate:
         Corners at rest.
     axes : array (n, 3, 3)
         Axes at rest, as rows.
-    stiffness : array (n, 18, 18)
-        In these axes.
-    seen : array (n, n_stresses, n_points, 18)
-        Stresses for one unit of each displacement in these axes.
-    held : array (n, 18, n_stresses, n_points)
-        Forces that stresses make.
-    initial : array (n, n_stresses, n_points)
-        Stresses without displacement.
     """
 
-    zone: Zone
     ends: FloatArray
     axes: FloatArray
-    stiffness: FloatArray
-    seen: FloatArray
-    held: FloatArray
-    initial: FloatArray
 
     def _measured(self, u: Array) -> tuple[Array, Array]:
-        """Displacements and turns against the frame (n, 18), and for one of each unknown."""
         moved = u.reshape(len(u), 3, 2, 3)
         now = self.ends + moved[:, :, 0]
         first, second = now[:, 1] - now[:, 0], now[:, 2] - now[:, 0]
@@ -99,55 +77,16 @@ class FinitePlate:
             B[:, turn] = np.linalg.solve(spin_of(small[k]), spin)
         return B @ T
 
-    def _balanced(self, u: Array) -> Array:
-        d, B = self._measured(u)
-        inner = np.einsum("cij,cj->ci", self.stiffness, d)
-        inner = inner + np.einsum("cisp,csp->ci", self.held, self.initial)
-        return np.asarray(np.einsum("cij,ci->cj", B, inner))
-
-    def small(self, u: FloatArray) -> FloatArray:
-        """Displacements and turns against the present frame (n, 18)."""
-        return np.asarray(self._measured(u)[0], dtype=float)
-
-    def forces(self, u: FloatArray) -> FloatArray:
-        """Internal forces."""
-        return np.asarray(self._balanced(u), dtype=float)
-
-    def tangent(self, u: FloatArray) -> FloatArray:
-        """Their derivative, exact to rounding."""
-        return derivative(self._balanced, u)
-
-    def stored(self, u: FloatArray) -> float:
-        """Elastic energy."""
-        d = self.small(u)
-        elastic = 0.5 * np.einsum("ci,cij,cj->", d, self.stiffness, d)
-        return float(elastic + np.einsum("ci,cisp,csp->", d, self.held, self.initial))
-
-    def shown(self, u: FloatArray) -> FloatArray:
-        """Membrane forces and moments per length, in the axes of the present frame."""
-        return np.asarray(self.initial + np.einsum("cspi,ci->csp", self.seen, self.small(u)))
-
-    def stressed(self, given: FloatArray, u: FloatArray) -> "FinitePlate":
-        """Initial stresses from present ones."""
-        elastic = np.einsum("cspi,ci->csp", self.seen, self.small(u))
-        return replace(self, initial=given - elastic)
-
 
 def finite_plate(zone: Zone, material: CellField, points: int) -> FinitePlate:
     """A zone of flat triangular shells without stress."""
-    parameters, family = zone_field(zone, material), family_of(zone)
-    whole = slice(0, len(zone.cells))
     axes, _ = flat_frames(zone)
     T = np.zeros((len(axes), 18, 18))
     for k in range(0, 18, 3):
         T[:, k : k + 3, k : k + 3] = axes
     back = np.swapaxes(T, 1, 2)
-    operator = family.strain_operator(zone, parameters, "STRESSES", whole)
-    strains = np.einsum("cspm,cmi->cspi", operator.matrix, back)
-    D = per_cell(moduli_of(zone, parameters, "STRESSES"), whole)
-    D = np.broadcast_to(D, (len(strains), points, *D.shape[2:]))
-    seen = np.einsum("cpst,ctpi->cspi", D, strains)
-    held = np.moveaxis(strains * operator.weights[:, None, :, None], 3, 1)
+    seen, held = seen_and_held(zone, material, points, back)
     local = T @ stiffness(zone, material).values @ back
     ends = zone.cells.nodes.coordinates[zone.cells.connectivity]
-    return FinitePlate(zone, ends, axes, local, seen, held, np.zeros(seen.shape[:3]))
+    start = np.zeros(seen.shape[:3])
+    return FinitePlate(zone, local, start, points, seen, held, ends, axes)
