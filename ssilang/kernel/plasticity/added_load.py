@@ -181,14 +181,6 @@ class LoadedBulk(Bulk):
         """Stresses of the bodies."""
         return self.bodies.stresses(_of(state).bodies)
 
-    def variables(self, state: State) -> list[CellFieldBlock]:
-        """Internal variables of the bodies."""
-        return self.bodies.variables(_of(state).bodies)
-
-    def plastic_strains(self, state: State) -> list[CellFieldBlock]:
-        """Plastic strains of the bodies."""
-        return self.bodies.plastic_strains(_of(state).bodies)
-
 
 def _of(state: State) -> _Loaded:
     return cast(Any, state)  # type: ignore[no-any-return]

@@ -289,17 +289,16 @@ class Bulk:
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Stresses of the zones (forces in bars and beams)."""
-        return [z.stress_block(s) for z, s in zip(self.zones, state, strict=True)]
+        return [z.stress_block(s) for z, s in self.points_of(state)]
 
     def variables(self, state: State) -> list[CellFieldBlock]:
         """Internal variables of the zones."""
-        pairs = zip(self.zones, state, strict=True) if self.zones else ()
-        return [z.variable_block(s) for z, s in pairs]
+        return [z.variable_block(s) for z, s in self.points_of(state)]
 
     def plastic_strains(self, state: State) -> list[CellFieldBlock]:
         """Plastic strains of the zones that have them."""
-        pairs = zip(self.zones, state, strict=True) if self.zones else ()
-        return [b for z, s in pairs if (b := z.plastic_block(s)) is not None]
+        blocks = (z.plastic_block(s) for z, s in self.points_of(state))
+        return [b for b in blocks if b is not None]
 
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""

@@ -5,12 +5,10 @@ turn with their ends: force `N = N0 + ES (l/L - 1)` along the present direction.
 shown are Cauchy's (of bars: the present force).
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol, cast
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
@@ -18,15 +16,12 @@ from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of, integration_weights, moduli_of
-from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.matrices.assembly import Numbering, block_indices
-from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
 from ssilang.kernel.plasticity.finite_space_beam import (
     CARRIED,
     FiniteBeam,
@@ -37,7 +32,6 @@ from ssilang.kernel.plasticity.finite_space_beam import (
 )
 from ssilang.kernel.plasticity.large.carried import Array, Carried, CarriedShell, seen_and_held
 from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_shell
-from ssilang.kernel.plasticity.points import PlasticPoints, PointState
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,88 +237,3 @@ def _slopes(zone: Zone) -> FloatArray:
         r = radius(zone, geometry.shapes, slice(None))
         out[:, :, :, 0, 2, 2] = geometry.shapes / r[..., None]
     return out.reshape(n, p, m * nu, 3, 3)
-
-
-@dataclass(frozen=True, eq=False)
-class FiniteBulk(Bulk):
-    """Bodies in finite displacements on the numbering of a problem; their state is u (n,)."""
-
-    finite: tuple[FiniteZone, ...] = ()
-
-    @property
-    def words(self) -> str:
-        """What is said of them."""
-        return "finite displacements"
-
-    @property
-    def searched(self) -> bool:
-        """Whole steps of Newton."""
-        return False
-
-    def points_of(self, state: State) -> list[tuple[PlasticPoints, PointState]]:
-        """No zone yields."""
-        return []
-
-    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
-        """Forces and tangent after a step `du` (n,)."""
-        before = _displacement(state)
-        u = before + du
-        force = self._sum(u)
-        tangents = [z.tangent(u[p]) for z, p in zip(self.finite, self.places, strict=True)]
-        work = 0.5 * float((self._sum(before) + force) @ du)
-        return Answer(force, lambda: self._assembled(tangents), finite_state(u), work)
-
-    def force(self, state: State) -> FloatArray:
-        """Internal forces (n,) of a state."""
-        return self._sum(_displacement(state))
-
-    def _sum(self, u: FloatArray) -> FloatArray:
-        total = np.zeros(self.size)
-        for zone, places in zip(self.finite, self.places, strict=True):
-            total += np.bincount(places.ravel(), zone.forces(u[places]).ravel(), self.size)
-        return total
-
-    def stored(self, state: State) -> float:
-        """Elastic energy."""
-        u = _displacement(state)
-        return sum(z.stored(u[p]) for z, p in zip(self.finite, self.places, strict=True))
-
-    def stresses(self, state: State) -> list[CellFieldBlock]:
-        """Cauchy stresses."""
-        u = _displacement(state)
-        return [
-            cell_block(z.zone, family_of(z.zone).stress_names(z.zone), z.shown(u[p]))
-            for z, p in zip(self.finite, self.places, strict=True)
-        ]
-
-
-def finite_state(u: FloatArray) -> State:
-    """The state of bodies in finite displacements: all follows from where they are."""
-    return cast(State, (u.copy(),))
-
-
-def _displacement(state: State) -> FloatArray:
-    return cast("tuple[Any, ...]", state)[0]  # type: ignore[no-any-return]
-
-
-def finite_bulk(
-    zones: Sequence[Zone],
-    material: CellField,
-    numbering: Numbering,
-    u: FloatArray,
-    given: CellField | None,
-) -> FiniteBulk:
-    """Zones placed on a numbering; `given` are Cauchy stresses at the displacement u (n,)."""
-    made, places = [], []
-    for zone in zones:
-        finite = finite_zone(zone, material)
-        at: NDArray[np.int32] = block_indices(without_stiffness(zone), numbering).astype(np.int32)
-        if given is not None:
-            names = family_of(zone).stress_names(zone)
-            values = zone_field(zone, given).matrix(names, "STRESSES")
-            count = integration_weights(zone, "STRESSES", material).shape[1]
-            values = np.broadcast_to(values, (*values.shape[:2], count))
-            finite = finite.stressed(values, u[at])
-        made.append(finite)
-        places.append(at)
-    return FiniteBulk((), tuple(places), numbering.size, {}, tuple(made))

@@ -68,22 +68,17 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
     material: CellField = entries.needed("CARACTERISTIQUES")
 
     def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
-        from ssilang.kernel.plasticity.finite import finite_bulk, finite_state
         from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
-        from ssilang.kernel.plasticity.large.finite_yielding import yielding_bulk
+        from ssilang.kernel.plasticity.large.finite_yielding import finite_bulk
 
         yielding = tuple(z for z in zones if is_plastic(z))
-        if yielding:
-            elastic = tuple(z for z in zones if z not in yielding)
-            stress, variables, plastic = (start.of(word) for word in _STATE)
-            return yielding_bulk(
-                elastic, yielding, material, problem.numbering, problem.u,
-                (stress, variables, plastic), float(problem.times[0]),
-                LAGRANGIAN[str(entries.get("LAGRANGIEN"))],
-            )  # fmt: skip
-        given = start.of("CONTRAINTES")
-        bulk = finite_bulk(zones, material, problem.numbering, problem.u, given)
-        return bulk, finite_state(problem.u)
+        elastic = tuple(z for z in zones if z not in yielding)
+        stress, variables, plastic = (start.of(word) for word in _STATE)
+        return finite_bulk(
+            elastic, yielding, material, problem.numbering, problem.u,
+            (stress, variables, plastic), float(problem.times[0]),
+            LAGRANGIAN[str(entries.get("LAGRANGIEN"))],
+        )  # fmt: skip
 
     return make
 

@@ -1,4 +1,4 @@
-"""Plastic continuous elements in finite displacements.
+"""Bodies in finite displacements together, and plastic continuous elements among them.
 
 Large strains are those of `finite_flow`. What stands here takes the law of small strains between
 Green-Lagrange strains and second Piola-Kirchhoff stresses ('LAGRANGIEN' 'TOTAL'; Bathe, Finite
@@ -16,14 +16,14 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.families import family_of, integration_weights
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import Numbering, block_indices
-from ssilang.kernel.plasticity.bulk import Answer, State, without_stiffness
-from ssilang.kernel.plasticity.finite import FiniteBulk, FiniteSolid, finite_bulk, finite_zone
+from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
+from ssilang.kernel.plasticity.finite import FiniteSolid, FiniteZone, finite_zone
 from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
@@ -85,23 +85,31 @@ class YieldingSolid:
 
 
 @dataclass(frozen=True, eq=False)
-class YieldingBulk(FiniteBulk):
-    """Bodies in finite displacements some of which yield; their state: u (n,), then the points'.
+class FiniteBulk(Bulk):
+    """Bodies in finite displacements; their state: u (n,), then the points of those that yield.
 
     Attributes
     ----------
+    finite : tuple of FiniteZone
+        Elastic bodies, at `places`.
     yielding : tuple of YieldingSolid
     at : tuple of array (n_cells, n_rows)
         Unknown of each row of each element vector of these.
     """
 
+    finite: tuple[FiniteZone, ...] = ()
     yielding: tuple[YieldingSolid, ...] = ()
     at: tuple[NDArray[np.int32], ...] = ()
 
     @property
+    def words(self) -> str:
+        """What is said of them."""
+        return "finite displacements"
+
+    @property
     def searched(self) -> bool:
-        """Newton's steps are cut where what is out of balance would grow."""
-        return True
+        """Where all is elastic Newton's steps are whole."""
+        return bool(self.yielding)
 
     def points_of(self, state: State) -> list[tuple[PlasticPoints, PointState]]:
         """The zones that yield, with what they have of a state."""
@@ -111,7 +119,7 @@ class YieldingBulk(FiniteBulk):
         """Forces and tangent after a step `du` (n,)."""
         before, old = _parts(state)
         u = before + du
-        force = self._sum(u)
+        force = self._elastic(u)
         tangents = [z.tangent(u[p]) for z, p in zip(self.finite, self.places, strict=True)]
         after = []
         for zone, places, last in zip(self.yielding, self.at, old, strict=True):
@@ -131,38 +139,34 @@ class YieldingBulk(FiniteBulk):
     def force(self, state: State) -> FloatArray:
         """Internal forces (n,) of a state."""
         u, points = _parts(state)
-        total = self._sum(u)
+        total = self._elastic(u)
         for zone, places, last in zip(self.yielding, self.at, points, strict=True):
             now = zone.standing(u[places], last)
             total += np.bincount(places.ravel(), now.forces(u[places]).ravel(), self.size)
         return total
 
+    def _elastic(self, u: FloatArray) -> FloatArray:
+        """Internal forces (n,) of the elastic bodies."""
+        total = np.zeros(self.size)
+        for zone, places in zip(self.finite, self.places, strict=True):
+            total += np.bincount(places.ravel(), zone.forces(u[places]).ravel(), self.size)
+        return total
+
     def stored(self, state: State) -> float:
         """Elastic energy."""
         u, points = _parts(state)
+        elastic = sum(z.stored(u[p]) for z, p in zip(self.finite, self.places, strict=True))
         three = zip(self.yielding, self.at, points, strict=True)
-        return super().stored(state) + sum(z.stored(u[p], last) for z, p, last in three)
+        return elastic + sum(z.stored(u[p], last) for z, p, last in three)
 
     def stresses(self, state: State) -> list[CellFieldBlock]:
         """Cauchy stresses."""
         u, points = _parts(state)
-        blocks = super().stresses(state)
-        for zone, places, last in zip(self.yielding, self.at, points, strict=True):
-            shown = zone.shown(u[places], last)
-            where = zone.points.zone
-            blocks.append(cell_block(where, family_of(where).stress_names(where), shown))
-        return blocks
-
-    def variables(self, state: State) -> list[CellFieldBlock]:
-        """Internal variables."""
-        pairs = zip(self.yielding, _parts(state)[1], strict=True)
-        return [z.points.variable_block(s) for z, s in pairs]
-
-    def plastic_strains(self, state: State) -> list[CellFieldBlock]:
-        """Plastic strains."""
-        pairs = zip(self.yielding, _parts(state)[1], strict=True)
-        blocks = (z.points.plastic_block(s) for z, s in pairs)
-        return [b for b in blocks if b is not None]
+        pairs = zip(self.finite, self.places, strict=True)
+        shown = [(z.zone, z.shown(u[p])) for z, p in pairs]
+        three = zip(self.yielding, self.at, points, strict=True)
+        shown += [(z.points.zone, z.shown(u[p], last)) for z, p, last in three]
+        return [cell_block(z, family_of(z).stress_names(z), values) for z, values in shown]
 
 
 def _state(u: FloatArray, points: Sequence[PointState]) -> State:
@@ -174,7 +178,7 @@ def _parts(state: State) -> tuple[FloatArray, tuple[PointState, ...]]:
     return u, tuple(points)
 
 
-def yielding_bulk(
+def finite_bulk(
     elastic: Sequence[Zone],
     plastic: Sequence[Zone],
     material: CellField,
@@ -183,31 +187,42 @@ def yielding_bulk(
     given: Fields,
     time: float,
     made_of: Callable[[FiniteSolid, PlasticPoints], YieldingSolid],
-) -> tuple[YieldingBulk, State]:
+) -> tuple[FiniteBulk, State]:
     """Zones placed on a numbering, and their state at the displacement u (n,).
 
-    `made_of` makes a zone of its kinematics and its law: `YieldingSolid`, or one of `finite_flow`.
+    `given` has Cauchy stresses at u. `made_of` makes a zone that yields of its kinematics and its
+    law: `YieldingSolid`, or one of `finite_flow`.
 
     Raises
     ------
     FieldError
-        For elements other than continuous ones, and creep.
+        For elements and hypotheses that have none; where zones yield for elements other than
+        continuous ones, and creep.
     """
-    base = finite_bulk(elastic, material, numbering, u, given[0])
-    zones, places, states = [], [], []
-    for zone in plastic:
+
+    def place(zone: Zone) -> NDArray[np.int32]:
+        return block_indices(without_stiffness(zone), numbering).astype(np.int32)
+
+    bodies, zones, states = [], [], []
+    places, at = [place(z) for z in elastic], [place(z) for z in plastic]
+    for zone, own in zip(elastic, places, strict=True):
+        finite = finite_zone(zone, material)
+        if given[0] is not None:
+            values = zone_field(zone, given[0]).matrix(
+                family_of(zone).stress_names(zone), "STRESSES"
+            )
+            count = integration_weights(zone, "STRESSES", material).shape[1]
+            finite = finite.stressed(np.broadcast_to(values, (*values.shape[:2], count)), u[own])
+        bodies.append(finite)
+    for zone, own in zip(plastic, at, strict=True):
         solid, points = finite_zone(zone, material), plastic_points(zone, material)
         if not isinstance(solid, FiniteSolid) or points.law.timed:
             raise FieldError("kernel.plasticity.finite-yielding-not-built", element=zone.element)
-        at: NDArray[np.int32] = block_indices(without_stiffness(zone), numbering).astype(np.int32)
         made = made_of(solid, points)
         zones.append(made)
-        places.append(at)
-        states.append(_start(made, u[at], given, time))
-    bulk = YieldingBulk(
-        (), base.places, numbering.size, {}, base.finite, tuple(zones), tuple(places)
-    )
-    return bulk, _state(u, states)
+        states.append(_start(made, u[own], given, time))
+    whole = (tuple(bodies), tuple(zones), tuple(at))
+    return FiniteBulk((), tuple(places), numbering.size, {}, *whole), _state(u, states)
 
 
 def _start(made: YieldingSolid, u: FloatArray, given: Fields, time: float) -> PointState:

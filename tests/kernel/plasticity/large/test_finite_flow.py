@@ -7,7 +7,7 @@ from together import together
 
 from ssilang.kernel.plasticity.finite import finite_zone
 from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
-from ssilang.kernel.plasticity.large.finite_yielding import InsideOutError, YieldingBulk
+from ssilang.kernel.plasticity.large.finite_yielding import FiniteBulk, InsideOutError
 from ssilang.kernel.plasticity.points import PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
@@ -167,7 +167,7 @@ def test_matter_turned_inside_out_has_no_answer():
     with pytest.raises(InsideOutError):
         zone.respond(before, u, blank, 1.0)
     places = np.arange(u.size, dtype=np.int32)[None]
-    bulk = YieldingBulk((), (), u.size, {}, (), (zone,), (places,))
+    bulk = FiniteBulk((), (), u.size, {}, (), (zone,), (places,))
     answer = bulk.respond((before[0], blank), (u - before)[0], 1.0)
     assert np.isnan(answer.force).all()
     assert answer.state[1] is blank
