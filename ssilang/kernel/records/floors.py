@@ -13,9 +13,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.modulated import largest_value
+from ssilang.kernel.records.modulated import answers, gauss_points, largest_value, moments_of
 
-_GAUSS = np.polynomial.legendre.leggauss(4)
 _STEPS = 60
 """Instants over the earthquake, and a third of them after it."""
 
@@ -87,41 +86,22 @@ def floor_evolution(
     natural : float
         Frequency of the oscillator (Hz).
     """
-    from scipy.linalg import expm
-
     A, b = _system(storey, natural, damping)
     f, weights = _points(power, storey, natural, damping)
-    s = 2j * np.pi * f
-    inverse = np.linalg.inv(s[:, None, None] * np.eye(len(b)) - A)
-    steady = (inverse @ b).T
-    grown = -np.einsum("kij,jk->ik", inverse, steady)
     row = len(b) // 2 - 1
     length = envelope[0][-1] - envelope[0][0]
     times = np.union1d(
         np.linspace(envelope[0][0], envelope[0][-1], _STEPS + 1), np.asarray(envelope[0])
     )
-    after = times[-1] + length / _STEPS * np.arange(1, _STEPS // 3 + 1)
-    factors = np.concatenate([np.interp(times, *envelope), np.zeros(len(after))])
-    times = np.concatenate([times, after])
-    last = len(times) - len(after) - 1
-    x = np.zeros_like(steady)
-    moments = [np.zeros(3)]
-    kept: dict[float, FloatArray] = {}
-    for i, (start, end) in enumerate(pairwise(times)):
-        step = round(float(end - start), 12)
-        free = kept.setdefault(step, expm(A * step))
-        first, level = (0.0, 0.0) if i >= last else (factors[i], factors[i + 1])
-        slope = (level - first) / step
-        # phases are counted from the start of each step: moments do not see them
-        x = x - (first * steady + slope * grown)
-        x = free @ x + (level * steady + slope * grown) * np.exp(s * step)
-        x = x * np.exp(-s * step)
-        z, rate = x[row], x[row + len(b) // 2]
-        cross = float(np.sum(weights * (np.conj(z) * rate).imag))
-        moments.append(
-            np.array([np.sum(weights * np.abs(z) ** 2), cross, np.sum(weights * np.abs(rate) ** 2)])
-        )
-    return times - times[0], np.array(moments)
+    factors = np.interp(times, *envelope)
+    pieces = [
+        (end - start, first, last)
+        for (start, end), (first, last) in zip(pairwise(times), pairwise(factors), strict=True)
+    ]
+    pieces += [(length / _STEPS, 0.0, 0.0)] * (_STEPS // 3)
+    moments = [moments_of(weights, x[row], x[row + len(b) // 2]) for x in answers(A, b, f, pieces)]
+    ends = np.cumsum([0.0, *(piece[0] for piece in pieces)])
+    return ends, np.array([np.zeros(3), *moments])
 
 
 def _points(
@@ -137,11 +117,7 @@ def _points(
         n * (1.0 + x * spread) for n, x in zip(storey.frequencies, storey.dampings, strict=True)
     ]
     edges = np.union1d(f, np.concatenate(near))
-    edges = edges[(edges >= f[0]) & (edges <= f[-1])]
-    half = 0.5 * np.diff(edges)
-    x = ((edges[:-1] + half)[:, None] + half[:, None] * _GAUSS[0]).ravel()
-    weights = (half[:, None] * _GAUSS[1]).ravel()
-    return x, weights * np.interp(x, f, density)
+    return gauss_points(f, density, edges[(edges >= f[0]) & (edges <= f[-1])])
 
 
 def floor_spectrum(

@@ -13,7 +13,7 @@ Shinozuka & Deodatis, Applied Mechanics Reviews 44 (1991): with N sines of ampli
 sqrt(2 S df) the signal is Gaussian as N grows and has the spectrum in the mean.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -85,6 +85,15 @@ class Resolution:
     precision: float = 1e-3
 
 
+def gauss_points(
+    f: FloatArray, density: FloatArray, edges: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Frequencies, and weights times density: four points between each two edges."""
+    half = 0.5 * np.diff(edges)
+    x = ((edges[:-1] + half)[:, None] + half[:, None] * _GAUSS[0]).ravel()
+    return x, (half[:, None] * _GAUSS[1]).ravel() * np.interp(x, f, density)
+
+
 def _points(signal: ModulatedSignal, natural: float, damping: float) -> tuple[FloatArray, ...]:
     """Frequencies, weights times density, band of each point: finer near the resonance."""
     near = natural + damping * natural * np.sinh(np.linspace(-6.0, 6.0, 61))
@@ -92,19 +101,53 @@ def _points(signal: ModulatedSignal, natural: float, damping: float) -> tuple[Fl
     low = max(signal.frequencies[0], signal.bands[0])
     high = min(signal.frequencies[-1], signal.bands[-1])
     edges = edges[(edges >= low) & (edges <= high)]
-    half = 0.5 * np.diff(edges)
-    x = ((edges[:-1] + half)[:, None] + half[:, None] * _GAUSS[0]).ravel()
-    weights = (half[:, None] * _GAUSS[1]).ravel()
-    power = weights * np.interp(x, signal.frequencies, signal.density)
+    x, power = gauss_points(signal.frequencies, signal.density, edges)
     band = np.searchsorted(signal.bands, x, side="right") - 1
     return x, power, np.clip(band, 0, len(signal.times) - 1)
+
+
+Piece = tuple[float, FloatArray | float, FloatArray | float]
+"""Length of a piece of time, modulation at its ends: of each frequency, or of all."""
+
+
+def answers(
+    A: FloatArray, b: FloatArray, f: FloatArray, pieces: Iterable[Piece]
+) -> Iterator[ComplexArray]:
+    """States (n, n_f) of `x' = A x + b a`, at rest first, at the end of each piece of time.
+
+    `a` is `m(t) e^(2 i pi f t)` with m linear in each piece. Phases are counted from each end:
+    moments do not see them.
+    """
+    from scipy.linalg import expm
+
+    s = 2j * np.pi * f
+    # answers H e^(st) to e^(st) and (H' + H t) e^(st) to t e^(st)
+    inverse = np.linalg.inv(s[:, None, None] * np.eye(len(b)) - A)
+    steady = (inverse @ b).T
+    grown = -np.einsum("kij,jk->ik", inverse, steady)
+    x, kept = np.zeros_like(steady), dict[float, tuple[FloatArray, ComplexArray]]()
+    for length, first, last in pieces:
+        step = round(length, 12)
+        if step not in kept:
+            kept[step] = expm(A * step), np.exp(-s * step)
+        free, back = kept[step]
+        slope = (last - first) / step
+        x = free @ (x - (first * steady + slope * grown)) * back
+        x = x + (last * steady + slope * grown)
+        yield x
+
+
+def moments_of(power: FloatArray, y: ComplexArray, rate: ComplexArray) -> FloatArray:
+    """Moments 0, 1, 2 of a quantity (n_f,) and its rate, by the power of each frequency."""
+    cross = np.sum(power * (np.conj(y) * rate).imag)
+    return np.array([np.sum(power * np.abs(y) ** 2), cross, np.sum(power * np.abs(rate) ** 2)])
 
 
 def _observed(
     kind: str,
     u: ComplexArray,
     v: ComplexArray,
-    push: ComplexArray | FloatArray,
+    push: FloatArray | float,
     w0: float,
     damping: float,
 ) -> tuple[ComplexArray, ComplexArray]:
@@ -134,44 +177,20 @@ def evolution(
     kind : 'ACCE', 'VITE', 'DEPL'
     """
     f, power, band = _points(signal, natural, damping)
-    w, w0 = 2.0 * np.pi * f, 2.0 * np.pi * natural
-    levels = signal.levels(resolution.processes)
-    length = signal.duration / resolution.processes
-    step = length / resolution.instants
+    w0, (whole, parts) = 2.0 * np.pi * natural, (resolution.processes, resolution.instants)
+    length = signal.duration / whole
+    at = np.arange(whole * parts + 1) / parts
+    levels = [np.interp(at, np.arange(whole + 1), m) for m in signal.levels(whole)]
+    pushes: list[FloatArray | float] = [*np.array(levels).T[:, band]]
+    pieces = [(length / parts, *ends) for ends in pairwise(pushes)]
     after = int(np.ceil(resolution.added / length - 1e-9)) if resolution.added > 0.0 else 0
-    ends = [levels[band, k] for k in range(resolution.processes + 1)]
-    zero = np.zeros(len(f))
-    rows = [*pairwise(ends), *[(zero, zero)] * after]
-    # how displacement and velocity of the free oscillator change in a step
-    decay, wd = damping * w0, w0 * np.sqrt(1.0 - damping**2)
-    cosine, sine, fade = np.cos(wd * step), np.sin(wd * step) / wd, np.exp(-decay * step)
-    to_u, to_v = [cosine + decay * sine, sine], [-w0 * w0 * sine, cosine - decay * sine]
-    free = fade * np.array([to_u, to_v])
-    turn = np.exp(1j * w * step)
-    # answers H e^(st) to -e^(st) and (H' + H t) e^(st) to -t e^(st), s = i w
-    s = 1j * w
-    steady = -1.0 / (s * s + 2.0 * damping * w0 * s + w0 * w0)
-    grown = (2.0 * s + 2.0 * damping * w0) * steady**2
-    phase = np.ones(len(f), complex)
-    u, v = np.zeros(len(f), complex), np.zeros(len(f), complex)
+    pieces += [(length / parts, 0.0, 0.0)] * (after * parts)
+    A = np.array([[0.0, 1.0], [-w0 * w0, -2.0 * damping * w0]])
     moments = [np.zeros(3)]
-    for first, last in rows:
-        slope = (last - first) / length
-        for i in range(resolution.instants):
-            level = first + slope * (i * step)
-            du = u - (level * steady + slope * grown) * phase
-            dv = v - (level * s * steady + slope * (steady + s * grown)) * phase
-            phase = phase * turn
-            level = level + slope * step
-            u = (level * steady + slope * grown) * phase + free[0, 0] * du + free[0, 1] * dv
-            v = (level * s * steady + slope * (steady + s * grown)) * phase
-            v = v + free[1, 0] * du + free[1, 1] * dv
-            y, rate = _observed(kind, u, v, level * phase, w0, damping)
-            cross = float(np.sum(power * (np.conj(y) * rate).imag))
-            moments.append(
-                np.array([np.sum(power * np.abs(y) ** 2), cross, np.sum(power * np.abs(rate) ** 2)])
-            )
-    times: FloatArray = step * np.arange(len(moments), dtype=float)
+    states = answers(A, np.array([0.0, -1.0]), f, pieces)
+    for (u, v), (_, _, push) in zip(states, pieces, strict=True):
+        moments.append(moments_of(power, *_observed(kind, u, v, push, w0, damping)))
+    times: FloatArray = length / parts * np.arange(len(moments), dtype=float)
     return times, np.array(moments)
 
 
