@@ -20,7 +20,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import ComplexArray, FloatArray
+from ssilang.kernel.base.arrays import ComplexArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.power import gumbel_mean
 
@@ -94,7 +94,9 @@ def gauss_points(
     return x, (half[:, None] * _GAUSS[1]).ravel() * np.interp(x, f, density)
 
 
-def _points(signal: ModulatedSignal, natural: float, damping: float) -> tuple[FloatArray, ...]:
+def _points(
+    signal: ModulatedSignal, natural: float, damping: float
+) -> tuple[FloatArray, FloatArray, IntArray]:
     """Frequencies, weights times density, band of each point: finer near the resonance."""
     near = natural + damping * natural * np.sinh(np.linspace(-6.0, 6.0, 61))
     edges = np.union1d(np.union1d(signal.frequencies, signal.bands), near)
@@ -127,7 +129,7 @@ def answers(
     grown = -np.einsum("kij,jk->ik", inverse, steady)
     x, kept = np.zeros_like(steady), dict[float, tuple[FloatArray, ComplexArray]]()
     for length, first, last in pieces:
-        step = round(length, 12)
+        step = float(f"{length:.12g}")  # those that rounding alone tells apart are one
         if step not in kept:
             kept[step] = expm(A * step), np.exp(-s * step)
         free, back = kept[step]
