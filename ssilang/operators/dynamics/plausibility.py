@@ -20,16 +20,15 @@ from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
-    Bodies,
+    Start,
     against_supports,
     contact_resolution,
     masses_alone,
     on_supports,
     overloads,
     stiffness_contrast,
-    swings,
 )
-from ssilang.kernel.waves.shaken import AXES, accelerations, changing, translations
+from ssilang.kernel.waves.shaken import AXES, translations
 from ssilang.operators.dynamics.damped import OVERDAMPED, damped_heavily
 from ssilang.operators.dynamics.reports import conserved
 from ssilang.operators.dynamics.shaking import (
@@ -86,17 +85,18 @@ def warn_of_start(
     entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
 ) -> None:
     """Warn of all that the start of a calculation shows, by the tables below."""
-    guards = IN_STATICS if in_statics else GUARDS
+    start, guards = Start(problem, inputs), IN_STATICS if in_statics else GUARDS
     if not in_statics and not plastic_zones(inputs.model):
         guards += OF_STIFFNESS
     for find in guards:
-        for code, told in find(problem, inputs):
+        for code, told in find(start):
             entries.warn(code, supports=SUPPORTS[entries.procedure], **told)
     if not in_statics:
-        warn_of_shaking(entries, problem, inputs)
+        warn_of_shaking(entries, start)
 
 
-def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
+def _motion_elsewhere(start: Start) -> Told:
+    problem, inputs = start.problem, start.inputs
     for index, field in (("DEPL", inputs.displacement), ("VITE", inputs.velocity)):
         lost = [] if field is None else outside(field, problem.numbering, dual=False)
         if lost:
@@ -105,15 +105,15 @@ def _motion_elsewhere(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.motion-elsewhere", told
 
 
-def _motion_against_supports(problem: Problem, _: Inputs) -> Told:
-    for index, rows in against_supports(problem).items():
+def _motion_against_supports(start: Start) -> Told:
+    for index, rows in against_supports(start.problem).items():
         if len(rows):
             told = {"index": index, "count": len(rows), "moved": index == "DEPL"}
             yield "operators.dynamics.motion-against-supports", told
 
 
-def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
-    contact = problem.contact
+def _imposed_elsewhere(start: Start) -> Told:
+    problem, inputs, contact = start.problem, start.inputs, start.problem.contact
     known = [problem.multipliers, *([] if contact is None else [contact.multipliers])]
     for part in () if inputs.load is None else inputs.load.parts:
         count = max(imposed_outside(f, np.concatenate(known)) for f, _ in nodal_terms(part))
@@ -121,7 +121,8 @@ def _imposed_elsewhere(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.imposed-elsewhere", {"name": part.name, "count": count}
 
 
-def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
+def _not_conserved(start: Start) -> Told:
+    problem, inputs = start.problem, start.inputs
     joints, zones = problem.interface, () if inputs.model is None else inputs.model.zones
     if joints is not None and problem.scheme.conserving and not conserved(joints):
         laws = [law_of(z.behaviour) for z in zones if is_joint(z)]
@@ -129,8 +130,9 @@ def _not_conserved(problem: Problem, inputs: Inputs) -> Told:
         yield "operators.dynamics.conserving-other-laws", {"laws": names}
 
 
-def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
+def _joints_of_others(start: Start) -> Told:
     """Joints whose matrix in RIGI has not the parameters that CARACTERISTIQUES give their law."""
+    inputs = start.inputs
     if inputs.model is None or inputs.characteristics is None:
         return
     for zone in joint_zones(inputs.model):
@@ -142,34 +144,32 @@ def _joints_of_others(_: Problem, inputs: Inputs) -> Told:
                 yield "operators.dynamics.joints-of-others", {"off": off}
 
 
-def _mass_held(problem: Problem, _: Inputs) -> Told:
+def _mass_held(start: Start) -> Told:
     """A mass that supports hold, all but a hundredth of it."""
+    problem = start.problem
     mass, along = problem.M, translations(problem)
     moved = np.asarray((along * (mass @ along)).sum(axis=1), float)
     still = held(problem)
     if moved[still].sum() > HELD * moved.sum() > 0.0 and not problem.loading.imposed.any():
         told = {"held": moved[still].sum() / along.shape[1], "whole": moved.sum() / along.shape[1]}
-        node = problem.numbering.table.told(int(problem.numbering.nodes[(moved * still).argmax()]))
+        node = problem.numbering.told(moved * still)
         yield "operators.dynamics.mass-held", {**told, "node": node}
 
 
-def _viscosity_unread(_: Problem, inputs: Inputs) -> Told:
-    if inputs.damping is None and any(b.viscous for b in inputs.stiffness.blocks):
+def _viscosity_unread(start: Start) -> Told:
+    if start.inputs.damping is None and any(b.viscous for b in start.inputs.stiffness.blocks):
         yield "operators.dynamics.viscosity-unread", {}
 
 
-def _masses_alone(problem: Problem, _: Inputs) -> Told:
-    nodes = masses_alone(problem)
-    if len(nodes):
-        told = {"count": len(nodes), "node": problem.numbering.table.told(int(nodes[0]))}
+def _masses_alone(start: Start) -> Told:
+    if len(nodes := masses_alone(start.problem)):
+        told = {"count": len(nodes), "node": start.problem.numbering.table.told(nodes[0])}
         yield "operators.dynamics.masses-alone", told
 
 
-def _on_supports(problem: Problem, inputs: Inputs) -> Told:
-    parts = () if inputs.load is None else inputs.load.parts
-    names = [part.name for part in parts for _ in nodal_terms(part)]
-    for name in dict.fromkeys(names[k] for k in on_supports(problem)):
-        told = {"name": name, "other_side": _held_on_the_other_side(problem)}
+def _on_supports(start: Start) -> Told:
+    for name in dict.fromkeys(start.names[k] for k in on_supports(start)):
+        told = {"name": name, "other_side": _held_on_the_other_side(start.problem)}
         yield "operators.dynamics.load-on-supports", told
 
 
@@ -185,21 +185,20 @@ def _held_on_the_other_side(problem: Problem) -> bool:
     return any(np.isin(a, nodes[still]).all() and np.isin(b, free).all() for a, b in ways)
 
 
-def _loose(problem: Problem, _: Inputs) -> Told:
+def _loose(start: Start) -> Told:
+    problem = start.problem
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
-    bodies = Bodies(problem)
-    for sunk in bodies.sunk():
-        told: dict[str, Any] = {"node": problem.numbering.table.told(sunk.node), "axis": sunk.axis}
-        yield "operators.dynamics.sinks-in", {**told, "way": sunk.way, "size": sunk.size}
-    zones, loose = () if (joints := problem.interface) is None else joints.joints, [*bodies.loose()]
+    for sunk in start.sunk():
+        yield "operators.dynamics.sinks-in", vars(sunk)
+    zones, loose = () if (joints := problem.interface) is None else joints.joints, [*start.loose()]
     slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
-    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in swings(problem)):
-        told = {"macro": any(is_macro(j.zone) for j in zones), "slides": slides}
+    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in start.swings):
+        told: dict[str, Any] = {"macro": any(is_macro(j.zone) for j in zones), "slides": slides}
         yield "operators.dynamics.turns-away", told
     for found in loose:
-        told = {"node": problem.numbering.table.told(found.node), "axis": found.axis}
+        told = {"node": found.node, "axis": found.axis}
         if found.pressed:
             yield "operators.dynamics.nothing-presses", told
         else:
@@ -207,8 +206,9 @@ def _loose(problem: Problem, _: Inputs) -> Told:
             yield "operators.dynamics.slides-away", told
 
 
-def _swings(problem: Problem, _: Inputs) -> Told:
-    dt, found = float(np.diff(problem.times).max()), swings(problem)
+def _swings(start: Start) -> Told:
+    problem, found = start.problem, start.swings
+    dt = float(np.diff(problem.times).max())
     period = min((s.period for s in found if s.sudden), default=dt)
     ratio = max((s.damping for s in found), default=0.0)
     if FEWEST * dt > period > 0.0 and any(s.sudden for s in found):
@@ -217,7 +217,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
         yield "operators.dynamics.step-over-period", told
     longest = max((s.period for s in found), default=np.inf)
     strikes = problem.interface is not None or problem.contact or any(s.sudden for s in found)
-    if longest < FEWEST * dt and not strikes and (accelerations(problem) * changing(problem)).any():
+    if longest < FEWEST * dt and not strikes and start.shaking.any():
         told = {"period": longest, "steps": longest / dt}
         yield "operators.dynamics.shaken-as-rigid", told
     if any(s.damping < 0.0 for s in found):
@@ -226,7 +226,7 @@ def _swings(problem: Problem, _: Inputs) -> Told:
         yield "operators.dynamics.overdamped", {"ratio": ratio}
 
 
-GUARDS: tuple[Callable[[Problem, Inputs], Told], ...] = (
+GUARDS: tuple[Callable[[Start], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
