@@ -16,6 +16,7 @@ from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
+from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -46,6 +47,7 @@ from ssilang.operators.dynamics.standing import (
     matter_amiss,
     out_of_balance,
     rotary_alone,
+    stops_turned,
     turns_heavily,
     unequal_joints,
     velocity_of_rest,
@@ -56,7 +58,7 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import FloatArray
+    from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
     from ssilang.kernel.curves.curve import Load
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_histories import NodeHistories
@@ -73,7 +75,8 @@ HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stag
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 FEWEST, WANTED = 3, 20  # steps of a period
 OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
-TURNED = 1.0  # rad
+RESOLVED = 5e-3  # of the largest energy: with four steps a contact some 3 %, with 24 0.15 %
+TURNED, TIPPED = 1.0, 0.2  # rad: of a node; of a body at the end, that joints or stops bear
 HELD = 0.99  # of all mass, on nodes that do not move
 OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
@@ -81,12 +84,10 @@ SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 FAR = 100.0  # sizes of the model; what slides may go far
 
 
-def warn_of_start(
-    entries: Entries, problem: Problem, inputs: Inputs, *, in_statics: bool = False
-) -> None:
+def warn_of_start(entries: Entries, start: Start, *, in_statics: bool = False) -> None:
     """Warn of all that the start of a calculation shows, by the tables below."""
-    start, guards = Start(problem, inputs), IN_STATICS if in_statics else GUARDS
-    if not in_statics and not plastic_zones(inputs.model):
+    guards = IN_STATICS if in_statics else GUARDS
+    if not in_statics and not plastic_zones(start.inputs.model):
         guards += OF_STIFFNESS
     for find in guards:
         for code, told in find(start):
@@ -230,7 +231,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
-    rotary_alone, weak_cores, mass_of_both, damped_heavily,
+    rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
@@ -243,10 +244,9 @@ OF_STIFFNESS = (
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
 
-def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> None:
+def warn_of_motion(entries: Entries, start: Start, track: NodeHistories) -> None:
     """Warn where the last instant kept has moved by many times the model's size, or far round."""
-
-    numbering = problem.numbering
+    problem, numbering = start.problem, start.problem.numbering
     along, round_about = (
         np.isin(numbering.codes, [numbering.code(a) for a in names if a in numbering.unknowns])
         for names in (AXES, ("RX", "RY", "RZ"))
@@ -254,13 +254,21 @@ def warn_of_motion(entries: Entries, problem: Problem, track: NodeHistories) -> 
     if not len(track) or not along[track.unknowns].any():
         return
     u = track.instant(len(track) - 1).values("u")[0]
+    loose = start.bodies() if problem.interface or problem.contact else ()
     turn = float(np.abs(u[round_about[track.unknowns]]).max(initial=0.0))
-    if turn > TURNED:
-        entries.warn("operators.dynamics.turns-far", turn=turn)
+    tips = max((_turn(problem, body.own, track.unknowns, u) for body in loose), default=0.0)
+    if turn > TURNED or tips > TIPPED:
+        entries.warn("operators.dynamics.turns-far", turn=max(turn, tips), tips=tips > TIPPED)
     way = float(np.abs(u[along[track.unknowns]]).max())
     size = float(np.ptp(numbering.table.coordinates[numbering.nodes[along]], axis=0).max())
     if way > FAR * size > 0.0:
         entries.warn("operators.dynamics.moves-far", way=way, size=size, times=way / size)
+
+
+def _turn(problem: Problem, own: BoolArray, kept: IntArray, u: FloatArray) -> float:
+    """Rotation (rad) of a body, by the displacements u (n,) of those of its unknowns kept."""
+    motions, mine = rigid_motions(problem.numbering, np.zeros(3))[kept], own[kept]
+    return float(np.linalg.norm(np.linalg.lstsq(motions[mine], u[mine])[0][3:]))
 
 
 def warn_of_loads(
@@ -325,18 +333,24 @@ def warn_of_strength(entries: Entries, problem: Problem) -> None:
     warn_overloaded(entries, problem)
 
 
-def warn_of_contact(entries: Entries, problem: Problem, extremes: Extremes | None = None) -> None:
-    """Warn when the step does not resolve contact that was lost, as far as is known."""
+def warn_of_contact(
+    entries: Entries, problem: Problem, extremes: Extremes | None = None, off: float = np.inf
+) -> None:
+    """Warn when the step does not resolve contact that was lost, as far as is known.
+
+    Energies `off` by next to nothing, of the largest, show that it does, but where they are kept.
+    """
     found, known = contact_resolution(problem), {} if extremes is None else extremes.found()
     lost = known.get(("OUVERTURE", ""))
     if found is None or found.resolved or (lost is not None and not lost.value):
         return
     if any(map(entries.call.session.warned, OF_MASS)):
         return  # of the mass that is left
-    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
     keeps = joints is not None and conserved(joints)
-    entries.warn(code, **told, kept=keeps and problem.scheme.conserving, conserved=keeps)
+    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")} | {"conserved": keeps}
+    if (kept := keeps and problem.scheme.conserving) or off > RESOLVED:
+        entries.warn(code, **told, kept=kept)
 
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:

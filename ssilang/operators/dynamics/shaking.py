@@ -13,10 +13,10 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
-from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.response import local_jumps
-from ssilang.kernel.matrices.assembly import field_to_vector
+from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, loose_bodies
@@ -52,6 +52,7 @@ GROUND, HIGH = 360.0, 5.0  # m/s, of waves of shear in soil; height over width o
 PAIR = 2  # nodes of a spring, at most
 STUCK = {True: "operators.dynamics.joints-closed", False: "operators.dynamics.joints-held"}
 """Joints that cannot open, by whether they can slip."""
+BEARINGS = LawCode.LEAD, LawCode.PENDULUM
 SHEARED = "operators.dynamics.weight-in-shear"
 SOFT = 1e-3  # of the stiffness of a joint's point: springs that stand there for numbers' sake
 PRESENT = 0.1  # of a mass or damper on the diagonal: lumped or not, it is there
@@ -64,7 +65,7 @@ def warn_of_shaking(entries: Entries, start: Start) -> None:
     """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
     found = [*_Entering(start).told(entries)] if start.axes else []
     if (joints := start.problem.interface) is not None:
-        found += [*_held_footings(start.problem, joints), *_sheared(start, joints)]
+        found += [*_held_footings(start, joints), *_sheared(start, joints)]
     for code, told in found:
         entries.warn(code, **told)
 
@@ -332,8 +333,9 @@ def _sheared(start: Start, joints: Interface) -> Told:
             yield SHEARED, {"axis": axis, "node": body.node}
 
 
-def _held_footings(problem: Problem, joints: Interface) -> Told:
+def _held_footings(start: Start, joints: Interface) -> Told:
     """Joints that supports keep from opening, sides of joints that they hold like a structure."""
+    problem = start.problem
     rows, numbering = problem.constraints.C, problem.numbering
     if problem.loading.imposed.any() or not joints.n_points:
         return
@@ -345,6 +347,11 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         return
     alone = np.diff(rows.indptr) == 1
     fixed, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
+    for p in np.flatnonzero(np.isin(joints.codes, BEARINGS) & ~moves[:, :-1].any(axis=1))[:1]:
+        row = joints.pairs[p, 0] * joints.dimension + np.abs(joints.B[p, 0]).argmax()
+        sides = joints.J[[int(row)]].indices
+        held_side = int(sides[stiff[sides].argmax()])
+        yield "operators.dynamics.bearing-held", {"unknown": numbering.label(held_side)}
     for joint in (j for j in joints.joints if law_of(j.zone.behaviour).opens):
         if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
             continue
@@ -362,6 +369,20 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         if len(kept):
             yield "operators.dynamics.footing-held", {"unknown": numbering.label(int(kept[0]))}
             return
+        mine = np.flatnonzero(upper & (numbering.codes == numbering.code(along)))
+        if start.shaking.any() and _level(rows[~alone], mine, numbering):
+            yield "operators.dynamics.footing-level", {"unknown": numbering.label(int(mine[0]))}
+            return
+
+
+def _level(ties: sp.csr_array, mine: IntArray, numbering: Numbering) -> bool:
+    """Whether conditions among all of some unknowns let them move as one, and not turn."""
+    points = np.zeros((numbering.size, 3))
+    points[mine] = numbering.table.coordinates[numbering.nodes[mine]]
+    within, size = np.isin(np.arange(numbering.size), mine), np.ptp(points[mine], axis=0).max()
+    broken = np.abs(ties @ points).max(axis=1) > ROUNDING * size
+    broken &= (np.diff(ties.indptr) == abs(ties).sign() @ within) & (abs(ties @ within) < ROUNDING)
+    return len(mine) > MANY - 1 and len(np.unique(ties[broken].indices)) == len(mine)
 
 
 def _normal(joint: JointCells) -> str:

@@ -25,6 +25,7 @@ from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Body, Start
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.waves.shaken import (
+    AXES,
     GRAVITIES,
     LARGE,
     matter,
@@ -52,7 +53,7 @@ OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
 PAIR = 2  # terms of a relation of two nodes
 CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
 STRONG = 0.3  # of it: what no ground motion but the strongest makes yield
-BESIDE = 1e-6  # of a footing's width
+BESIDE, EDGE = 1e-6, 0.02  # of a footing's width; from its edge, where any push turns it over
 WIDE = 20.0  # sizes of a model
 TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
 LIGHTER = {False: 30.0, True: 10.0}
@@ -119,6 +120,24 @@ def rotary_alone(start: Start) -> Told:
     found = None if start.inputs.mass is None else rotary_without_mass(start.inputs.mass)
     if found is not None and not any(True for _ in turns_heavily(start)):
         yield "operators.matrices.rotary-alone", found
+
+
+def stops_turned(start: Start) -> Told:
+    """Stops that keep two nodes from parting, at the very distance at which these lie."""
+    contact, numbering = start.problem.contact, start.problem.numbering
+    if contact is None or not len(contact) or not {*numbering.unknowns} & {*AXES}:
+        return
+    along = np.array([AXES.index(u) if u in AXES else 0 for u in numbering.unknowns])
+    G, points = contact.G, numbering.table.coordinates
+    apart, pair = G @ points[numbering.nodes, along[numbering.codes]], np.diff(G.indptr) == PAIR
+    off = np.abs(contact.imposed @ start.factors[0] - apart)
+    for k in np.flatnonzero(pair & (apart < 0.0) & (off < BESIDE * np.abs(apart))).tolist():
+        row = G[[k]]
+        if (G @ row.T).min() >= 0.0:  # else one of them is a stop, the other one a hook
+            nodes = [numbering.table.told(n) for n in numbering.nodes[row.indices]]
+            told = {"node": nodes[0], "other": nodes[1], "gap": -apart[k]}
+            yield "operators.dynamics.stop-turned", told
+            return
 
 
 def mass_of_both(start: Start) -> Told:
@@ -269,6 +288,7 @@ def _beside_its_base(start: Start, body: Body) -> Told:
     stops = None if problem.contact is None else problem.contact.G
     numbering, rows = problem.numbering, stops if joints is None else joints.J
     assert rows is not None
+    rows = rows * (-1.0 if (rows @ body.up).sum() < 0.0 else 1.0)  # named from above
     lifts = (rows @ body.up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
@@ -291,8 +311,8 @@ def _beside_its_base(start: Start, body: Body) -> Told:
         low, high = float((levers - ends).min()), float((levers + ends).max())
         at, width = -float(turn @ start.weight) / body.weight, high - low
         off = max(low - at, at - high)
-        if width > 0.0 and off > BESIDE * width:
-            told = {"node": body.node, "width": width, "off": off}
+        if width > 0.0 and off > -EDGE * width:
+            told = {"node": body.node, "width": width, "off": max(off, 0.0)}
             yield "operators.dynamics.weight-beside", told
 
 
