@@ -195,7 +195,8 @@ def _loose(start: Start) -> Told:
         yield "operators.dynamics.sinks-in", vars(sunk)
     zones, loose = () if (joints := problem.interface) is None else joints.joints, [*start.loose()]
     slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
-    if not loose and problem.constraints.C.nnz and any(np.isinf(s.period) for s in start.swings):
+    away = (s for s in start.swings if np.isinf(s.period) and start.stirs(s.motion, start.size))
+    if not loose and problem.constraints.C.nnz and any(True for _ in away):
         told: dict[str, Any] = {"macro": any(is_macro(j.zone) for j in zones), "slides": slides}
         yield "operators.dynamics.turns-away", told
     for found in loose:
@@ -348,9 +349,9 @@ def warn_of_contact(
         return  # of the mass that is left
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
     keeps = joints is not None and conserved(joints)
-    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")} | {"conserved": keeps}
+    told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     if (kept := keeps and problem.scheme.conserving) or off > RESOLVED:
-        entries.warn(code, **told, kept=kept)
+        entries.warn(code, **told, conserved=keeps, kept=kept)
 
 
 def warn_overloaded(entries: Entries, problem: Problem) -> None:

@@ -31,6 +31,7 @@ from ssilang.kernel.waves.shaken import accelerations, axes_of, shares, translat
 MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS, DENSE = 5000, 400  # free motions up to which a solve costs little beside the steps
 SUNK = 0.1  # of a body's size, that its joints give way
+STIRS = 1e-5  # of it, by which a load moves it on: a blow on a free bar sends waves
 PRESSED = 0.02  # mean force of a weight beside the largest one
 WEAK = 1e-13  # stiffness beside the largest one that holds nothing
 LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
@@ -174,7 +175,7 @@ class Start:
         if begun and not problem.loading.forces.any():
             return
         for body in self.bodies():
-            ways = {a: self._way(motion) for a, motion in body.ways.items()}
+            ways = {a: self._way(motion, body.size) for a, motion in body.ways.items()}
             held = not {"held", "stands", "pressed"}.isdisjoint(ways.values())
             for axis, way in ways.items():
                 if way == "pressed" or (way == "slides" and held):
@@ -191,7 +192,7 @@ class Start:
                     if way > SUNK * body.size:
                         yield Sunk(body.node, axis, way, body.size)
 
-    def _way(self, motion: FloatArray) -> str:
+    def _way(self, motion: FloatArray, size: float) -> str:
         """'held', 'slides', 'stands' on joints or stops, or 'pressed' that needs to be; or ''."""
         problem = self.problem
         if not motion.any() or not motion @ (problem.M @ motion):
@@ -210,7 +211,14 @@ class Start:
             shaken = self.factors.any() and (load.forces.any() or load.imposed.any())
             weight = excited and abs(float(pushed.mean())) > PRESSED * largest
             return "pressed" if shaken and not weight else "stands"
-        return "slides" if excited and not closed else ""
+        return "slides" if excited and not closed and self.stirs(motion, size) else ""
+
+    def stirs(self, motion: FloatArray, size: float) -> bool:
+        """Whether loads move a body of a size on, along a motion that nothing holds."""
+        pushed = self.factors @ (self.problem.loading.forces.T @ motion)
+        dt, mass = np.diff(self.problem.times), float(motion @ (self.problem.M @ motion))
+        way = np.abs(np.cumsum(np.cumsum(pushed[1:] * dt) * dt)).max(initial=0.0) / (mass or 1.0)
+        return bool(way * np.abs(motion).max() > STIRS * size or not pushed.any())
 
     def holds(self, motion: FloatArray, *, dashpots: bool = False) -> bool:
         """Whether stiffness or supports act against a motion, or the dashpots of several masses."""
