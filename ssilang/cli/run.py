@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
+from numbers import Number
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO
 
@@ -43,6 +44,7 @@ from ssilang.messages.message import sentence
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Deck
 
+_FEW = 2  # times that a loop warns of the same with other figures
 _NAMED = 20  # names of a script that a message lists
 
 
@@ -219,15 +221,17 @@ def phrase_values(session: Session, source: Source) -> list[Any]:
 def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) -> RunResult:
     """Run a source to its end, print what went wrong, write the summary."""
     session = make_session(source, options, out)
-    shown: set[str] = set()  # a loop warns at each turn: what is word for word the same shows once
+    shown: Counter[object] = Counter()  # a loop warns at each turn: what is the same shows once
     again: Counter[str] = Counter()
 
     def show(warning: SsiError) -> None:
-        text = render(warning, session.language)
-        if text in shown:
+        text, data = render(warning, session.language), warning.data.items()
+        words = [f"{key} {value}" for key, value in data if not isinstance(value, Number)]
+        same = warning.code, warning.span, *sorted(words)  # but for its figures: twice
+        shown.update([text, same])
+        if shown[text] > 1 or shown[same] > _FEW:
             again[warning.severity] += 1
             return
-        shown.add(text)
         err.write(coloured(text, err) + "\n")
 
     session.on_warning = show

@@ -118,8 +118,14 @@ def is_still(
 ) -> bool:
     """Whether figures are the same whatever a swept value, the others as they are."""
     others = [n for n in swept if n != name]
-    few, more = ({repr([r.get(n) for n in k]) for r in rows} for k in (others, [*others, *figures]))
+    keys = others, [*others, *figures]
+    few, more = ({repr([_rounded(r.get(n)) for n in k]) for r in rows} for k in keys)
     return len(more) == len(few) < len(rows)
+
+
+def _rounded(value: Any) -> Any:
+    """A number to nine digits: another mesh sums in another order."""
+    return float(f"{value:.9g}") if isinstance(value, float) else value
 
 
 def usual_intensities(figures: Sequence[str]) -> list[str]:

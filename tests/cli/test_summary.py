@@ -59,7 +59,18 @@ def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> No
     told = err.getvalue()
     assert len(result.session.warnings) == 6
     assert told.count("have no power 0.5") == 2  # at two places
-    assert "6 warnings (4 word for word again, shown once)" in told
+    again = "of them again, at the same place with other figures at most: not shown)"
+    assert f"6 warnings (4 {again}" in told
+    text = (
+        "OPTI DIME 2 ELEM SEG2 ; L = D 1 (0. 0.) (1. 0.) ; MO = MODE L MECANIQUE ELASTIQUE POUT ;\n"
+        "REPE B 5 ; A = MATE MO 'YOUN' 3.E10 'NU' 0.2 'SECT' 1. 'INRZ' (1.E9 * &B) ; FIN B ;\n"
+        "A = MATE MO 'YOUN' 3.E10 'NU' 0.2 'SECT' 1. 'INRZ' 1.E9 ;\n"
+    )
+    err = io.StringIO()
+    run_source(Source("deck.ssi", text), options, io.StringIO(), err)
+    shown = [line.split()[3] for line in err.getvalue().splitlines() if "INRZ = " in line]
+    assert shown == ["1e+09", "2e+09", "1e+09"]  # two of the loop, one of another place
+    assert f"6 warnings (3 {again}" in err.getvalue()
 
 
 def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path: Path) -> None:

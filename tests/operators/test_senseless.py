@@ -34,7 +34,26 @@ def cut(first: float) -> str:
     return "time (s);acceleration (m/s2)\n" + "".join(rows)
 
 
+def marked(mark: float, times: int) -> str:
+    """A table of a record in which so many values are a mark."""
+    rows = cut(0.1).splitlines()
+    for row in range(40, 40 + 20 * times, 20):
+        rows[row] = f"{rows[row].split(';')[0]};{mark}"
+    return "\n".join(rows) + "\n"
+
+
 FILES = {
+    "a record with the mark of a missing value": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ;", {"a.csv": marked(-9.99, 1)},
+        "operators.files.record-marked",
+    ),
+    "a record of ESM with three marks of missing values": (
+        "E = LIRE 'ESM' 'a.asc' ;",
+        {"a.asc": "SAMPLING_INTERVAL_S: 0.01\nDATA_TYPE: ACCELERATION\nUNITS: cm/s^2\n"
+                  + "".join(f"{999.0 if i in (70, 90, 95) else 2.0 * math.sin(0.4 * i)}\n"
+                            for i in range(300))},
+        "operators.files.record-marked",
+    ),
     **{
         f"a number borne twice, {name}": (
             f"OPTI LECT '{name}' ; T = LIRE 'AVS' ;" if "avs" in name else f"T = LIRE '{name}' ;",
@@ -74,6 +93,10 @@ FILES = {
         "E = LIRE 'PEER' 'a.txt' 9.81 ; ",
         {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "CM/S2")},
         "operators.files.record-other-factor",
+    ),
+    "a constant added to a record": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ; T = @SEISME (EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' "
+        "(0.5 + (EXTR E 'ORDO'))) ;", {"a.csv": cut(0.1)}, "stdlib.seisme-drifts",
     ),
     "velocities in a spectrum": (
         RECORD + "S = SPO E 'AMOR' 0.05 'FREQ' (PROG 1.) 'ACCE' ;",
@@ -168,6 +191,14 @@ FILES = {
 """Files that do not hold what they are read as."""
 
 SENSIBLE_FILES = {
+    "a record with a peak of twice all others, a pulse and nothing else": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ; E = LIRE 'SIGNAL' 'b.csv' 1. ;",
+        {
+            "a.csv": marked(2.0, 1),
+            "b.csv": "time (s);acceleration (m/s2)\n"
+            + "".join(f"{0.01 * i:.2f};{float(i == 30)}\n" for i in range(80)),
+        },
+    ),
     "a record that begins at a fifth of its peak": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ;",
         {"a.csv": cut(0.2)},
@@ -275,6 +306,21 @@ def test_models_and_scripts_that_make_no_sense_are_told(what: str, tmp_path: Pat
 def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
     codes = set(told(SENSIBLE[what], tmp_path))
     assert codes <= {"operators.dynamics.contact-not-resolved"}
+
+
+@pytest.mark.parametrize(("speed", "step", "seen"), [
+    (0.05, 4e-3, False), (1.5, 4e-3, True), (1.5, 2.5e-4, False), (0.05, 1e-2, False),
+])  # fmt: skip
+def test_a_step_too_long_for_contact_is_told_where_energies_show_it(
+    speed: float, step: float, seen: bool, tmp_path: Path
+) -> None:
+    script = (
+        "{half} LJ = L ; PUSH = 0. ; {borne_by} T . 'CHAR' = CHAR 'MECA' W ; "
+        f"T . 'VITE' = MANU 'CHPO' B 1 'UX' {speed} ; T . 'AMOR' = 0. * M ; "
+        f"T . 'TEMPS_CALCULES' = PROG 0. PAS {step} 0.6 ; DYNAMIC T ;"
+    )
+    found = told(script, tmp_path)
+    assert ("operators.dynamics.contact-not-resolved" in found) == seen
 
 
 def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Path) -> None:

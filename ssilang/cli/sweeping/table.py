@@ -57,7 +57,7 @@ def write_plain_table(rows: Sequence[Row], path: Path) -> None:
 
 
 def idle_names(rows: Sequence[Row], swept: Sequence[str]) -> list[str]:
-    """Names of several numbers or motions of which no figure depends, to the last digit."""
+    """Names of several numbers or motions of which no figure depends, to nine digits."""
     figures = [n for n in columns_of(rows) if n not in (*RESERVED, *swept)]
     return [
         name

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,6 +93,10 @@ class Numbering:
         """Name of one unknown: 'UX'."""
         name: str = self.unknowns[self.codes[index]]
         return name
+
+    def told(self, values: NDArray[Any]) -> str:
+        """The node, as messages name it, of the largest of values (n,), or the first of a mask."""
+        return self.table.told(self.nodes[values.argmax()])
 
     def label(self, index: int) -> Sentence:
         """'UX at node 12 (0. 4.)' (node counted from 1, as scripts see it)."""

@@ -60,11 +60,6 @@ def changing(problem: "Problem") -> BoolArray:
     return np.asarray(np.ptp(problem.loading.at(problem.times), axis=0) > 0.0)
 
 
-def steady(problem: "Problem") -> FloatArray:
-    """Factors (k,) of the loads that do not change, nought for others."""
-    return np.asarray(problem.loading.at(problem.times[:1])[0] * ~changing(problem))
-
-
 def accelerations(problem: "Problem") -> FloatArray:
     """Accelerations (d, k) of the whole of which the mass makes the loads, nought for others.
 

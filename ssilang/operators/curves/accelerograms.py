@@ -19,6 +19,7 @@ from ssilang.operators.prelude import *
 
 _KINDS = ("DEPL", "VITE", "ACCE")
 _SHAKEN = 10  # changes of sign that make a record of a curve
+_ADDED = 0.2  # of the largest value: a mean that no record has
 _DRIFT = 0.1  # of the largest velocity, that a record may end with
 
 
@@ -41,7 +42,9 @@ def insi(call: Call, curve: Curve = RECORD, rule: str = _RULE) -> tuple[Curve, C
         shaken = np.count_nonzero(np.diff(np.signbit(p.ordinates))) > _SHAKEN
         # @SEISME tells it itself
         if shaken and not call.session.in_library and abs(v[-1]) > _DRIFT * np.abs(v).max():
-            call.warn("operators.curves.drifts", curve, speed=float(v[-1]), way=float(d[-1]))
+            told, mean = {"speed": float(v[-1]), "way": float(d[-1])}, float(p.ordinates.mean())
+            added = abs(mean) > _ADDED * np.abs(p.ordinates).max()
+            call.warn("operators.curves.drifts", curve, **told, mean=mean if added else 0.0)
         moved.append(replace(p, ordinates=d, ordinate_name="DEPL"))
         fast.append(replace(p, ordinates=v, ordinate_name="VITE"))
     return Curve(tuple(moved), curve.title), Curve(tuple(fast), curve.title)

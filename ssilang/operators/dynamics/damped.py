@@ -15,9 +15,9 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import assemble
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.kernel.stepping.problem.plausibility import Swing, swings
+from ssilang.kernel.stepping.problem.plausibility import Start, Swing
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-from ssilang.kernel.waves.shaken import accelerations, is_record, matter, strong_frequency
+from ssilang.kernel.waves.shaken import is_record, matter, strong_frequency
 
 Told = Iterator[tuple[str, dict[str, Any]]]
 
@@ -41,12 +41,13 @@ class _Proportional:
         return float(np.pi * self.beta * low + self.alpha / (4.0 * np.pi * high))
 
 
-def damped_heavily(problem: Problem, inputs: Inputs) -> Told:
+def damped_heavily(start: Start) -> Told:
     """Damping by stiffness or mass beyond that of any ground or structure, of what a record moves.
 
     At the frequency of the motion that its forces ask for, or of ground that nothing but dashpots
     holds, where the record reaches so high.
     """
+    problem, inputs = start.problem, start.inputs
     if inputs.damping is None:
         return
     own = without_zones(inputs.damping, joint_zones(inputs.model or Model(())))
@@ -54,8 +55,8 @@ def damped_heavily(problem: Problem, inputs: Inputs) -> Told:
     records = [k for k, (_, y) in enumerate(problem.loading.curves) if is_record(y)]
     if not records or not any(p.blocks for p in parts):
         return
-    shaken, worst = accelerations(problem) != 0.0, (0.0, 0.0, _Proportional(0.0, 0.0))
-    found = [] if plastic_zones(inputs.model) else swings(problem)
+    shaken, worst = start.accelerations != 0.0, (0.0, 0.0, _Proportional(0.0, 0.0))
+    found = [] if plastic_zones(inputs.model) else start.swings
     found = [s for s in found if np.isfinite(s.period)]
     matrices = [assemble(p, problem.numbering) for p in parts]
     ground = None

@@ -60,7 +60,8 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     plausibility.warn_of_connections(entries, inputs)
     plausibility.warn_at_rest(entries, problem)
     plausibility.warn_of_loads(entries, inputs.load, times, at_rest=inputs.velocity is None)
-    plausibility.warn_of_start(entries, problem, inputs)
+    start = plausibility.Start(problem, inputs)
+    plausibility.warn_of_start(entries, start)
     make_bodies = plastic_bodies(entries)
     bodies = None if make_bodies is None else make_bodies(problem, inputs)
     plausibility.warn_of_strength(entries, problem)
@@ -89,7 +90,8 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     finally:
         line.close()
     shown = extremes.known and uplift is not None  # macro-elements rock unseen
-    plausibility.warn_of_contact(entries, problem, extremes if shown else None)
+    off = history.worst_imbalance / history.largest_energy if history.largest_energy else np.inf
+    plausibility.warn_of_contact(entries, problem, extremes if shown else None, off)
     if record is not None:
         record.save(history, extremes)
     _say_reduction(entries, history)
@@ -104,7 +106,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
         again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
-    plausibility.warn_of_motion(entries, problem, results.track)
+    plausibility.warn_of_motion(entries, start, results.track)
     if uplift is not None and uplift.left:
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history, added=entries.flag("CHARMECA"))

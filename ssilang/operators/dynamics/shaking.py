@@ -13,29 +13,25 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, without_zones
 from ssilang.kernel.interface.kinematics import JointCells
-from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.response import local_jumps
-from ssilang.kernel.matrices.assembly import field_to_vector
+from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.plausibility import Bodies
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+from ssilang.kernel.stepping.problem.plausibility import Start
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.waves.shaken import (
     AXES,
     FEWER,
     GRAVITIES,
     LARGE,
     SAME,
-    accelerations,
-    axes_of,
-    changing,
     is_record,
     longest_cell,
     shares,
-    steady,
     strong_frequency,
     translations,
     unlike_sides,
@@ -56,6 +52,7 @@ GROUND, HIGH = 360.0, 5.0  # m/s, of waves of shear in soil; height over width o
 PAIR = 2  # nodes of a spring, at most
 STUCK = {True: "operators.dynamics.joints-closed", False: "operators.dynamics.joints-held"}
 """Joints that cannot open, by whether they can slip."""
+BEARINGS = LawCode.LEAD, LawCode.PENDULUM
 SHEARED = "operators.dynamics.weight-in-shear"
 SOFT = 1e-3  # of the stiffness of a joint's point: springs that stand there for numbers' sake
 PRESENT = 0.1  # of a mass or damper on the diagonal: lumped or not, it is there
@@ -64,12 +61,11 @@ NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP":
 """What a curve is of, by the first letters of the name of its ordinates."""
 
 
-def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
+def warn_of_shaking(entries: Entries, start: Start) -> None:
     """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
-    axes = axes_of(problem)
-    found = [] if not axes else [*_Entering(problem, inputs, axes).told(entries)]
-    if (joints := problem.interface) is not None:
-        found += [*_held_footings(problem, joints), *(_sheared(problem, joints) if axes else ())]
+    found = [*_Entering(start).told(entries)] if start.axes else []
+    if (joints := start.problem.interface) is not None:
+        found += [*_held_footings(start, joints), *_sheared(start, joints)]
     for code, told in found:
         entries.warn(code, **told)
 
@@ -77,14 +73,13 @@ def warn_of_shaking(entries: Entries, problem: Problem, inputs: Inputs) -> None:
 class _Entering:
     """Motions that enter: accelerations (d, k) of the loads and of the base, nought for others."""
 
-    def __init__(self, problem: Problem, inputs: Inputs, axes: list[str]) -> None:
-        self.problem, self.inputs, self.axes = problem, inputs, axes
-        loading = problem.loading
-        self.along, self.loads = translations(problem), accelerations(problem)
-        self.factors = np.abs(loading.at(problem.times)).max(axis=0)
-        self.changing = changing(problem)
-        self.base = shares(problem.constraints.C @ self.along, loading.imposed * self.changing)
-        self.shaken = np.abs(self.loads * self.changing).sum(axis=1)
+    def __init__(self, start: Start) -> None:
+        self.start, self.problem, self.inputs = start, start.problem, start.inputs
+        self.axes, self.changing, self.loads = start.axes, start.changing, start.accelerations
+        self.along, imposed = translations(self.problem), self.problem.loading.imposed
+        self.factors = np.abs(start.factors).max(axis=0)
+        self.base = shares(self.problem.constraints.C @ self.along, imposed * self.changing)
+        self.shaken = np.abs(start.shaking).sum(axis=1)
 
     def told(self, entries: Entries) -> Told:
         """Codes of warnings with their data."""
@@ -142,20 +137,19 @@ class _Entering:
             forces = (along @ f for f in problem.loading.forces.T)  # one by one: they may be many
             laden = ((f[f != 0.0], mass[f != 0.0, axis]) for f in forces)
             if any(len(f) >= MANY and shares(m[:, None], f[:, None]).any() for f, m in laden):
-                node = problem.numbering.table.told(int(nodes[less.argmax()]))
+                node = problem.numbering.table.told(nodes[less.argmax()])
                 told = {"count": int(less.sum()), "node": node, "axis": name}
                 told["other"] = self.axes[int(mass[less.argmax()].argmax())]
                 yield "operators.dynamics.masses-one-way", told
 
     def _driven_in_part(self) -> Told:
         """Bodies of which a record drives by their mass a small part, and nothing the rest."""
-        problem, load, curves = self.problem, self.inputs.load, self.problem.loading.curves
+        problem, curves = self.problem, self.problem.loading.curves
         records = [k for k in np.flatnonzero(self.changing) if is_record(curves[k][1])]
         solids = [b for b, *_ in bordered_solids(self.inputs.stiffness)]
-        if not records or load is None or any(len({*b.unknowns}) == len(self.axes) for b in solids):
+        if not records or any(len({*b.unknowns}) == len(self.axes) for b in solids):
             return  # of ground that is meshed a part may be meant
         label, free, forces = bodies_of(problem), ~held(problem), problem.loading.forces[:, records]
-        names = [part.name for part in load.parts for _ in nodal_terms(part)]
         for axis, e in zip(self.axes, self.along.T, strict=True):
             pushed, mass = np.abs(forces) * e[:, None], (problem.M @ e) * e
             some = pushed > 0.0
@@ -171,9 +165,9 @@ class _Entering:
                 within = label == body
                 if (some[within].any(axis=0) & meant).any():
                     k = records[int((some[within].any(axis=0) & meant).argmax())]
-                    at = int((mass * within * free * ~some.any(axis=1)).argmax())
-                    told = {"name": names[k], "axis": axis, "driven": own[body]}
-                    told["node"] = problem.numbering.table.told(int(problem.numbering.nodes[at]))
+                    unmoved = mass * within * free * ~some.any(axis=1)
+                    told = {"name": self.start.names[k], "axis": axis, "driven": own[body]}
+                    told["node"] = problem.numbering.told(unmoved)
                     yield "operators.dynamics.driven-in-part", {**told, "whole": whole[body]}
                     return
 
@@ -181,7 +175,7 @@ class _Entering:
         """Cells with too few of them in a wavelength of what shakes, the worst of each load."""
         load, mass = self.inputs.load, self.inputs.mass
         terms = [p for p in load.parts for _ in nodal_terms(p)] if load and mass else []
-        shakes = self.loads * self.changing
+        shakes = self.start.shaking
         waves, few = np.zeros_like(shakes), self.problem.loading.forces.size < LARGE
         if terms and few and not shakes.any():  # that dashpots let in, at their velocities
             braked = self.problem.C @ self.along
@@ -243,13 +237,14 @@ class _Entering:
             points = numbering.table.coordinates[still]
             heights, across = points[:, len(self.axes) - 1], points[:, axis]
             if len(np.unique(heights.round(9))) >= LEVELS:
-                told = {"count": len(still), "node": numbering.table.told(int(still[0]))}
+                told = {"count": len(still), "node": numbering.table.told(still[0])}
                 told |= {"axis": self.axes[axis], "plane": not np.ptp(across).round(9)}
                 yield "operators.dynamics.sides-held", told
 
 
-def sides_unlike(_: Problem, inputs: Inputs) -> Told:
+def sides_unlike(start: Start) -> Told:
     """Upright sides that absorb waves of another ground than that beside them."""
+    inputs = start.inputs
     if inputs.mass is not None and inputs.damping is not None:
         found = unlike_sides(inputs.stiffness, inputs.mass, inputs.damping)
         if found is not None:
@@ -257,9 +252,10 @@ def sides_unlike(_: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.sides-unlike", told
 
 
-def beside_free_field(problem: Problem, inputs: Inputs) -> Told:
+def beside_free_field(start: Start) -> Told:
     """Masses and dampers that a free field's forces were found with, and the matrices lack."""
-    parts, numbering = () if inputs.load is None else inputs.load.parts, problem.numbering
+    problem, numbering, load = start.problem, start.problem.numbering, start.inputs.load
+    parts = () if load is None else load.parts
     for mass, dampers in dict.fromkeys(part.beside for part in parts if part.beside):
         m, c = (field_to_vector(of, numbering, dual=False) for of in (mass, dampers))
         for code, lost in {
@@ -269,11 +265,12 @@ def beside_free_field(problem: Problem, inputs: Inputs) -> Told:
         }.items():
             if lost.any():
                 nodes = np.unique(numbering.nodes[lost])
-                yield code, {"count": len(nodes), "node": numbering.table.told(int(nodes[0]))}
+                yield code, {"count": len(nodes), "node": numbering.table.told(nodes[0])}
 
 
-def bridged(problem: Problem, inputs: Inputs) -> Told:
+def bridged(start: Start) -> Told:
     """Springs and dashpots that act where joints open; ground held where these stand on it."""
+    problem, inputs = start.problem, start.inputs
     if (joints := problem.interface) is None:
         return
     own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
@@ -295,7 +292,7 @@ def bridged(problem: Problem, inputs: Inputs) -> Told:
             acting = [_across(b, lower, upper, axis, least) for b in blocks if b.kind != "MASSE"]
             nodes = np.unique(np.concatenate([lower[:0], *acting]))
             if len(nodes) >= few:
-                yield code, {"axis": axis, "node": problem.numbering.table.told(int(nodes[0]))}
+                yield code, {"axis": axis, "node": problem.numbering.table.told(nodes[0])}
         yield from _ground_held(problem, own, lower, axis)
 
 
@@ -320,26 +317,25 @@ def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str
     zoned = [b for b in stiffness.blocks if b.zone is not None and not is_joint(b.zone)]
     solid = [b.nodes for b in zoned if b.zone and b.zone.cells.kind.dimension > 1]
     if any(np.isin(n[np.isin(n, lower).any(axis=1)], along).any() for n in solid):
-        node = numbering.table.told(int(lower[0]))
+        node = numbering.table.told(lower[0])
         yield "operators.dynamics.ground-held", {"axis": axis, "node": node}
 
 
-def _sheared(problem: Problem, joints: Interface) -> Told:
+def _sheared(start: Start, joints: Interface) -> Told:
     """Weights that joints carry by their shear alone: none of them is pressed."""
-    bodies, force = Bodies(problem), problem.loading.forces @ steady(problem)
-    for body in bodies.moving:
-        ways = {a: bodies.along(body, a) for a in axes_of(problem)}
-        axis = max(ways, key=lambda a: abs(float(ways[a] @ force)))
+    for body in start.bodies():
+        pulls = {a: abs(float(way @ start.weight)) for a, way in body.ways.items()}
+        axis = max(pulls, key=pulls.__getitem__)
         w = np.zeros((joints.n_points, joints.dimension))
-        local_jumps(joints.points, joints.J @ ways[axis], w)
+        local_jumps(joints.points, joints.J @ body.ways[axis], w)
         slips = np.abs(w).max(initial=0.0) > 0.0 == np.abs(w[:, -1]).round(9).max(initial=0.0)
-        if slips and abs(ways[axis] @ force) > 0.0 and not bodies.holds(ways[axis]):
-            node = int(problem.numbering.nodes[np.argmax(bodies.label == body)])
-            yield SHEARED, {"axis": axis, "node": problem.numbering.table.told(node)}
+        if slips and pulls[axis] > 0.0 and not start.holds(body.ways[axis]):
+            yield SHEARED, {"axis": axis, "node": body.node}
 
 
-def _held_footings(problem: Problem, joints: Interface) -> Told:
+def _held_footings(start: Start, joints: Interface) -> Told:
     """Joints that supports keep from opening, sides of joints that they hold like a structure."""
+    problem = start.problem
     rows, numbering = problem.constraints.C, problem.numbering
     if problem.loading.imposed.any() or not joints.n_points:
         return
@@ -351,6 +347,11 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         return
     alone = np.diff(rows.indptr) == 1
     fixed, ties, stiff = rows[alone].indices, abs(rows[~alone]), problem.K.diagonal()
+    for p in np.flatnonzero(np.isin(joints.codes, BEARINGS) & ~moves[:, :-1].any(axis=1))[:1]:
+        row = joints.pairs[p, 0] * joints.dimension + np.abs(joints.B[p, 0]).argmax()
+        sides = joints.J[[int(row)]].indices
+        held_side = int(sides[stiff[sides].argmax()])
+        yield "operators.dynamics.bearing-held", {"unknown": numbering.label(held_side)}
     for joint in (j for j in joints.joints if law_of(j.zone.behaviour).opens):
         if is_macro(joint.zone) and joint.frames[0, 0, -1, -1] < 0.0:  # told: the wrong way round
             continue
@@ -368,6 +369,20 @@ def _held_footings(problem: Problem, joints: Interface) -> Told:
         if len(kept):
             yield "operators.dynamics.footing-held", {"unknown": numbering.label(int(kept[0]))}
             return
+        mine = np.flatnonzero(upper & (numbering.codes == numbering.code(along)))
+        if start.shaking.any() and _level(rows[~alone], mine, numbering):
+            yield "operators.dynamics.footing-level", {"unknown": numbering.label(int(mine[0]))}
+            return
+
+
+def _level(ties: sp.csr_array, mine: IntArray, numbering: Numbering) -> bool:
+    """Whether conditions among all of some unknowns let them move as one, and not turn."""
+    points = np.zeros((numbering.size, 3))
+    points[mine] = numbering.table.coordinates[numbering.nodes[mine]]
+    within, size = np.isin(np.arange(numbering.size), mine), np.ptp(points[mine], axis=0).max()
+    broken = np.abs(ties @ points).max(axis=1) > ROUNDING * size
+    broken &= (np.diff(ties.indptr) == abs(ties).sign() @ within) & (abs(ties @ within) < ROUNDING)
+    return len(mine) > MANY - 1 and len(np.unique(ties[broken].indices)) == len(mine)
 
 
 def _normal(joint: JointCells) -> str:

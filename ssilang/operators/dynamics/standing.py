@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
@@ -22,18 +22,14 @@ from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of, held
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
-from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.plausibility import Bodies
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+from ssilang.kernel.stepping.problem.plausibility import Body, Start
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.waves.shaken import (
+    AXES,
     GRAVITIES,
     LARGE,
-    accelerations,
-    axes_of,
-    changing,
     matter,
     shares,
-    steady,
 )
 from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
 from ssilang.operators.matrices.connections import rotary_without_mass
@@ -57,7 +53,7 @@ OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
 PAIR = 2  # terms of a relation of two nodes
 CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
 STRONG = 0.3  # of it: what no ground motion but the strongest makes yield
-BESIDE = 1e-6  # of a footing's width
+BESIDE, EDGE = 1e-6, 0.02  # of a footing's width; from its edge, where any push turns it over
 WIDE = 20.0  # sizes of a model
 TONNE, TONNES = 1000.0, 0.5  # kg; density of ground in t/m3 at least
 LIGHTER = {False: 30.0, True: 10.0}
@@ -66,8 +62,9 @@ MASSLESS, FOAM = 5000.0, 500.0  # times: beyond, no mass is meant; m/s, of waves
 ALIKE = 0.1  # of a density, that is the same ground's
 
 
-def out_of_balance(problem: Problem, _: Inputs) -> Told:
+def out_of_balance(start: Start) -> Told:
     """Displacements of the start that are held by a load that is not yet there, or not so large."""
+    problem = start.problem
     loading, T = problem.loading, problem.constraints.T
     if not problem.u.any() or not 0 < loading.forces.size < LARGE:
         return
@@ -79,32 +76,32 @@ def out_of_balance(problem: Problem, _: Inputs) -> Told:
         stops = (T.T @ problem.contact.G.T).toarray()  # whatever they bear
         held, forces = (f - stops @ np.linalg.lstsq(stops, f)[0] for f in (held, forces))
     share = shares(forces, held[:, None])[:, 0]
-    begins, ends = loading.at(problem.times[[0, -1]])
+    begins, ends = start.factors[[0, -1]]
     off = np.abs(forces @ begins - held).max(initial=0.0) > OFF * np.abs(held).max(initial=0.0)
     for k in np.flatnonzero(off & (np.abs(begins - share) > OFF * share)).tolist():
-        still = changing(problem)[k] or share[k] > NEAR * begins[k]
+        still = start.changing[k] or share[k] > NEAR * begins[k]
         if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
             yield "operators.dynamics.out-of-balance", {"begins": begins[k], "held": share[k]}
 
 
-def velocity_of_rest(problem: Problem, _: Inputs) -> Told:
+def velocity_of_rest(start: Start) -> Told:
     """A velocity of the start that is the displacement which its loads hold at rest."""
+    problem = start.problem
     loading, T = problem.loading, problem.constraints.T
     if problem.v.any() and loading.forces.size < LARGE:
-        forces = T.T @ (loading.forces @ loading.at(problem.times[:1])[0])
+        forces = T.T @ (loading.forces @ start.factors[0])
         off = np.abs(T.T @ closed_forces(problem, problem.v) - forces).max(initial=0.0)
         if off < OFF * np.abs(forces).max(initial=0.0):
             yield "operators.dynamics.velocity-of-rest", {}
 
 
-def turns_heavily(problem: Problem, _: Inputs) -> Told:
+def turns_heavily(start: Start) -> Told:
     """Bodies whose rotary inertia is that of a mass many sizes of the model away."""
-    label, numbering, axes = bodies_of(problem), problem.numbering, axes_of(problem)
-    size = float(np.ptp(numbering.table.coordinates[numbering.nodes], axis=0).max(initial=0.0))
-    size = max(size, _width(problem))
-    if not axes or not size:
+    problem, numbering = start.problem, start.problem.numbering
+    label, size = bodies_of(problem), max(start.size, _width(problem))
+    if not start.axes or not size:
         return
-    lifts = (numbering.codes == numbering.code(axes[-1])).astype(float)
+    lifts = (numbering.codes == numbering.code(start.axes[-1])).astype(float)
     mass = np.bincount(label, lifts * (problem.M @ lifts))
     for axis in [a for a in ("RX", "RY", "RZ") if a in numbering.unknowns]:
         turn = (numbering.codes == numbering.code(axis)).astype(float)
@@ -112,25 +109,43 @@ def turns_heavily(problem: Problem, _: Inputs) -> Told:
         body = int((inertia - (FAR_MASS * size) ** 2 * mass).argmax())
         way = float(np.sqrt(inertia[body] / (mass[body] or np.inf)))
         if way > max(FAR_MASS * size, LARGEST):
-            node = numbering.table.told(int(numbering.nodes[(label == body).argmax()]))
+            node = numbering.told(label == body)
             told = {"node": node, "inertia": inertia[body], "mass": mass[body], "size": size}
             yield "operators.dynamics.turns-heavily", {**told, "way": way}
             return
 
 
-def rotary_alone(problem: Problem, inputs: Inputs) -> Told:
+def rotary_alone(start: Start) -> Told:
     """Rotary inertia where masses are meant, but for that of masses far away, told already."""
-    found = None if inputs.mass is None else rotary_without_mass(inputs.mass)
-    if found is not None and not any(True for _ in turns_heavily(problem, inputs)):
+    found = None if start.inputs.mass is None else rotary_without_mass(start.inputs.mass)
+    if found is not None and not any(True for _ in turns_heavily(start)):
         yield "operators.matrices.rotary-alone", found
 
 
-def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
+def stops_turned(start: Start) -> Told:
+    """Stops that keep two nodes from parting, at the very distance at which these lie."""
+    contact, numbering = start.problem.contact, start.problem.numbering
+    if contact is None or not len(contact) or not {*numbering.unknowns} & {*AXES}:
+        return
+    along = np.array([AXES.index(u) if u in AXES else 0 for u in numbering.unknowns])
+    G, points = contact.G, numbering.table.coordinates
+    apart, pair = G @ points[numbering.nodes, along[numbering.codes]], np.diff(G.indptr) == PAIR
+    off = np.abs(contact.imposed @ start.factors[0] - apart)
+    for k in np.flatnonzero(pair & (apart < 0.0) & (off < BESIDE * np.abs(apart))).tolist():
+        row = G[[k]]
+        if (G @ row.T).min() >= 0.0:  # else one of them is a stop, the other one a hook
+            nodes = [numbering.table.told(n) for n in numbering.nodes[row.indices]]
+            told = {"node": nodes[0], "other": nodes[1], "gap": -apart[k]}
+            yield "operators.dynamics.stop-turned", told
+            return
+
+
+def mass_of_both(start: Start) -> Told:
     """Two nodes of one place that move together, each with the mass of a line of nodes."""
-    given = [] if inputs.mass is None else inputs.mass.blocks
+    given = [] if start.inputs.mass is None else start.inputs.mass.blocks
     lumps = [b for b in given if b.zone is None and b.raw_nodes.shape == (len(b.nodes), 1)]
-    table = problem.numbering.table
-    for r in inputs.stiffness.relations if lumps else ():
+    table = start.problem.numbering.table
+    for r in start.inputs.stiffness.relations if lumps else ():
         first = r.row_start[:-1][(np.diff(r.row_start) == PAIR) & (r.sense == 0)]
         a, b = r.nodes[first], r.nodes[np.minimum(first + 1, len(r.nodes) - 1)]
         one = np.abs(table.coordinates[a] - table.coordinates[b]).max(axis=1, initial=0.0) < BESIDE
@@ -139,77 +154,63 @@ def mass_of_both(problem: Problem, inputs: Inputs) -> Told:
             opposed = not r.coefficients[first[k] :][:PAIR].sum()
             several = name == other and opposed and name in lump.unknowns
             if several and len(lump.nodes) > PAIR and np.isin([a[k], b[k]], lump.nodes).all():
-                told = {"node": table.told(int(a[k])), "unknown": name}
+                told = {"node": table.told(a[k]), "unknown": name}
                 yield "operators.dynamics.mass-of-both", told
                 return
 
 
-def bodies_stand(problem: Problem, inputs: Inputs) -> Told:
+def bodies_stand(start: Start) -> Told:
     """Bodies that joints or stops alone bear: from which side, where; with what weight, all."""
-    bodies, axes, loading = Bodies(problem), axes_of(problem), problem.loading
-    factors = steady(problem)
-    force = loading.forces @ factors
-    drops = bool(loading.forces[:, changing(problem)].any())
+    problem, loading, force = start.problem, start.problem.loading, start.weight
+    drops = bool(loading.forces[:, start.changing].any())
     drops = drops and not (problem.contact or problem.u.any() or problem.v.any())
     left = np.abs(problem.constraints.T.T @ force)  # by supports
     drops = drops and bool(left.max(initial=0.0) > OFF * np.abs(force).max(initial=0.0))
-    for body in bodies.moving if axes else ():
-        own = bodies.label == body
-        node = problem.numbering.table.told(int(problem.numbering.nodes[own.argmax()]))
-        ways = {a: bodies.along(body, a) for a in axes}
+    for body in start.bodies():
+        node, up, mass, weight = body.node, body.up, body.mass, body.weight
         # joints that open for good are told behind the motion
-        for axis, way in ways.items() if problem.contact is not None else ():
-            borne = [bodies.touches(s * way) for s in (1.0, -1.0)]
-            push = bodies.factors @ (loading.forces.T @ way)
+        for axis, way in body.ways.items() if problem.contact is not None else ():
+            borne = [start.touches(s * way) for s in (1.0, -1.0)]
+            push = start.factors @ (loading.forces.T @ way)
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
             most = float(np.abs(push).max(initial=0.0))
-            if borne[0] != borne[1] and out > AWAY * most and not bodies.holds(way, dashpots=True):
+            if borne[0] != borne[1] and out > AWAY * most and not start.holds(way, dashpots=True):
                 yield OTHER_SIDE, {"node": node, "axis": axis, "below": borne[1]}
-        up = ways[axes[-1]]
-        mass, weight = float(up @ (problem.M @ up)), -float(up @ force)
         if drops and _are_weights(1.0, weight, mass):
-            parts, drops = () if inputs.load is None else inputs.load.parts, False
-            names = [part.name for part in parts for _ in nodal_terms(part)]
-            most = int((-(up @ loading.forces) * factors).argmax())
-            yield "operators.dynamics.weight-dropped", {"name": names[most]}
+            most, drops = int((-(up @ loading.forces) * start.steady).argmax()), False
+            yield "operators.dynamics.weight-dropped", {"name": start.names[most]}
         if _are_weights(2.0, weight, mass):
             yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "node": node}
-        if weight > 0.0 and bodies.touches(-up) and not bodies.holds(up):
+        if weight > 0.0 and start.touches(-up) and not start.holds(up):
             times = mass * GRAVITIES[0] / weight
-            if times > TIMES and (accelerations(problem) * changing(problem)).any():
+            if times > TIMES and start.shaking.any():
                 told = {"mass": mass, "weight": weight, "times": times}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
-            if (problem.interface is None or problem.contact is None) and not bodies.touches(up):
-                for code, told in _beside_its_base(bodies, own, up, force):
-                    yield code, {**told, "node": node}
+            if (problem.interface is None or problem.contact is None) and not start.touches(up):
+                yield from _beside_its_base(start, body)
 
 
-def braked(problem: Problem, _: Inputs) -> Told:
+def braked(start: Start) -> Told:
     """Damping by the mass of bodies that lift, which it brakes as they fall, or swing on bearings.
 
     What is proportional to a stiffness does not act on a body that moves as a whole.
     """
-    bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
-    force = problem.loading.forces @ steady(problem)
-    steps, times = bodies.factors[:, changing(problem)], problem.times
+    problem, joints = start.problem, start.problem.interface
+    steps, times = start.factors[:, start.changing], problem.times
     most = np.abs(steps).max(axis=0, initial=0.0)
     rate = np.abs(np.diff(steps, axis=0) / np.diff(times)[:, None]).max(axis=0, initial=0.0)
     rate = np.inf if problem.v.any() else float((rate / most).max(initial=0.0))
-    for body in bodies.moving if axes and problem.C.nnz else ():
-        own = bodies.label == body
-        at = problem.numbering.nodes[own]
-        size = float(np.ptp(problem.numbering.table.coordinates[at], axis=0).max())
-        told: dict[str, Any] = {"node": problem.numbering.table.told(int(at[0]))}
-        weight = -float(bodies.along(body, axes[-1]) @ force)
-        for axis in axes:
-            way = bodies.along(body, axis)
+    for body in start.bodies() if problem.C.nnz else ():
+        weight, size = body.weight, body.size
+        told: dict[str, Any] = {"node": body.node}
+        for axis, way in body.ways.items():
             drag, pull = problem.C @ way, problem.M @ way
             mass = float(way @ pull)
             alpha = float(way @ drag) / (mass or np.inf)
             off = np.abs(drag - alpha * pull).max() > OFF * np.abs(drag).max()
-            if alpha <= 0.0 or off or bodies.holds(way):
+            if alpha <= 0.0 or off or start.holds(way):
                 continue
-            lifts = axis == axes[-1] and bodies.touches(-way) and not bodies.touches(way)
+            lifts = way is body.up and start.touches(-way) and not start.touches(way)
             rocks = np.sqrt(max(weight, 0.0) / mass / size) if size else 0.0
             if lifts and alpha > BRAKED * rocks > 0.0 and rate > rocks:  # else slow, to equilibrium
                 fall = weight / mass / alpha
@@ -223,20 +224,17 @@ def braked(problem: Problem, _: Inputs) -> Told:
                 return
 
 
-def weak_cores(problem: Problem, _: Inputs) -> Told:
+def weak_cores(start: Start) -> Told:
     """Lead cores that yield under next to nothing of the weight above, or never."""
-    bodies, axes, joints = Bodies(problem), axes_of(problem), problem.interface
+    joints = start.problem.interface
     lead = [] if joints is None else joints.codes == LawCode.LEAD
-    force = problem.loading.forces @ steady(problem)
-    for body in bodies.moving if np.any(lead) and axes else ():
+    for body in start.bodies() if np.any(lead) else ():
         assert joints is not None
-        up, w = bodies.along(body, axes[-1]), np.zeros((joints.n_points, joints.dimension))
-        local_jumps(joints.points, joints.J @ up, w)
+        w, weight = np.zeros((joints.n_points, joints.dimension)), body.weight
+        local_jumps(joints.points, joints.J @ body.up, w)
         cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
-        weight = -float(up @ force)
         if weight > 0.0 and cores > 0.0 and not CORES <= cores / weight <= STRONG:
-            node = problem.numbering.table.told(int(problem.numbering.nodes[(up != 0.0).argmax()]))
-            told = {"node": node, "cores": cores, "weight": weight, "share": cores / weight}
+            told = {"node": body.node, "cores": cores, "weight": weight, "share": cores / weight}
             codes = "operators.dynamics.cores-strong", "operators.dynamics.cores-weak"
             yield codes[cores < CORES * weight], told
 
@@ -280,28 +278,29 @@ def weights_twice(
     own, weights = np.bincount(label, mass[: len(label)]), np.bincount(label[nodes], pressing)
     for body in np.flatnonzero(own[: len(weights)] > 0.0):
         if _are_weights(2.0, weights[body], own[body]):
-            node = matrix.table.told(int((label == body).argmax()))
+            node = matrix.table.told((label == body).argmax())
             yield WEIGHT_TWICE, {"mass": own[body], "weight": weights[body], "node": node}
 
 
-def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: FloatArray) -> Told:
+def _beside_its_base(start: Start, body: Body) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
-    problem, joints = bodies.problem, bodies.problem.interface
+    problem, joints = start.problem, start.problem.interface
     stops = None if problem.contact is None else problem.contact.G
     numbering, rows = problem.numbering, stops if joints is None else joints.J
     assert rows is not None
-    lifts = (rows @ up).reshape(-1, 1 if joints is None else joints.dimension)
+    rows = rows * (-1.0 if (rows @ body.up).sum() < 0.0 else 1.0)  # named from above
+    lifts = (rows @ body.up).reshape(-1, 1 if joints is None else joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
         return
     borne = numbering.nodes[np.unique(rows.indices)]
-    borne = borne[np.isin(borne, numbering.nodes[own])]
+    borne = borne[np.isin(borne, numbering.nodes[body.own])]
     centre = numbering.table.coordinates[borne].mean(axis=0)
-    motions, C = rigid_motions(numbering, centre) * own[:, None], problem.constraints.C
-    aside = motions[:, : len(axes_of(problem)) - 1]
+    motions, C = rigid_motions(numbering, centre) * body.own[:, None], problem.constraints.C
+    aside = motions[:, : len(start.axes) - 1]
     for turn in motions[:, 3:].T:
         turn -= aside @ np.linalg.lstsq(C @ aside, C @ turn)[0]  # about what is held aside
-        if bodies.holds(turn):
+        if start.holds(turn):
             continue
         levers, ends = (rows @ turn).reshape(lifts.shape)[under, -1], np.zeros(int(under.sum()))
         if joints is not None:
@@ -310,10 +309,11 @@ def _beside_its_base(bodies: Bodies, own: BoolArray, up: FloatArray, force: Floa
         elif (rows @ turn)[~under].any():  # stops that act along other axes
             continue
         low, high = float((levers - ends).min()), float((levers + ends).max())
-        at, width = float(turn @ force) / float(up @ force), high - low
+        at, width = -float(turn @ start.weight) / body.weight, high - low
         off = max(low - at, at - high)
-        if width > 0.0 and off > BESIDE * width:
-            yield "operators.dynamics.weight-beside", {"width": width, "off": off}
+        if width > 0.0 and off > -EDGE * width:
+            told = {"node": body.node, "width": width, "off": max(off, 0.0)}
+            yield "operators.dynamics.weight-beside", told
 
 
 def _normal_jumps(joints: Interface, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -325,11 +325,11 @@ def _normal_jumps(joints: Interface, motion: FloatArray) -> tuple[FloatArray, Fl
     return w[:, -1], (np.abs(w[:, :-1]) * sides[:, 3 - joints.dimension :]).sum(axis=1)
 
 
-def unequal_joints(problem: Problem, _: Inputs) -> Told:
+def unequal_joints(start: Start) -> Told:
     """Joints of one law and kind under one body, one part of them far stiffer than another."""
-    if (joints := problem.interface) is None:
+    if (joints := start.problem.interface) is None:
         return
-    label, numbering = bodies_of(problem), problem.numbering
+    label, numbering = bodies_of(start.problem), start.problem.numbering
     known: dict[object, tuple[float, int]] = {}
     ends = np.cumsum([0, *(j.weights.size for j in joints.joints)])
     for joint, first, last in zip(joints.joints, ends, ends[1:], strict=False):
@@ -344,12 +344,13 @@ def unequal_joints(problem: Problem, _: Inputs) -> Told:
             yield "operators.dynamics.joints-unequal", {**told, "kn": kn, "other": other}
 
 
-def ground_twice(problem: Problem, inputs: Inputs) -> Told:
+def ground_twice(start: Start) -> Told:
     """Macro-elements on ground that is meshed: the cells give way, and the element again."""
+    problem, numbering = start.problem, start.problem.numbering
     if (joints := problem.interface) is None:
         return
-    label, numbering = bodies_of(problem), problem.numbering
-    zoned = [(b.nodes.ravel(), b.zone) for b in inputs.stiffness.blocks if b.zone is not None]
+    label = bodies_of(problem)
+    zoned = [(b.nodes.ravel(), b.zone) for b in start.inputs.stiffness.blocks if b.zone is not None]
     solid = [n for n, z in zoned if z.cells.kind.dimension > 1 and not is_joint(z)]
     for zone, lower in ((j.zone, j.lower) for j in joints.joints if is_macro(j.zone)):
         node = int(zone.cells.nodes.resolve(lower).ravel()[0])
@@ -360,8 +361,9 @@ def ground_twice(problem: Problem, inputs: Inputs) -> Told:
             yield "operators.dynamics.ground-twice", {"node": numbering.table.told(node)}
 
 
-def matter_amiss(problem: Problem, inputs: Inputs) -> Told:
+def matter_amiss(start: Start) -> Told:
     """Ground whose waves no ground has, by its density; solids of densities far apart."""
+    problem, inputs = start.problem, start.inputs
     if inputs.mass is None or not len(cells := matter(inputs.stiffness, inputs.mass)):
         return
     numbering, joints = problem.numbering, problem.interface
@@ -375,7 +377,7 @@ def matter_amiss(problem: Problem, inputs: Inputs) -> Told:
         if TONNES <= density[i] in usual:
             told = {"density": density[i], "speed": speed[i], "wanted": density[i] * TONNE}
             told["low"], told["high"] = WAVES.low, WAVES.high
-            node = numbering.table.told(int(cells[i, 0]))
+            node = numbering.table.told(cells[i, 0])
             yield "operators.dynamics.ground-too-light", {"node": node, **told}
             return
     i, j = int(density.argmin()), int(density.argmax())
@@ -383,18 +385,17 @@ def matter_amiss(problem: Problem, inputs: Inputs) -> Told:
     beneath = height[low].mean() < height[high].mean() and speed[i] > speed[j]
     times = density[j] / density[i]
     if LIGHTER[beneath] <= times < MASSLESS and speed[i] > FOAM:
-        told = {"node": numbering.table.told(int(cells[i, 0])), "density": density[i]}
-        told |= {"there": numbering.table.told(int(cells[j, 0])), "other": density[j]}
+        told = {"node": numbering.table.told(cells[i, 0]), "density": density[i]}
+        told |= {"there": numbering.table.told(cells[j, 0]), "other": density[j]}
         yield "operators.dynamics.densities-apart", {**told, "times": times}
 
 
-def footing_too_wide(problem: Problem, _: Inputs) -> Told:
+def footing_too_wide(start: Start) -> Told:
     """Macro-elements wider than the model is large, many times: millimetres among metres."""
-    if (joints := problem.interface) is None or not any(is_macro(j.zone) for j in joints.joints):
-        return
-    size = float(np.ptp(problem.numbering.table.coordinates[problem.numbering.nodes], axis=0).max())
-    if (wide := _width(problem)) > WIDE * size > 0.0:
-        yield "operators.dynamics.footing-too-wide", {"width": wide, "size": size}
+    joints = start.problem.interface
+    macro = joints is not None and any(is_macro(j.zone) for j in joints.joints)
+    if macro and (wide := _width(start.problem)) > WIDE * start.size > 0.0:
+        yield "operators.dynamics.footing-too-wide", {"width": wide, "size": start.size}
 
 
 def _width(problem: Problem) -> float:

@@ -107,6 +107,7 @@ _SLOW, _GAP, _STRONG = 0.2, 10.0, 50.0
 """Longest step of a record (s), longest over the median step, largest acceleration (m/s2)."""
 _BEGUN, _FEW = 0.3, 50
 """Largest first value, over the largest of all, of a record of more values than these few."""
+_ALONE = 3.0  # times all others, and those beside it: no value of a motion
 _ROUNDED = 2e-3  # g is 9.80665, 9.81 or 9.8
 _FACTORS = (G, 0.01, 0.001)
 """What makes m/s2 of other units; a factor of 1 leaves a record as it is."""
@@ -125,6 +126,12 @@ def _odd(record: GroundMotion, factor: float | None) -> Iterator[tuple[str, floa
     begun = float(abs(record.values[0])) / (float(np.abs(record.values).max()) or 1.0)
     if record.quantity == "ACCE" and begun > _BEGUN and len(record.values) > _FEW:
         yield "operators.files.record-begun", begun, _BEGUN
+    size = np.abs(record.values)
+    marks = size == size.max()
+    others, beside = size[~marks], np.maximum(np.append(size[1:], 0.0), np.append(0.0, size[:-1]))
+    alone = len(size) > _FEW and 0.0 < _ALONE * others.max(initial=0.0) < size.max()
+    if alone and beside[marks].max() < size.max() / _ALONE:
+        yield "operators.files.record-marked", record.values[marks][0], record.times[marks][0]
     near = [f for f in _FACTORS if factor is not None and abs(factor / f - 1.0) < _ROUNDED]
     if near and record.has_unit and abs(near[0] / record.in_si - 1.0) > _ROUNDED:
         yield "operators.files.record-other-factor", near[0], record.in_si

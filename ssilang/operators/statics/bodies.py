@@ -8,6 +8,7 @@ from ssilang.kernel.elements.solids.finite_motion import motion_of
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
+from ssilang.kernel.statics.doubled import face_keys
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
@@ -34,6 +35,8 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
     if not zones:
         return None
     material: CellField = entries.needed("CARACTERISTIQUES")
+    if start is None or start.reached is None:
+        _warn_of_two_models(entries, zones)
 
     def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
         from ssilang.kernel.plasticity.bulk import bulk_of
@@ -59,6 +62,17 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         return bulk, replace(bulk, free={}).respond(blank, problem.u, first).state
 
     return make
+
+
+def _warn_of_two_models(entries: Entries, zones: tuple[Zone, ...]) -> None:
+    """Warn of cells that several models have: each bears its part, as if both were there."""
+    solid = [z.cells for z in zones if z.cells.kind.dimension > 1 and not z.constituent]
+    cells = [c.nodes.resolve(c.raw) for c in solid]
+    keys = np.concatenate([np.zeros(0, int), *map(face_keys, cells)])
+    _, first, times = np.unique(keys, return_index=True, return_counts=True)
+    if len(again := first[times > 1]):
+        node = solid[0].nodes.told(np.concatenate([c[:, 0] for c in cells])[again[0]])
+        entries.warn("operators.statics.cells-in-two-models", count=len(again), node=node)
 
 
 def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodies:

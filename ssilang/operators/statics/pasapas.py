@@ -155,7 +155,9 @@ def _stretch(
     problem = make_problem(inputs)
     if bodies is None and not control_asked(work) and stage.entries is work:
         plausibility.warn_of_connections(work, inputs)
-        plausibility.warn_of_start(work, problem, inputs, in_statics=not dynamic)
+        plausibility.warn_of_start(
+            work, plausibility.Start(problem, inputs), in_statics=not dynamic
+        )
     elif start.reached is None:
         plausibility.warn_of_bodies(work, inputs)
     model: Model | None = given.get("MODELE")

@@ -8,11 +8,11 @@ What presses on ground that yields, against what the ground bears.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from weakref import WeakKeyDictionary
+from functools import cached_property
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.bed import Bed
@@ -24,12 +24,14 @@ from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, translation
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces, closed_stiffness
 from ssilang.kernel.stepping.problem.initial import admissible_velocity
-from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.waves.shaken import AXES, changing, shares, translations
+from ssilang.kernel.stepping.problem.loading import nodal_terms
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+from ssilang.kernel.waves.shaken import accelerations, axes_of, shares, translations
 
 MOST_BODIES = 20  # beyond, joints and relations are a material
 MOST_MOTIONS, DENSE = 5000, 400  # free motions up to which a solve costs little beside the steps
 SUNK = 0.1  # of a body's size, that its joints give way
+STIRS = 1e-5  # of it, by which a load moves it on: a blow on a free bar sends waves
 PRESSED = 0.02  # mean force of a weight beside the largest one
 WEAK = 1e-13  # stiffness beside the largest one that holds nothing
 LITTLE = 1e-6  # jump at which joints are tried (m), and share of a force that is none
@@ -41,7 +43,7 @@ SUDDEN = 0.1  # part of a load's largest value that comes or goes within a step
 class Loose:
     """A body that a load moves off along an axis."""
 
-    node: int  # one of its nodes
+    node: str  # one of its nodes, as messages name it
     axis: str
     pressed: bool  # whether joints or stops would hold it if something pressed it on them
 
@@ -50,7 +52,7 @@ class Loose:
 class Sunk:
     """A body that loads, standing still, would push further along an axis than it is large (m)."""
 
-    node: int
+    node: str
     axis: str
     way: float
     size: float
@@ -71,19 +73,100 @@ class Swing:
     motion: FloatArray
 
 
-_KNOWN: WeakKeyDictionary[Problem, list[Swing]] = WeakKeyDictionary()
-"""Swings of problems that are still there: they take a factorisation."""
+@dataclass(frozen=True)
+class Body:
+    """A body that supports let move.
+
+    Attributes
+    ----------
+    own : array (n,)
+        Its unknowns.
+    node : str
+        Its first one, as messages name it.
+    ways : dict
+        Its translations (n,) by the axes.
+    up : array (n,)
+        The last of them.
+    mass, weight : float
+        Along it; what loads that do not change press down with.
+    size : float
+        The largest of its nodes' box.
+    """
+
+    own: BoolArray
+    node: str
+    ways: dict[str, FloatArray]
+    up: FloatArray
+    mass: float
+    weight: float
+    size: float
 
 
-class Bodies:
-    """The bodies of a problem, and what holds each of those that supports let move."""
+class Start:
+    """The start of a calculation: what several looks at it need, and what holds its bodies."""
 
-    def __init__(self, problem: Problem) -> None:
-        self.problem = problem
-        self.label = bodies_of(problem)
-        self.factors = problem.loading.at(problem.times)
-        moving = np.unique(self.label[~held(problem)]).tolist()
-        self.moving: list[int] = moving if len(moving) <= MOST_BODIES else []
+    def __init__(self, problem: Problem, inputs: Inputs) -> None:
+        self.problem, self.inputs = problem, inputs
+        self.axes = axes_of(problem)
+
+    @cached_property
+    def factors(self) -> FloatArray:
+        """Of the loads, at all instants."""
+        return self.problem.loading.at(self.problem.times)
+
+    @cached_property
+    def changing(self) -> BoolArray:
+        """Which loads (k,) change."""
+        return np.asarray(np.ptp(self.factors, axis=0) > 0.0)
+
+    @cached_property
+    def steady(self) -> FloatArray:
+        """Factors (k,) of the loads that do not change, nought for others."""
+        return np.asarray(self.factors[0] * ~self.changing)
+
+    @cached_property
+    def weight(self) -> FloatArray:
+        """Forces (n,) of the loads that do not change."""
+        return np.asarray(self.problem.loading.forces @ self.steady)
+
+    @cached_property
+    def accelerations(self) -> FloatArray:
+        """Accelerations (d, k) of the whole that the loads are."""
+        return accelerations(self.problem)
+
+    @cached_property
+    def shaking(self) -> FloatArray:
+        """Those of the loads that change."""
+        return self.accelerations * self.changing
+
+    @cached_property
+    def swings(self) -> list[Swing]:
+        """The motions that loads and first velocities ask for."""
+        return [*swings(self.problem)]
+
+    @cached_property
+    def names(self) -> list[str]:
+        """Names of the parts that the loads come from."""
+        parts = () if self.inputs.load is None else self.inputs.load.parts
+        return [part.name for part in parts for _ in nodal_terms(part)]
+
+    @cached_property
+    def size(self) -> float:
+        """The largest of the model's."""
+        table, nodes = self.problem.numbering.table, self.problem.numbering.nodes
+        return float(np.ptp(table.coordinates[nodes], axis=0).max(initial=0.0))
+
+    def bodies(self) -> Iterator[Body]:
+        """Those that supports let move, where they are few."""
+        problem, label = self.problem, bodies_of(self.problem)
+        points = problem.numbering.table.coordinates[problem.numbering.nodes]
+        moving = np.unique(label[~held(problem)])
+        for own in (label == k for k in moving if self.axes and len(moving) <= MOST_BODIES):
+            ways = dict(zip(self.axes, own * translations(problem).T, strict=True))
+            up = ways[self.axes[-1]]
+            mass, weight = float(up @ (problem.M @ up)), -float(up @ self.weight)
+            size = float(np.ptp(points[own], axis=0).max())
+            yield Body(own, problem.numbering.told(own), ways, up, mass, weight, size)
 
     def loose(self) -> Iterator[Loose]:
         """Bodies without support along an axis, or without what presses them on theirs."""
@@ -91,43 +174,27 @@ class Bodies:
         begun = problem.u.any() or problem.v.any()  # an impact needs no weight
         if begun and not problem.loading.forces.any():
             return
-        names = [a for a in AXES if a in problem.numbering.unknowns]
-        for body in self.moving:
-            ways = {a: self._way(body, a) for a in names}
+        for body in self.bodies():
+            ways = {a: self._way(motion, body.size) for a, motion in body.ways.items()}
             held = not {"held", "stands", "pressed"}.isdisjoint(ways.values())
             for axis, way in ways.items():
                 if way == "pressed" or (way == "slides" and held):
-                    node = problem.numbering.nodes[np.argmax(self.label == body)]
-                    yield Loose(int(node), axis, way == "pressed")
+                    yield Loose(body.node, axis, way == "pressed")
 
     def sunk(self) -> Iterator[Sunk]:
         """Bodies that closed joints alone hold, by less than what loads push them with."""
-        problem, numbering = self.problem, self.problem.numbering
-        joints = problem.interface
-        for body in self.moving if joints is not None else ():
-            nodes = numbering.nodes[self.label == body]
-            size = float(np.ptp(numbering.table.coordinates[nodes], axis=0).max())
-            for axis in [a for a in AXES if a in numbering.unknowns]:
-                motion = self.along(body, axis)
-                assert joints is not None
-                delta = joints.J @ motion
-                held = float(delta @ (joints.closed_stiffness() @ delta))
-                if held > 0.0 and size > 0.0 and not self.holds(motion):
-                    push = self.factors @ (problem.loading.forces.T @ motion)
+        for body in self.bodies() if self.problem.interface is not None else ():
+            for axis, motion in body.ways.items():
+                held = self._closed(motion)
+                if held > 0.0 and body.size > 0.0 and not self.holds(motion):
+                    push = self.factors @ (self.problem.loading.forces.T @ motion)
                     way = float(np.abs(push).max(initial=0.0)) / held
-                    if way > SUNK * size:
-                        yield Sunk(int(nodes[0]), axis, way, size)
+                    if way > SUNK * body.size:
+                        yield Sunk(body.node, axis, way, body.size)
 
-    def along(self, body: int, axis: str) -> FloatArray:
-        """The body's translation by one."""
-        motion = np.zeros(self.problem.numbering.size)
-        motion[self.problem.numbering.where(axis)] = 1.0
-        motion[self.label != body] = 0.0
-        return motion
-
-    def _way(self, body: int, axis: str) -> str:
+    def _way(self, motion: FloatArray, size: float) -> str:
         """'held', 'slides', 'stands' on joints or stops, or 'pressed' that needs to be; or ''."""
-        problem, motion = self.problem, self.along(body, axis)
+        problem = self.problem
         if not motion.any() or not motion @ (problem.M @ motion):
             return ""
         if self.holds(motion, dashpots=True):
@@ -144,7 +211,14 @@ class Bodies:
             shaken = self.factors.any() and (load.forces.any() or load.imposed.any())
             weight = excited and abs(float(pushed.mean())) > PRESSED * largest
             return "pressed" if shaken and not weight else "stands"
-        return "slides" if excited and not closed else ""
+        return "slides" if excited and not closed and self.stirs(motion, size) else ""
+
+    def stirs(self, motion: FloatArray, size: float) -> bool:
+        """Whether loads move a body of a size on, along a motion that nothing holds."""
+        pushed = self.factors @ (self.problem.loading.forces.T @ motion)
+        dt, mass = np.diff(self.problem.times), float(motion @ (self.problem.M @ motion))
+        way = np.abs(np.cumsum(np.cumsum(pushed[1:] * dt) * dt)).max(initial=0.0) / (mass or 1.0)
+        return bool(way * np.abs(motion).max() > STIRS * size or not pushed.any())
 
     def holds(self, motion: FloatArray, *, dashpots: bool = False) -> bool:
         """Whether stiffness or supports act against a motion, or the dashpots of several masses."""
@@ -158,12 +232,12 @@ class Bodies:
             return False
         return np.count_nonzero(motion) == 1 or is_dragged(problem, motion)
 
-    def _closed(self, motion: FloatArray) -> bool:
-        """Whether joints act against a motion when they are pressed."""
+    def _closed(self, motion: FloatArray) -> float:
+        """Stiffness against a motion of joints that are pressed."""
         joints = self.problem.interface
         if joints is None or not (delta := joints.J @ motion).any():
-            return False
-        return bool(delta @ (joints.closed_stiffness() @ delta) > 0.0)
+            return 0.0
+        return float(delta @ (joints.closed_stiffness() @ delta))
 
     def touches(self, motion: FloatArray) -> bool:
         """Whether stops or joints act against a small motion from the start."""
@@ -181,22 +255,15 @@ class Bodies:
         new = np.zeros_like(self.problem.state)
         respond(joints.codes, w, self.problem.state, joints.parameters, t, new, D)
         interface_forces(joints.points, t, f)
-        whole = delta @ (joints.closed_stiffness() @ delta)
-        return bool(f @ delta > LITTLE * whole)
+        return bool(f @ delta > LITTLE**3 * self._closed(motion))
 
 
-def swings(problem: Problem) -> list[Swing]:
-    """The motions that loads and first velocities ask for; of small problems alone, found once.
+def swings(problem: Problem) -> Iterator[Swing]:
+    """The motions that loads and first velocities ask for; of small problems alone.
 
     Of a force f the static displacement x has the period `2 pi sqrt(x M x / x f)`, an upper
     estimate of those of the modes that it excites, weighed by their compliance (Rayleigh).
     """
-    if problem not in _KNOWN:
-        _KNOWN[problem] = [*_swings(problem)]
-    return _KNOWN[problem]
-
-
-def _swings(problem: Problem) -> Iterator[Swing]:
     T, given = problem.constraints.T, _forces(problem)
     if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
         return
@@ -294,13 +361,14 @@ def masses_alone(problem: Problem) -> IntArray:
     return np.setdiff1d(found, nodes[rows[dashpots.row[joined]]])
 
 
-def on_supports(problem: Problem) -> IntArray:
+def on_supports(start: Start) -> IntArray:
     """Loads that supports take, all but a hundredth of them; weights where they change, too."""
+    problem = start.problem
     T, forces, along = problem.constraints.T, problem.loading.forces, translations(problem)
     sizes, left = (np.abs(f).sum(axis=0) for f in (forces, T.T @ forces))
     weighs = shares(problem.M @ along, forces).any(axis=0) if along.size else sizes < 0.0
     few = left <= np.where(weighs, ROUNDING, NEARLY) * sizes
-    return np.flatnonzero((sizes > 0.0) & few & (changing(problem) | ~weighs))
+    return np.flatnonzero((sizes > 0.0) & few & (start.changing | ~weighs))
 
 
 # Whether a step resolves contact: the half period of the mass that a joint carries.
