@@ -2,6 +2,7 @@
 
 import math
 import re
+from contextlib import suppress
 from dataclasses import field
 
 from ssilang.io.errors import InputError
@@ -52,15 +53,13 @@ def _item(match: re.Match[str]) -> str | float | int:
     if match.group(2) is None:
         return match.group(1).replace("''", "'")
     text = match.group(2)
-    try:
+    with suppress(ValueError):
         return int(text)
-    except ValueError:
-        pass
-    try:
+    with suppress(ValueError):
         value = float(re.sub("[dD]", "E", text))
-    except ValueError:
-        return text
-    return value if math.isfinite(value) else text  # a gap in a record is no number
+        if math.isfinite(value):  # a gap in a record is no number
+            return value
+    return text.upper()
 
 
 def _whole(records: Records) -> int:
