@@ -22,10 +22,6 @@ class Records:
     line: int = 0
     items: list[str | float | int] = field(default_factory=list)
 
-    def begin(self) -> None:
-        """Go to the start of the next line: what is left of this one is dropped."""
-        self.items = []
-
     def next_line(self) -> str:
         """The next line, whole."""
         if self.line >= len(self.lines):
@@ -71,13 +67,8 @@ def _whole(records: Records) -> int:
     return int(value)
 
 
-def _any(records: Records, count: int) -> Any:
-    item = records.next()
-    return Mot(item) if isinstance(item, str) else item
-
-
 _READERS: dict[str, Callable[[Records, int], Any]] = {
-    "": _any,
+    "": lambda r, n: Mot(item) if isinstance(item := r.next(), str) else item,
     "ENTIER": lambda r, n: _whole(r),
     "FLOTTANT": lambda r, n: float(r.number()),
     "MOT": lambda r, n: Mot(r.next()),
@@ -98,7 +89,7 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
 def acqu(call: Call) -> Mot | None:
     """Read values into names, or one line."""
     records = _records(call)
-    records.begin()
+    records.items = []  # a statement begins on a new line
     if len(call.operands) == 1 and call.keyword(("BRUT",)) is not None:
         return Mot(records.next_line())
     wanted = _wanted(call)
