@@ -7,6 +7,7 @@ import importlib.util
 import itertools
 import os
 import sys
+from base64 import b64decode
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -67,10 +68,18 @@ def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     keep_factors(0)
 
 
+_PIXEL = b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4//8/AAX+Av4N70a4AAAAAElFTkSuQmCC"
+)
+
+
 @pytest.fixture
 def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures are composed; placing their texts and writing them is most of a short script."""
-    monkeypatch.setattr(figure, "figure_bytes", lambda *_: b"")
+    """Figures are composed; placing their texts and writing them is most of a short script.
+
+    One white pixel stands for them, which an animation can read back.
+    """
+    monkeypatch.setattr(figure, "figure_bytes", lambda *_: _PIXEL)
 
 
 class _Nothing(set[str]):

@@ -52,7 +52,7 @@ def test_values_of_the_manual_s_kind(tmp_path: Path) -> None:
     )
     assert found[:4] == [1, " is less than ", 2.0, 2]
     assert [list(x.values) for x in found[4:6]] == [[1, 2, 3, 4, 5], [6.5, 1000.0]]  # type: ignore[attr-defined]
-    assert found[6:] == ["free", 1.5, "all of this"]
+    assert found[6:] == ["FREE", 1.5, "all of this"]
 
 
 def test_names_that_exist_are_given_new_values(tmp_path: Path) -> None:
@@ -110,7 +110,7 @@ def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
         ("A = LIRE 'MDE' 'v.txt' ;", "did you mean 'MED'?"),
         ("A = LIRE 'v.txt' ;", "no mesh is known by the ending '.txt'"),
         ("A = LIRE 'v.mhs' ;", "did you mean '.msh'?"),
-        ("OPTI ACQU 'v.txt' ; ACQU I*ENTIER ;", "'word' is no number"),
+        ("OPTI ACQU 'v.txt' ; ACQU I*ENTIER ;", "'WORD' is no number"),
         ("OPTI ACQU 'v.txt' ; ACQU I*MAILLAGE ;", "'MAILLAGE' cannot be read"),
         ("OPTI ACQU 'v.txt' ; ACQU L*LISTREEL ;", "number of values must follow"),
         ("OPTI ACQU 'v.txt' ; ACQU A B C ;", "all have been read"),

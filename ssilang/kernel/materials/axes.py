@@ -7,9 +7,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.results.frames import is_flat_shell
+from ssilang.kernel.elements.results.frames import has_shell_frames, shell_frames
 from ssilang.kernel.elements.shapes.reference import shape_functions
-from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.elasticity import two_axes
 from ssilang.kernel.materials.model import Mode, Zone
@@ -48,7 +47,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     MaterialError
         If a vector is missing, zero or parallel to the other.
     """
-    if is_flat_shell(zone) or zone.element == "COQ2":
+    if has_shell_frames(zone):
         return _on_shell(zone, given), "GRAVITE"
     if ELEMENTS[zone.element].family == "joint" and zone.element != "JOI1" and given.second is None:
         return _on_joint(zone, given), "GRAVITE"
@@ -69,13 +68,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
 
 def _on_shell(zone: Zone, given: Directions) -> dict[str, FloatArray]:
     """Cosines V1X V1Y of the first axis in the own frame of each shell cell."""
-    if zone.element == "COQ2":  # along the meridian, around, normal
-        along = np.diff(zone.cells.coordinates[:, :2], axis=1)[:, 0]
-        along /= np.linalg.norm(along, axis=1, keepdims=True)
-        around = np.broadcast_to([0.0, 0.0, 1.0], along.shape)
-        frames = np.stack([along, around, np.cross(along, around)], axis=1)
-    else:
-        frames, _ = flat_frames(zone)
+    frames = shell_frames(zone)
     vector = np.broadcast_to(given.first, (len(frames), 3))
     if given.radial:
         vector = zone.cells.coordinates.mean(axis=1) - given.first

@@ -1,5 +1,7 @@
 """RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations; DFOU: a harmonic at an angle."""
 
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.fields.signs import paired_names
 from ssilang.operators.prelude import *
@@ -100,7 +102,12 @@ def xtx_in_cells(
     """Square norm of fields in cells."""
     if second is not None:
         first = _weighted_sum(call, cell_algebra, first, second, a, b)
-    return float(sum((v * v).sum() for v in cell_algebra.values_of(first)))
+    total = 0.0
+    for b in first.blocks:
+        count = n_points(b.element, b.support) if b.element in ELEMENTS else b.cells.kind.n_nodes
+        for v in cell_algebra.values_of(CellField((b,))):  # one alone stands for all of its cell
+            total += (count if v.shape[1] == 1 else 1) * float((v * v).sum())
+    return total
 
 
 def _weighted_sum(

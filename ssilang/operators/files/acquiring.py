@@ -2,6 +2,7 @@
 
 import math
 import re
+from contextlib import suppress
 from dataclasses import field
 
 from ssilang.io.errors import InputError
@@ -20,10 +21,6 @@ class Records:
     lines: list[str]
     line: int = 0
     items: list[str | float | int] = field(default_factory=list)
-
-    def begin(self) -> None:
-        """Go to the start of the next line: what is left of this one is dropped."""
-        self.items = []
 
     def next_line(self) -> str:
         """The next line, whole."""
@@ -52,15 +49,13 @@ def _item(match: re.Match[str]) -> str | float | int:
     if match.group(2) is None:
         return match.group(1).replace("''", "'")
     text = match.group(2)
-    try:
+    with suppress(ValueError):
         return int(text)
-    except ValueError:
-        pass
-    try:
+    with suppress(ValueError):
         value = float(re.sub("[dD]", "E", text))
-    except ValueError:
-        return text
-    return value if math.isfinite(value) else text  # a gap in a record is no number
+        if math.isfinite(value):  # a gap in a record is no number
+            return value
+    return text.upper()
 
 
 def _whole(records: Records) -> int:
@@ -72,13 +67,8 @@ def _whole(records: Records) -> int:
     return int(value)
 
 
-def _any(records: Records, count: int) -> Any:
-    item = records.next()
-    return Mot(item) if isinstance(item, str) else item
-
-
 _READERS: dict[str, Callable[[Records, int], Any]] = {
-    "": _any,
+    "": lambda r, n: Mot(item) if isinstance(item := r.next(), str) else item,
     "ENTIER": lambda r, n: _whole(r),
     "FLOTTANT": lambda r, n: float(r.number()),
     "MOT": lambda r, n: Mot(r.next()),
@@ -99,7 +89,7 @@ _READERS: dict[str, Callable[[Records, int], Any]] = {
 def acqu(call: Call) -> Mot | None:
     """Read values into names, or one line."""
     records = _records(call)
-    records.begin()
+    records.items = []  # a statement begins on a new line
     if len(call.operands) == 1 and call.keyword(("BRUT",)) is not None:
         return Mot(records.next_line())
     wanted = _wanted(call)

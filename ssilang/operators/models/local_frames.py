@@ -8,6 +8,7 @@ from ssilang.kernel.elements.results.frames import (
     cylindrical_frames,
     fixed_frame,
     given_rotations,
+    has_shell_frames,
     is_flat_shell,
     material_frames,
     points_of,
@@ -190,9 +191,8 @@ def vloc(
 
     def make(zone: Zone) -> CellFieldBlock:
         axes = material_frames(zone, material, "RIGIDITE")
-        shape = (len(zone.cells), n_points(zone.element, "RIGIDITE"), 3, 3)
-        full = np.broadcast_to(axes, shape)
-        space = zone.mode is Mode.THREE_DIMENSIONAL
+        full = np.broadcast_to(axes, (len(zone.cells), n_points(zone.element, "RIGIDITE"), 3, 3))
+        space = zone.mode is Mode.THREE_DIMENSIONAL or has_shell_frames(zone)
         letters = "RZT" if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) else "XYZ"
         kept = 3 if space else 2
         names = tuple(f"V{i + 1}{letters[k]}" for i in range(kept) for k in range(kept))

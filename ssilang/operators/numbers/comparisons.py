@@ -21,11 +21,13 @@ def _equal_scalars(a: Any, b: Any) -> bool:
     return bool(a == int(b)) if cut else bool(a == b)
 
 
-def _ordered(compare: Callable[[Any, Any], bool]) -> Callable[[Any, Any], bool]:
+def _of(logical: bool, rule: Callable[[Any, Any], bool]) -> Callable[[Any, Any], bool]:
+    """A rule of logical values alone, or of other values alone."""
+
     def run(a: Any, b: Any) -> bool:
-        if type(a) is bool or type(b) is bool:
+        if (type(a) is bool) is not logical or (type(b) is bool) is not logical:
             raise TypeError("LOGIQUE")
-        return compare(a, b)
+        return rule(a, b)
 
     return run
 
@@ -36,7 +38,7 @@ _ORDERS: dict[str, Callable[[Any, Any], bool]] = {
     "<": python.lt, ">": python.gt, "<EG": python.le, ">EG": python.ge,
 }  # fmt: skip
 for _sign, _compare in _ORDERS.items():
-    SCALAR_RULES[_sign] = _ordered(_compare)
+    SCALAR_RULES[_sign] = _of(False, _compare)
 
 
 _FIRST = arg("first", en="what stands before it")
@@ -48,16 +50,18 @@ def _no_rule(call: Call, sign: str, first: Any, second: Any) -> SsiError:
     return SsiError("no-rule", span, operator=sign, left=type_of(first), right=type_of(second))
 
 
-def equal(sign: str, call: Call, first: Any, second: Any, tolerance: float | None) -> bool:
+def equal(sign: str, call: Call, a: Any, b: Any, tolerance: float | None) -> bool:
     """Whether two objects are equal, reals and points within a tolerance."""
-    a, b = first, second
     if type(a) in _NUMBERS and type(b) in _NUMBERS:
         if tolerance is not None:
             return bool(abs(a - (int(b) if type(a) is int else b)) <= tolerance)
         return _equal_scalars(a, b)
     kinds = type_of(a), type_of(b)
     if isinstance(a, str) and isinstance(b, str):
-        return a.rstrip() == b.rstrip()
+        kept = len(a + b) + 1 if tolerance is None else tolerance
+        if kept < 1 or kept % 1:
+            raise call.error("operators.numbers.letters-compared", kept, value=kept)
+        return a[: int(kept)].rstrip() == b[: int(kept)].rstrip()
     if "MOT" in kinds and {*kinds} & {"ENTIER", "FLOTTANT", "LOGIQUE"}:
         # they differ, which is told since the word may be a name misspelt
         call.session.warn(
@@ -96,7 +100,7 @@ for _sign in ("EGA", "NEG"):
         _sign,
         _FIRST,
         _SECOND,
-        opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance"),
+        opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, en="tolerance; of words, letters counted"),
         gives="LOGIQUE",
         family="comparisons",
         full_name=_sign,
@@ -115,21 +119,8 @@ for _sign in _ORDERS:
     )
 
 
-def _both(a: Any, b: Any) -> bool:
-    if type(a) is not bool or type(b) is not bool:
-        raise TypeError("not LOGIQUE")
-    return a and b
-
-
-def _either(a: Any, b: Any) -> bool:
-    if type(a) is not bool or type(b) is not bool:
-        raise TypeError("not LOGIQUE")
-    return a or b
-
-
-SCALAR_RULES["ET"] = _both
-SCALAR_RULES["OU"] = _either
-union(("LOGIQUE", "LOGIQUE"))(_both)
+SCALAR_RULES["ET"] = union(("LOGIQUE", "LOGIQUE"))(_of(True, python.and_))
+SCALAR_RULES["OU"] = _of(True, python.or_)
 
 
 @operator("OU", family="comparisons")

@@ -132,12 +132,26 @@ FLAT_SHELLS = ("plate", "mindlin")
 """Families of flat shells; their parameters V1X V1Y are cosines in their own frames."""
 
 
+def has_shell_frames(zone: Zone) -> bool:
+    """True for shells whose axes of orthotropy are given in their own frames."""
+    return is_flat_shell(zone) or zone.element == "COQ2"
+
+
+def shell_frames(zone: Zone) -> FloatArray:
+    """Own frames (n, 3, 3) of shells, rows being the axes; COQ2: along, around, normal."""
+    if zone.element != "COQ2":
+        return flat_frames(zone)[0]
+    along = unit(np.diff(zone.cells.coordinates[:, :2], axis=1)[:, 0])
+    around = np.broadcast_to([0.0, 0.0, 1.0], along.shape)
+    return np.stack([along, around, np.cross(along, around)], axis=1)
+
+
 def material_frames(zone: Zone, material: CellField, support: Support) -> FloatArray:
     """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3), global components."""
     parameters = zone_field(zone, material)
-    if not is_flat_shell(zone):
+    if not has_shell_frames(zone):
         return material_axes(parameters, support)
-    frames = flat_frames(zone)[0][:, None]
+    frames = shell_frames(zone)[:, None]
     c, s = (parameters.at(n, support)[..., None] for n in ("V1X", "V1Y"))
     first = c * frames[..., 0, :] + s * frames[..., 1, :]
     second = c * frames[..., 1, :] - s * frames[..., 0, :]

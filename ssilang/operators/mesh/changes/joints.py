@@ -25,9 +25,12 @@ def racc(
     distance: float | None = DISTANCE,
     first: Mesh = Arg("MAILLAGE", en="line"),
     second: Mesh = Arg("MAILLAGE", en="line that faces it"),
+    between: Mesh | None = Opt("MAILLAGE", en="line between, of porous joints, which is refused"),
     part: bool = _PART,
 ) -> Mesh:
     """Joints between lines."""
+    if between is not None:
+        raise MeshError("operators.mesh.joint-of-three-lines")
     if first.dimension > 1:
         raise MeshError("operators.mesh.lines-wanted")
     return _joint(session, first, second, distance, part)
