@@ -4,10 +4,12 @@ import contextlib
 import ctypes
 import gc
 import importlib.util
+import io
 import itertools
 import os
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,12 +17,13 @@ import pytest
 from _pytest.pathlib import import_path
 from hypothesis import HealthCheck, settings
 from not_tested import pytest_terminal_summary  # noqa: F401
+from PIL import Image
 
 from ssilang import late_imports
 from ssilang.cli.main import SELDOM
 from ssilang.cli.sweeping import trunk, worker
 from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
-from ssilang.io.plots import figure
+from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
 from ssilang.kernel.solvers.backends import keep_factors
 
@@ -67,10 +70,18 @@ def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     keep_factors(0)
 
 
+@cache
+def _pixel() -> bytes:
+    written = io.BytesIO()
+    Image.new("RGB", (1, 1)).save(written, "PNG")
+    return written.getvalue()
+
+
 @pytest.fixture
 def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures are composed; placing their texts and writing them is most of a short script."""
-    monkeypatch.setattr(figure, "figure_bytes", lambda *_: b"")
+    for module in (figure, animation):
+        monkeypatch.setattr(module, "figure_bytes", lambda *_: _pixel())
 
 
 class _Nothing(set[str]):
