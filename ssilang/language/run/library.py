@@ -104,9 +104,9 @@ class Library:
         if name.startswith("@"):
             stems = dict.fromkeys((name, name.lower()))
             paths = [self._folder / (stem + suffix) for suffix in _SUFFIXES for stem in stems]
-            for path in paths:
-                if os.path.isfile(path):  # False for a name that no file can have
-                    return self._inside(path)
+            # False for a name that no file can have
+            if (found := next(filter(os.path.isfile, paths), None)) is not None:
+                return self._inside(found)
             if name in self.standard_names:  # one of these would stand before the library's
                 self.read += [path for path in paths if path not in self.read]
         return self.standard_files.get(name)
