@@ -21,7 +21,7 @@ from ssilang import late_imports
 from ssilang.cli.main import SELDOM
 from ssilang.cli.sweeping import trunk, worker
 from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
-from ssilang.io.plots import figure
+from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
 from ssilang.kernel.solvers.backends import keep_factors
 
@@ -79,7 +79,8 @@ def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
 
     One white pixel stands for them, which an animation can read back.
     """
-    monkeypatch.setattr(figure, "figure_bytes", lambda *_: _PIXEL)
+    for module in (figure, animation):
+        monkeypatch.setattr(module, "figure_bytes", lambda *_: _PIXEL)
 
 
 class _Nothing(set[str]):

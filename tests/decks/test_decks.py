@@ -85,6 +85,11 @@ SPOILT = [
 SMALLER = {
     "published/nafems_contact.ssi": [("0.5 1.) ;", "1.) ;")],
     "published/rocking_wall.ssi": [("'PAS' 2.5E-5 3.6", "'PAS' 1.E-4 3.6")],
+    "published/sheared_fault.ssi": [
+        ("DROI A1 A2 'DINI' 4.", "DROI A1 A2 'DINI' 5."),
+        ("DROI A3 A4 'DINI' H0 'DFIN' 4.", "DROI A3 A4 'DINI' H0 'DFIN' 5."),
+        ("(0. Y1) 'DINI' H0 'DFIN' 4.", "(0. Y1) 'DINI' H0 'DFIN' 5."),
+    ],
     "published/shaken_slider.ssi": [
         (
             "'PAS' 2.5E-5 12. ; TAB1 . 'PAS_SAUVES' = 400",
@@ -95,7 +100,8 @@ SMALLER = {
         ("DUREE = 5.", "DUREE = 1.2"),
         ("NA0 = 4 ; NR0 = 3 ; NO0 = 5 ; NZ1 = 2", "NA0 = 3 ; NR0 = 2 ; NO0 = 4 ; NZ1 = 2"),
         ("NZ2 = 4 ; NW0 = 5 ;", "NZ2 = 3 ; NW0 = 4 ;"),
-        ("REPE BA 12 ;", "REPE BA 8 ;"),
+        ("REPE BA 12 ;", "REPE BA 3 ;"),
+        ("(&BA - 7)", "(&BA - 2)"),
     ],
     "seismic/isolated_block.ssi": [("DUREE = 16.", "DUREE = 4.")],
     "seismic/oblique_waves.ssi": [

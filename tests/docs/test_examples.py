@@ -124,6 +124,7 @@ def test_examples_run_and_try_every_form_that_is_built(operator, untried, tmp_pa
     assert ran.missing(operator) == untried.get(operator.name, [])
 
 
+@pytest.mark.usefixtures("unsaved")
 @together("operator", [o for o in _OPERATORS if not o.empties], by=lambda o: o.family)
 def test_objects_that_hold_nothing_are_told(operator, tmp_path, monkeypatch):
     """Each call of the examples is tried with nothing in place of each of its objects."""
@@ -134,6 +135,7 @@ def test_objects_that_hold_nothing_are_told(operator, tmp_path, monkeypatch):
     assert not emptied.silent
 
 
+@pytest.mark.usefixtures("unsaved")
 @pytest.mark.parametrize("path", [pytest.param(p, id=p.stem) for p in _PROCEDURES])
 def test_examples_of_procedures_run(path, tmp_path):
     for number, text in enumerate(_PROCEDURES[path].help.examples, 1):

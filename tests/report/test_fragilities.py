@@ -273,6 +273,7 @@ def run(case, limits, *more, ag="AG=0.6,1,1.6"):
     return sweep(options, out, err), out.getvalue(), err.getvalue()
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_a_suite_ends_in_its_page_and_other_limits_run_nothing_again(case, capsys):
     code, out, err = run(case, ["drift>1"])
     assert code == 1  # the damaged record's runs
@@ -316,6 +317,7 @@ def test_a_browser_draws_curves_and_clouds(case):
         browser.close()
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_without_limits_nothing_of_an_earlier_command_stays(case):
     run(case, ["drift>1"])
     out, err = io.StringIO(), io.StringIO()
@@ -349,6 +351,7 @@ def test_commands_that_cannot_be_are_refused_before_any_run(case, given, said, c
     assert not (case / "out" / "runs").exists()
 
 
+@pytest.mark.usefixtures("unsaved")
 def test_peaks_of_the_verdict_and_floors_are_figures_of_the_table(tmp_path):
     (tmp_path / "strip.ssi").write_text("AG = 1. ;" + VERDICT.replace("(5.E5 0.)", "(AG 0.)"))
     options = SweepOptions(

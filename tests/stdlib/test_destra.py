@@ -10,6 +10,11 @@ _TABLE = (
 )
 
 
+@pytest.fixture
+def unsaved():
+    """Here pictures are written."""
+
+
 @pytest.mark.parametrize(
     "call",
     [

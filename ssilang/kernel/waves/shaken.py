@@ -145,7 +145,8 @@ def unlike_sides(
     length l: `rho V_p A = sqrt(s K s t M t) / l`.
     """
     heavy = {id(b.raw_nodes): b for b in mass.blocks}
-    edges = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+    dampers = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+    edges = [(b, face_keys(b.nodes)) for b in dampers]
     solids = bordered_solids(stiffness) if edges else []
     for (block, zone, border), (axis, name) in product(solids, SIDEWAYS):
         x = block.table.coordinates[block.nodes, axis]
@@ -154,13 +155,12 @@ def unlike_sides(
         for (_, local), own in zip(zone.cells.kind.faces, border, strict=True):
             side = own & (np.ptp(x[:, local], axis=1) < SAME * np.ptp(x, axis=1))
             keys = face_keys(block.nodes[:, local])
-            for edge in edges if side.any() and id(block.raw_nodes) in heavy else ():
-                beside = face_keys(edge.nodes)
-                met, own_mass = side & np.isin(keys, beside), heavy[id(block.raw_nodes)]
+            for edge, beside in edges if side.any() and id(block.raw_nodes) in heavy else ():
+                if not (met := side & np.isin(keys, beside)).any():
+                    continue
+                own_mass, sizes = heavy[id(block.raw_nodes)], np.ptp(x[met], axis=1)
                 squares = _strained(block, own_mass, np.flatnonzero(met), x[met], name)
-                wanted = (
-                    np.sqrt(np.maximum(np.prod(squares, axis=0), 0.0)) / np.ptp(x[met], axis=1)
-                ).sum()
+                wanted = (np.sqrt(np.maximum(np.prod(squares, axis=0), 0.0)) / sizes).sum()
                 on = np.array([u == name for u in edge.unknowns]) * 1.0
                 given = np.einsum("i,nij,j->", on, edge.values[np.isin(beside, keys[met])], on)
                 if (times := given / (wanted or np.inf)) and not ALIKE[0] < times < ALIKE[1]:
@@ -169,12 +169,9 @@ def unlike_sides(
 
 
 def _strained(
-    block: "ElementMatrices",
-    mass: "ElementMatrices",
-    some: slice | IntArray,
-    x: FloatArray,
+    block: "ElementMatrices", mass: "ElementMatrices", some: slice | IntArray, x: FloatArray,
     name: str,
-) -> tuple[FloatArray, FloatArray]:
+) -> tuple[FloatArray, FloatArray]:  # fmt: skip
     """`s K s` and `t M t` of cells, s growing with coordinates x by one and t a translation."""
     moved = np.array([u == name for u in block.unknowns]) * 1.0
     strain = (x - x.mean(axis=1, keepdims=True))[:, block.local] * moved

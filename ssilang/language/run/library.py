@@ -9,7 +9,7 @@ from pathlib import Path
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
-from ssilang.language.text.tree import Definition, Item, Name, Quoted
+from ssilang.language.text.tree import Definition, Item, Name, Quoted, Script
 from ssilang.language.values import Procedure
 from ssilang.language.vocabulary.entries import Declaration, declared_names, read_declaration
 from ssilang.resources import resource
@@ -21,6 +21,12 @@ _SUFFIXES = (".ssi", ".procedur", ".dgibi")
 def standard_procedures() -> dict[str, Path]:
     """Name to file of the standard library's procedures; looked for once a process."""
     return {p.stem.upper(): p for p in sorted(resource("stdlib").glob("*.ssi"))}
+
+
+@cache
+def _standard(path: Path, _changed: float) -> Script:
+    """A file of the standard library, read once a process: nobody changes a tree."""
+    return parse(read_source(path))
 
 
 class Library:
@@ -75,11 +81,8 @@ class Library:
 
     def called(self, items: Sequence[Item]) -> Sequence[Item]:
         """The phrase; a procedure that stands in quotes before its operands is read as called."""
-        if (
-            len(items) > 1
-            and isinstance(first := items[0], Quoted)
-            and first.text in self.standard_names
-        ):
+        first = items[0] if len(items) > 1 else None
+        if isinstance(first, Quoted) and first.text in self.standard_names:
             return [Name(first.text, first.text, first.span), *items[1:]]
         return items
 
@@ -101,9 +104,9 @@ class Library:
         if name.startswith("@"):
             stems = dict.fromkeys((name, name.lower()))
             paths = [self._folder / (stem + suffix) for suffix in _SUFFIXES for stem in stems]
-            for path in paths:
-                if os.path.isfile(path):  # False for a name that no file can have
-                    return self._inside(path)
+            # False for a name that no file can have
+            if (found := next(filter(os.path.isfile, paths), None)) is not None:
+                return self._inside(found)
             if name in self.standard_names:  # one of these would stand before the library's
                 self.read += [path for path in paths if path not in self.read]
         return self.standard_files.get(name)
@@ -116,16 +119,16 @@ class Library:
         raise SsiError("forbidden-path", None, path=str(real), folder=str(real.parent))
 
     def _load(self, path: Path) -> None:
-        origin = "stdlib" if path in self.standard_files.values() else str(path)
-        if origin != "stdlib":
+        changed, standard = _last_change(path), path in self.standard_files.values()
+        if not standard:
             self.read.append(path)
-        changed = _last_change(path)
         try:
-            script = parse(read_source(path))
+            script = _standard(path, changed) if standard else parse(read_source(path))
         except SeveralErrors as several:  # as of a statement that went wrong: the first
             raise several.errors[0] from None
         for node in script.body:
             if isinstance(node, Definition):
+                origin = "stdlib" if standard else str(path)
                 self._loaded[node.name] = Procedure(node.name, node, origin)
                 self._files[node.name] = path, changed
 

@@ -1,5 +1,9 @@
 """Section 10: procedures."""
 
+import os
+
+from ssilang.language.run import library
+
 _SUM = (
     "DEBP SUM2 a*FLOTTANT b/FLOTTANT ; SI (EXIS b) ; r = a + b ; SINON ; r = a ; FINSI ; FINP r ;"
 )
@@ -64,3 +68,14 @@ def test_a_name_forgotten_in_a_procedure_is_forgotten_there_alone(run):
     )
     assert [str(script[name]).strip() for name in "AB"] == ["ANNULE", "ANNULE"]
     assert (script["C"], script["Y"]) == (4, 7)
+
+
+def test_sessions_share_the_tree_of_a_file_of_the_library_until_it_changes(tmp_path, monkeypatch):
+    path = tmp_path / "double.ssi"
+    path.write_text("DEBP DOUBLE X1*FLOTTANT ; Y1 = X1 + X1 ; FINP Y1 ;")
+    monkeypatch.setattr(library, "standard_procedures", lambda: {"DOUBLE": path})
+    first, second = (library.Library(tmp_path).find("DOUBLE") for _ in range(2))
+    assert first.definition is second.definition
+    path.write_text("DEBP DOUBLE X1*FLOTTANT ; Y1 = X1 + X1 + 0. ; FINP Y1 ;")
+    os.utime(path, ns=(1, 1))
+    assert library.Library(tmp_path).find("DOUBLE").definition is not first.definition

@@ -11,7 +11,7 @@ from ssilang.kernel.base.errors import MeshError
 Gap = Callable[[FloatArray], FloatArray]
 """Positions (m, 3) -> signed distances (m,) to a surface."""
 
-_STEPS = 400  # over the distance of the ends; lengths of chords are then exact to about 1e-6
+_STEPS = 100  # over the distance of the ends; lengths are then exact to about 1e-7
 _MOST_STEPS = 60_000
 
 
@@ -96,7 +96,8 @@ def _followed(
         arm = end - here
         passed = float((end - ahead) @ (ahead - here)) <= 0.0
         if passed and float(np.linalg.norm(arm)) < 1.5 * size:
-            return _through(gaps, [*points, end])
+            near = len(points) > 1 and float(np.linalg.norm(arm)) < 0.5 * size
+            return _through(gaps, [*points[: len(points) - near], end])
         points.append(ahead)
         if len(points) > 10 and float(np.linalg.norm(ahead - start)) < 0.9 * size:
             return None  # round and back without meeting the end
@@ -104,8 +105,13 @@ def _followed(
 
 
 def _through(gaps: tuple[Gap, Gap], points: list[FloatArray]) -> CrossingCurve:
+    """The curve through points, each piece as long as the arc that the turns at its ends tell."""
     x = np.array(points)
     chords = np.linalg.norm(np.diff(x, axis=0), axis=1)
+    if len(x) > 2:
+        turns = np.linalg.norm(np.diff(np.diff(x, axis=0) / chords[:, None], axis=0), axis=1)
+        bent = np.pad((2.0 * turns / (chords[1:] + chords[:-1])) ** 2, 1, mode="edge")
+        chords = chords * (1.0 + chords**2 * (bent[1:] + bent[:-1]) / 48.0)
     return CrossingCurve(gaps, np.concatenate([[0.0], np.cumsum(chords)]), x)
 
 
@@ -121,9 +127,8 @@ def _to_length(curve: CrossingCurve, length: float) -> CrossingCurve:
         reached += float(np.linalg.norm(chord))
     whole = _through(curve.gaps, points)
     kept = int(np.searchsorted(whole.way, length))
-    last = whole(np.array([length / whole.length]))
-    way = np.append(whole.way[:kept], length)
-    return CrossingCurve(curve.gaps, way, np.vstack([whole.points[:kept], last]))
+    points = [*whole.points[:kept], *whole(np.array([length / whole.length]))]
+    return CrossingCurve(curve.gaps, np.append(whole.way[:kept], length), np.array(points))
 
 
 def _slopes(gaps: tuple[Gap, Gap], x: FloatArray, size: float) -> FloatArray:

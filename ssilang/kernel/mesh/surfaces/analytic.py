@@ -76,13 +76,8 @@ def cylinder_shape(a: FloatArray, b: FloatArray, on: FloatArray) -> Shape:
 
     def hit(x: FloatArray, d: FloatArray) -> FloatArray:
         arm, way = _across(x - a, unit), _across(d, unit)
-        return _quadratic_hit(
-            x,
-            d,
-            (way * way).sum(axis=1),
-            (arm * way).sum(axis=1),
-            (arm * arm).sum(axis=1) - radius**2,
-        )
+        c = (arm * arm).sum(axis=1) - radius**2
+        return _quadratic_hit(x, d, (way * way).sum(axis=1), (arm * way).sum(axis=1), c)
 
     return Shape(lambda x: np.linalg.norm(_across(x - a, unit), axis=1) - radius, hit)
 

@@ -148,15 +148,14 @@ def round_about(a):
     ("last", "turn", "share"),
     [(2.6, 2.6, None), (3.6, 3.6 - 2 * np.pi, 0.6), (2.6, 2.6, 1.3)],
 )
-def test_a_crossing_is_followed_the_short_way_and_beyond(monkeypatch, last, turn, share):
-    monkeypatch.setattr("ssilang.kernel.mesh.lines.crossing_curve._STEPS", 80)
+def test_a_crossing_is_followed_the_short_way_and_beyond(last, turn, share):
     length = None if share is None else share * RADIUS * abs(turn)
     curve = crossing_curve((sphere, flat), round_about(0.0), round_about(last), length)
     part = turn * (share or 1.0)
-    assert curve.length == pytest.approx(RADIUS * abs(part), rel=3e-4)
+    assert curve.length == pytest.approx(RADIUS * abs(part), rel=1e-8)
     s = np.array([0.0, 0.17, 0.5, 0.83, 1.0])
     expected = np.array([round_about(a) for a in part * s])
-    np.testing.assert_allclose(curve(s), expected, atol=1e-3)
+    np.testing.assert_allclose(curve(s), expected, atol=1e-6)
     np.testing.assert_allclose(sphere(curve(s)), 0.0, atol=1e-9)
 
 
