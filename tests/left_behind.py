@@ -20,7 +20,8 @@ MEANT = {"PYTEST_CURRENT_TEST", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_
 def state() -> dict[str, Any]:
     """What code must put back that has changed it."""
     return {
-        "folder": Path.cwd(), "environment": {k: v for k, v in os.environ.items() if k not in MEANT},
+        "folder": Path.cwd(),
+        "environment": {k: v for k, v in os.environ.items() if k not in MEANT},
         "faults of numbers": np.geterr(), "print of arrays": np.get_printoptions(),
         "search for garbage": (gc.isenabled(), gc.get_threshold()), "modules": list(sys.path),
         "signals": [signal.getsignal(s) for s in (signal.SIGINT, signal.SIGTERM)],

@@ -17,7 +17,7 @@ MANY = 100  # calls of one operator in a test, of which no more are looked at
 
 
 def arrays_of(whole: Any) -> Iterator[np.ndarray]:
-    """All arrays that an object leads to, each once; of nodes those that there are, not the room."""
+    """All arrays that an object leads to, each once; of nodes those that there are."""
     seen: dict[int, Any] = {}
     waiting = [whole]
     while waiting:

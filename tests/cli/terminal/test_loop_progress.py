@@ -73,7 +73,9 @@ def test_loops_that_are_left_by_any_way_are_named_no_more(clock, monkeypatch, tm
     run_source(Source("script", script + end), options, io.StringIO(), terminal)
     shown, _, told = terminal.getvalue().rpartition(GONE)
     lines = [line.partition(",")[0] for line in shown.replace(GONE, "").split("\r")[1:]]
-    turns = [f"A {i}/2{inner}" for i in (1, 2) for inner in ("", " > B 1/3", " > B 2/3", " > C 1/1")]
+    turns = [
+        f"A {i}/2{inner}" for i in (1, 2) for inner in ("", " > B 1/3", " > B 2/3", " > C 1/1")
+    ]
     assert lines == (turns[:4] if end.startswith("y") else turns)
     assert ("error" in told) == ("1 / 0" in end)
 
