@@ -22,11 +22,13 @@ room are taken; a mutant that no test tried is told as NONE and not counted. Fau
 server get a process of their own, since its tests speak to a server that imports the copy.
 
 `--ran DATA` asks the suite itself. DATA is what coverage kept of a run of it, with a context a test
-(`pytest --cov --cov-context=test`): of tests, those that ran the lines are tried, the nearest
-first, and a line that none ran is a survivor. Where fewer than `SHARED` ran them, others may use
-what these made and kept (caches, fixtures of a session): all tests of their files and the nearest
-are tried. Compiled functions are not seen that way, nor what only an import runs: these stay with
-the nearest.
+(`pytest --cov --cov-context=test`): of tests, those that ran the lines are tried (first those that
+ran what fewest did, of an `if` what stands in it) and those near that DATA, being older, does not
+know; a line that none ran is a survivor. Where `SHARED` or fewer ran them, others may use what
+these made and kept (caches, fixtures of a session): behind them all tests of their files and the
+nearest are tried. Compiled functions are not seen that way, nor what only an import runs: these
+stay with the nearest. DATA of an earlier state of the project serve with `--of COMMIT`: lines are
+looked up where they stood then, and what is newer stays with the nearest.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
@@ -55,7 +57,7 @@ import tempfile
 import time
 import tomllib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -142,9 +144,9 @@ class Fault:
         return "\n".join([f"{self.path}:{self.line} {self.kind}", *diff])
 
 
-Asked = tuple[Fault | None, list[str], frozenset[str], frozenset[str]]
-"""A fault not yet in the text, files of tests, words whose cases of a test go first, tests that ran
-its lines (empty: those of all files)."""
+Asked = tuple[Fault | None, list[str], frozenset[str], frozenset[str], frozenset[str]]
+"""A fault not yet in the text, files of tests, words whose cases of a test go first, tests that go
+before all others (they ran its lines, of an `if` what stands in it), tests left out."""
 
 
 def expressions(node: ast.AST, twins: Twins) -> Iterator[tuple[str, ast.AST]]:
@@ -439,40 +441,64 @@ def living() -> list[FunctionType]:
 class Ran:
     """Which tests ran a line, from the data of a run with a context a test."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, commit: str = "") -> None:
         from coverage import CoverageData
+
+        self.commit = commit  # whose lines it has
 
         self.data = CoverageData(str(path))
         self.data.read()
         trees = {path.rpartition("/ssilang/")[0] for path in self.data.measured_files()}
         self.tree = min(trees, key=len)  # copies that tests made lie deeper
+        self.known = self._named(self.data.measured_contexts())
 
-    def tests(self, fault: Fault) -> frozenset[str] | None:
-        """Tests that ran lines of a fault; None: they are none of a test's."""
+    @staticmethod
+    def _named(contexts: Iterable[str]) -> frozenset[str]:
+        found = (c[c.index("tests/") :] for c in contexts if "tests/" in c)
+        return frozenset(re.sub(r"\|\w+$", "", c) for c in found)
+
+    def _lines(self, fault: Fault) -> set[int]:
+        """Numbers that the lines of a fault had; none where they are newer."""
+        own = set(range(fault.line, fault.line + fault.old.count("\n") + 1))
+        if not self.commit:
+            return own
+        was = subprocess.run(
+            ["git", "show", f"{self.commit}:{fault.path}"], cwd=ROOT, capture_output=True, text=True
+        ).stdout.split("\n")
+        now = (ROOT / fault.path).read_text(encoding="utf-8").split("\n")
+        same = difflib.SequenceMatcher(None, was, now, autojunk=False).get_matching_blocks()
+        moved = {b + i + 1: a + i + 1 for a, b, size in same for i in range(size)}
+        return {moved[line] for line in own & moved.keys()}
+
+    def tests(self, fault: Fault) -> tuple[frozenset[str], frozenset[str]] | None:
+        """Tests that ran lines of a fault, that of its lines that fewest ran; None: no test's."""
         if compiled(fault):
             return None
-        last = fault.line + fault.old.count("\n")
+        lines = self._lines(fault)
         by_line = self.data.contexts_by_lineno(f"{self.tree}/{fault.path}")
-        found = [c for line, some in by_line.items() if fault.line <= line <= last for c in some]
-        named = [re.sub(r"\|\w+$", "", c[c.index("tests/") :]) for c in found if "tests/" in c]
-        ran = frozenset(named)
-        return None if found and not ran else ran
+        found = [c for line in lines for c in by_line.get(line, ())]
+        ran = self._named(found)
+        every = (self._named(by_line.get(line, ())) for line in lines)
+        seldom = min((one for one in every if one), key=len, default=ran)
+        return None if not lines or (found and not ran) else (ran, seldom)
 
 
 def in_turn(
-    items: list[pytest.Item], files: list[str], words: frozenset[str], ran: frozenset[str]
-) -> list[pytest.Item]:
+    items: list[pytest.Item], files: list[str], words: frozenset[str], ran: frozenset[str],
+    idle: frozenset[str],
+) -> list[pytest.Item]:  # fmt: skip
     """Tests of files, the nearest first; more cases of one test come behind other files' tests."""
     rank, cases = {file.split("::")[0]: i for i, file in enumerate(files)}, Counter[str]()
-    order: list[tuple[bool, int, int, pytest.Item]] = []
+    order: list[tuple[bool, bool, int, int, pytest.Item]] = []
     for item in items:
         file, test = item.nodeid.split("::")[0], item.nodeid.split("[")[0]
-        if file in rank and (not ran or item.nodeid in ran):
+        if file in rank and item.nodeid not in idle:
             own = words & set(re.findall(r"[a-z]+", item.nodeid.partition("[")[2].lower()))
             place = rank[file] + (0 if own else CASE * cases[test])
-            order.append((bool(item.get_closest_marker("long")), place, rank[file], item))
+            last, long = item.nodeid not in ran, bool(item.get_closest_marker("long"))
+            order.append((last, long, place, rank[file], item))
             cases[test] += 1
-    return [item for *_, item in sorted(order, key=lambda one: one[:3])]
+    return [item for *_, item in sorted(order, key=lambda one: one[:4])]
 
 
 class _Judge:
@@ -500,8 +526,8 @@ class _Judge:
         functions = living()
         gc.freeze()
         items = {item.nodeid: item for item in session.items}
-        for fault, files, words, ran in self.asked:
-            near = in_turn(session.items, files, words, ran)
+        for fault, *asked in self.asked:
+            near = in_turn(session.items, *asked)
             said = self.split_off(near, fault, functions)
             test = re.match(r"\w+ (tests/.*) \(", said)
             if fault and test and test[1] in items and test[1] not in self.good:
@@ -638,41 +664,42 @@ def try_all(
     warm_up(kept)
     warm: list[Asked] = []
     cold: list[Asked] = []
+    none: frozenset[str] = frozenset()
     for fault in asked:
         tests = near(fault, texts, callers)
-        ran = data.tests(fault) if data else None
+        looked = data.tests(fault) if data else None
+        ran, seldom = looked or (None, none)
         own = {test.split("::")[0] for test in ran or ()} & set(files)
         if own:
-            few = len(ran or ()) < SHARED
-            others = [f for f in tests if f not in own and few]
+            others = [f for f in tests if f not in own]
             tests = [*(f for f in tests if f in own), *sorted(own - set(tests)), *others]
-            ran = frozenset() if few else ran
+        idle = none
+        if data and ran is not None and not 0 < len(ran) <= SHARED:
+            idle = data.known - ran
         reason = same.get((fault.path, fault.old.strip(), fault.new.strip()))
         if reason or not fault.source() or not tests:
             tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else NONE)
-        elif ran is not None and not own:
+        elif data and not data.commit and ran is not None and not own:
             tell(fault, "passed: no test runs it")
         else:
             words = frozenset(re.findall("[a-z]+", fault.path[len("ssilang/") : -len(".py")]))
             words |= {name.lower() for name in callers.names(fault) if name.isupper()}
             apart = compiled(fault) or fault.path.startswith(SERVED)
-            (cold if apart else warm).append((fault, tests, words, ran or frozenset()))
-    for (fault, tests, words, ran), said in zip(
-        warm, verdicts(copy_of, warm, seconds), strict=True
-    ):
+            (cold if apart else warm).append((fault, tests, words, seldom, idle))
+    for one, said in zip(warm, verdicts(copy_of, warm, seconds), strict=True):
         if (once and said != NOT_SO) or WORDS.get(said.split()[0]) == "noticed":
-            tell(fault, said)
+            tell(one[0], said)
         else:
-            cold.append((fault, tests, words, ran))
-    for fault, tests, words, ran in cold:
+            cold.append(one)
+    for fault, *rest in cold:
         limit = COMPILES * seconds if compiled(fault) else seconds
         target = copy_of / fault.path
         was = target.read_bytes()
         target.write_text(fault.source() or "", encoding="utf-8")
-        (said,) = verdicts(copy_of, [(None, tests, words, ran)], limit)
+        (said,) = verdicts(copy_of, [(None, *rest)], limit)
         target.write_bytes(was)
         if test := re.match(r"\w+ (tests/.*) \(", said):
-            (alone,) = verdicts(copy_of, [(None, [test[1]], words, frozenset())], limit)
+            (alone,) = verdicts(copy_of, [(None, [test[1]], none, none, none)], limit)
             said = said if alone.startswith("passed") else f"passes not without it: {alone}"
         tell(fault, said)
         for made in set(kept.glob("ssilang/compiled/*")):
@@ -691,6 +718,7 @@ def main() -> None:
     parser.add_argument("--once", action="store_true", help="survivors get no process of their own")
     parser.add_argument("--again", type=Path, metavar="REPORT", help="survivors of a report")
     parser.add_argument("--ran", type=Path, metavar="DATA", help="coverage's, a context a test")
+    parser.add_argument("--of", default="", metavar="COMMIT", help="whose lines DATA has")
     parser.add_argument("--list", action="store_true", help="print the faults and try none")
     asked = parser.parse_args()
     if asked.again:
@@ -707,7 +735,7 @@ def main() -> None:
     for library in LIBRARIES:
         import_module(library)
     with tempfile.TemporaryDirectory() as folder:
-        data = Ran(asked.ran) if asked.ran else None
+        data = Ran(asked.ran, asked.of) if asked.ran else None
         count = try_all(chosen, asked.seconds, Path(folder), kept, asked.once, data)
     ended = ", ".join(f"{n} {word}" for word, n in sorted(count.items()))
     noticed = count["assertion"] + count["crash"] + count["time"]

@@ -15,6 +15,7 @@ from types import SimpleNamespace
 import pytest
 from _pytest.pathlib import import_path
 from hypothesis import HealthCheck, settings
+from left_behind import nothing_is_left_behind  # noqa: F401
 from not_tested import pytest_terminal_summary  # noqa: F401
 
 from ssilang import late_imports

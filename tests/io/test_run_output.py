@@ -165,11 +165,12 @@ def test_a_folder_that_is_exchanged_is_noticed(output: RunOutput) -> None:
     for act in (lambda: output.target("a.csv"), output.close):
         with refusal(OutputError, "io.output-folder-gone"):
             act()
-    RunOutput(output.directory, output.inputs).hold()  # another run makes it again
+    (other := RunOutput(output.directory, output.inputs)).hold()  # another run makes it again
     with pytest.raises(OutputError):
         output.check()
     output.release()
     assert (output.directory / ".running").exists()  # the other one's
+    other.release()
 
 
 def killed(folder: Path, host: str) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from together import together
+from unchanged import operands_stay  # noqa: F401
 
 from ssilang.cli.run import run_text
 
@@ -34,7 +35,7 @@ def same(printed: str, expected: str) -> bool:
         return printed == expected
 
 
-@pytest.mark.usefixtures("unsaved")
+@pytest.mark.usefixtures("unsaved", "operands_stay")
 @together("name, script, expected", forms(), by=lambda f: f[0].partition("-")[0])
 def test_a_form_does_what_its_notice_says(
     name: str, script: str, expected: str, tmp_path: Path

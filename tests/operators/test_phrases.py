@@ -16,6 +16,7 @@ import pytest
 from scipy import signal, special
 from script_runs import session_after
 from together import together
+from unchanged import operands_stay  # noqa: F401
 
 from ssilang.cli.run import execute
 from ssilang.kernel.curves.curve import Curve
@@ -109,6 +110,7 @@ def assert_field(field, wanted):
         np.testing.assert_allclose(values, np.broadcast_to(exact, values.shape), 1e-9, 1e-12)
 
 
+@pytest.mark.usefixtures("operands_stay")
 @together("group, phrase", ROWS, by=lambda row: row[0])
 def test_a_phrase_gives_its_value(sessions, group, phrase):
     session = sessions(group)

@@ -230,6 +230,8 @@ def test_several_records_of_cosmos(tmp_path: Path) -> None:
     first, second = values(result, "E", "F")
     assert (first.parts[0].abscissas[1], second.parts[0].abscissas[1]) == (0.005, 0.01)
     assert [w.code for w in result.session.warnings] == ["operators.files.several-channels"]
+    result = run("E = LIRE 'COSMOS' 'a.V2' 'CANAL' 3 1. ;", tmp_path, a_V2=both)
+    assert [e.code for e in result.errors] == ["operators.files.no-such-channel"]
 
 
 @pytest.mark.parametrize(

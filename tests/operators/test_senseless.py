@@ -22,8 +22,11 @@ TWICE = {
     "c.inp": ABAQUS + "1, 2, 3, 1\n",
     "m.bdf": NASTRAN.replace("CROD", "GRID,2,,7.,0.,0.\nCROD"),
     "m.avs": AVS.replace("3 1. 1.", "2 1. 1."),
-    "m.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n2 0 1 0\n"
-    "$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 2\n$EndElements\n",
+    **{
+        f"m{again}.msh": "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n"
+        f"{again} 0 1 0\n$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 2\n$EndElements\n"
+        for again in (1, 2)
+    },
 }
 
 

@@ -35,6 +35,19 @@ def test_laws_in_cells_stand_at_the_support(found):
     assert float(np.ravel(block["NU"])[0]) == 0.3
 
 
+@pytest.mark.parametrize("order", ["'NU' 0.3 'YOUN' F 'RHO' 2.", "'YOUN' F 'RHO' 2. 'NU' 0.3"])
+def test_numbers_stand_where_a_field_beside_them_does(found, order):
+    field, apart, plain = found(
+        PLATE + "F = CHAN 'STRESSES' MO (CHAN 'CHAM' (5. + (0. * X)) MO) ; "
+        f"A = MATE MO {order} ; B = (RIGI MO A) - (RIGI MO (MATE MO 'YOUN' 5. 'NU' 0.3)) ; "
+        "C = MAXI 'ABS' (B * (NOMC 'UX' (X * Y))) ; D = MAXI 'ABS' ((RIGI MO A) * (NOMC 'UX' X)) ;",
+        "A", "C", "D",
+    )  # fmt: skip
+    (block,) = field.blocks
+    assert (block.support, set(block.components)) == ("STRESSES", {"YOUN", "NU", "RHO"})
+    assert apart < 1e-12 * plain
+
+
 def test_what_variable_components_depend_on_is_told():
     text = (
         "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "

@@ -1,5 +1,6 @@
 """The vocabulary and the kernel know the same words; every entry is sound; help shows them."""
 
+import itertools
 import math
 import re
 from pathlib import Path
@@ -23,7 +24,7 @@ from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
-from ssilang.language.registry import find_operator
+from ssilang.language.registry import find_operator, keywords_of
 from ssilang.language.say.reference import operator_page, page_text
 from ssilang.language.vocabulary.examples import EXAMPLES, example
 from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
@@ -158,6 +159,13 @@ def test_words_are_found_as_the_language_compares_them(kind, said, name):
     assert vocabulary.full_name(kind, said) == name
     found = vocabulary.find(kind, said)
     assert (found.name if found else "") == name
+
+
+@pytest.mark.parametrize("name", ["BLOQ", "EXTR", "MODE"])
+def test_keywords_are_told_in_order_however_a_process_keeps_words(name):
+    told = keywords_of(find_operator(name))
+    assert len(told) > 2
+    assert all(one < other for one, other in itertools.pairwise(told))
 
 
 def test_near_names_of_a_list():

@@ -372,18 +372,16 @@ class Call:
     def main_operand(self, *types: str) -> int | None:
         """Index of the operand whose type decides the form: the first of the types.
 
-        One or two words may stand before it (`MAXI 'ABS' L`); a word may be it, with integers
-        behind it (`EXTR 'abc' 2`).
+        Words may stand before it (`MAXI 'ABS' L`); a word may be it, with integers behind it
+        (`EXTR 'abc' 2`).
         """
-        words = 0
+        words = False
         for i, operand in enumerate(self.operands):
             kind = type_of(operand.value)
             beside = 2 if words and "MOT" in types else 1
             if kind in types and kind not in _BESIDE_WORDS[:beside]:
                 return i
-            words += isinstance(operand.value, Mot)
-            if words > 2:
-                break
+            words = words or isinstance(operand.value, Mot)
         return next(iter(self.readable(*types)), None)
 
     # ---- errors ----------------------------------------------------------------------------

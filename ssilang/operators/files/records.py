@@ -47,7 +47,7 @@ def _esm(call: Call, file: str, factor: float | None, in_si: bool) -> Curve:
 )
 def _cosmos(call: Call, file: str, factor: float | None, in_si: bool, number: int) -> Curve:
     found = read_cosmos(file_to_read(call, str(file), ".V2"))
-    if number < 0 or number > len(found):
+    if number > len(found):
         raise call.error("operators.files.no-such-channel", number, count=len(found))
     if not number and len(found) > 1:
         call.warn("operators.files.several-channels", file=file, count=len(found))

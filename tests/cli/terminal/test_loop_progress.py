@@ -4,8 +4,10 @@ import io
 
 import pytest
 
+from ssilang.cli.run import RunOptions, run_source
 from ssilang.cli.terminal import loop_progress
 from ssilang.cli.terminal.loop_progress import LoopProgress, _Wiping
+from ssilang.language.text.source import Source
 
 GONE = "\r\x1b[K"
 
@@ -54,6 +56,28 @@ def test_inner_loops_stand_behind_and_the_line_goes_with_the_outermost(clock):
     before = stream.getvalue()
     progress.wipe()
     assert stream.getvalue() == before
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.mark.parametrize("end", ["FIN A ;", "FIN A ; x = 1 / 0 ;", "y = 1 / 0 ; FIN A ;"])
+def test_loops_that_are_left_by_any_way_are_named_no_more(clock, monkeypatch, tmp_path, end):
+    monkeypatch.setattr(loop_progress, "PATIENCE", -1.0)
+    monkeypatch.setattr(loop_progress, "REFRESH", -1.0)
+    monkeypatch.setenv("TERM", "xterm")
+    script = "REPE A 2 ; REPE B 3 ; SI (&B > 1) ; QUIT B ; FINS ; FIN B ; REPE C 1 ; FIN C ; "
+    options, terminal = RunOptions(output_directory=tmp_path), Terminal()
+    run_source(Source("script", script + end), options, io.StringIO(), terminal)
+    shown, _, told = terminal.getvalue().rpartition(GONE)
+    lines = [line.partition(",")[0] for line in shown.replace(GONE, "").split("\r")[1:]]
+    turns = [
+        f"A {i}/2{inner}" for i in (1, 2) for inner in ("", " > B 1/3", " > B 2/3", " > C 1/1")
+    ]
+    assert lines == (turns[:4] if end.startswith("y") else turns)
+    assert ("error" in told) == ("1 / 0" in end)
 
 
 def test_a_text_takes_the_line_away_first(clock):

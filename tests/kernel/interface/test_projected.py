@@ -6,7 +6,7 @@ from references.iterations import at_rest, compiled_newton
 
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
-from ssilang.kernel.interface.newton import is_stiff, set_shares, workspace
+from ssilang.kernel.interface.newton import find_start, is_stiff, set_shares, workspace
 from ssilang.kernel.interface.response import Joints, accept
 
 MU = 0.5
@@ -73,6 +73,23 @@ def test_stiff_joints_take_few_turns():
 @pytest.mark.parametrize("k", [1e9, 1e13])
 def test_any_stiffness_ends_in_the_law(k):
     assert (walk(k, 10) > 0).all()
+
+
+def test_where_no_start_is_found_the_one_given_stays():
+    """Much friction: three of twelve pushes go round between the same points for ever."""
+    joints, found = points(3, 1e11, 3.0), []
+    for seed in range(12):
+        S, work = compliance(3, seed), workspace((3, 3), 9)
+        condensed, y = Condensed(S, np.zeros((0, 0)), 1.0), work.trial.y
+        push = np.random.default_rng(seed).standard_normal((3, 3)) * [1.0, 1.0, 0.5]
+        work.trial.y0[:] = y[:] = y0 = S @ (1e5 * (push - [0.0, 0.0, 0.4]).ravel())
+        set_shares(joints, condensed, work.shares)
+        now = at_rest(joints, 9, np.zeros((3, N_STATE)))
+        found.append(find_start(joints, condensed, now, work.trial, work.factors, work.shares))
+        left = y + S @ coulomb(y.reshape(3, 3), np.zeros((3, 2)), 1e11, 3.0).ravel() - y0
+        ends = np.abs(left).max() <= 1e-6 * np.abs(y0).max()
+        assert ends if found[-1] else np.array_equal(y, y0)
+    assert found.count(0) == 3
 
 
 def test_only_stiff_points_that_rub_without_cohesion_get_a_share():

@@ -182,6 +182,19 @@ def test_concrete_cracks_softens_and_closes_where_the_crack_began() -> None:
     assert found[7:] == pytest.approx([0.0, 0.0], abs=1e-6)
 
 
+@pytest.mark.parametrize(("widest", "at"), [(1.5, 1.5), (2.5, 2.5), (2.5, 1.25), (3.5, 3.5)])
+def test_the_slope_of_a_crack_is_that_of_what_follows_as_it_opens(widest: float, at: float) -> None:
+    """Behind the widest opening it softens, before it goes back to where it began."""
+    law, p, crack = PLASTIC_LAWS["BETON_UNI"], points(CONCRETE), 3e6 / 30e9
+    state = [np.zeros((1, 6)), np.zeros((1, len(law.variables)))]
+    for step in (widest * crack, (at - widest) * crack):
+        answer = law.respond(p, state[0], np.array([[step, 0, 0, 0, 0, 0]]), state[1])
+        state = [answer.stress, answer.variables]
+    on = law.respond(p, state[0], np.array([[1e-3 * crack, 0, 0, 0, 0, 0]]), state[1])
+    slope = (on.stress[0, 0] - answer.stress[0, 0]) / (1e-3 * crack)
+    assert answer.tangent[0, 0, 0] == pytest.approx(slope, rel=1e-6, abs=1.0)
+
+
 @pytest.mark.parametrize(
     ("change", "code"),
     [

@@ -1,0 +1,49 @@
+"""What of the process a test may not leave changed, nor a file open in the temporary folder."""
+
+import gc
+import os
+import signal
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+MEANT = {"PYTEST_CURRENT_TEST", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"}
+"""Of the environment: a sweep lets all processes that come later have one thread."""
+
+
+def state() -> dict[str, Any]:
+    """What code must put back that has changed it."""
+    return {
+        "folder": Path.cwd(),
+        "environment": {k: v for k, v in os.environ.items() if k not in MEANT},
+        "faults of numbers": np.geterr(), "print of arrays": np.get_printoptions(),
+        "search for garbage": (gc.isenabled(), gc.get_threshold()), "modules": list(sys.path),
+        "signals": [signal.getsignal(s) for s in (signal.SIGINT, signal.SIGTERM)],
+        "errors": sys.excepthook,
+    }  # fmt: skip
+
+
+def open_files() -> set[str]:
+    """Files of the temporary folder that the process holds open, where the system tells."""
+    found, shown = set(), Path("/proc/self/fd")
+    for place in shown.iterdir() if shown.is_dir() else ():
+        with suppress(OSError):
+            found.add(os.readlink(place))
+    return {name for name in found if name.startswith(tempfile.gettempdir())}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def nothing_is_left_behind() -> Iterator[None]:
+    before, held = state(), open_files()
+    yield
+    now = state()
+    assert {k: v for k, v in now.items() if v != before[k]} == {}
+    if open_files() - held:
+        gc.collect()  # what circles of objects hold is closed with them
+    assert open_files() - held == set()
