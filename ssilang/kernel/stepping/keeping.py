@@ -199,7 +199,7 @@ def recall(owner: Any, kept: Any) -> None:
 
 
 def _fitting(value: Any, like: Any) -> NDArray[Any]:
-    """An array of a file that stands for another one: of its shape and kind of numbers.
+    """An array of a file that stands for another one: of its shape and kind of numbers, all there.
 
     One that begins with no rows (cells that have yielded, past steps) has any number of them.
 
@@ -213,6 +213,8 @@ def _fitting(value: Any, like: Any) -> NDArray[Any]:
         sizes = (*np.shape(value)[:1], *sizes[1:])
     if not isinstance(value, np.ndarray) or value.dtype.kind not in "biuf" or value.shape != sizes:
         raise ValueError(f"{np.shape(value)}, {sizes}")
+    if np.isnan(value).any():
+        raise ValueError("NaN")
     return value
 
 
