@@ -30,7 +30,6 @@ from ssilang.language.say.errors import (
     SsiError,
     interruption,
     unprinted,
-    visible,
 )
 from ssilang.language.search import SHORT_LIKE, nearest
 from ssilang.language.text import tree
@@ -490,7 +489,7 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool, agai
         **_energy(session, calculations),
     }
     with suppress(OSError):
-        err.write(visible(sentence("cli.files-written", told, session.language)) + "\n")
+        err.write(sentence("cli.files-written", told, session.language) + "\n")
 
 
 def _report(result: RunResult, err: TextIO, quiet: bool) -> None:
@@ -521,7 +520,7 @@ def write_report(folder: Path, language: str) -> str:
 
     path = make_report(folder, language, colours_of_text)
     told = {"path": path, "size": path.stat().st_size / 1e6}
-    return visible(sentence("report.written", told, language))
+    return sentence("report.written", told, language)
 
 
 def _tell_imbalance(session: Session) -> None:

@@ -21,6 +21,7 @@ from ssilang.io.plots.animation import save_animation
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.stage import hidden_plotter, light_up
 from ssilang.io.plots.view import DEFAULT_DIRECTION
+from ssilang.io.vtk.silence import silent
 from ssilang.io.vtk.vtkhdf import COMPONENT
 from ssilang.kernel.fields.deformed import round_down
 
@@ -69,6 +70,7 @@ class Series:
         self._one: Any = None
         self._open()
 
+    @silent()
     def _open(self) -> None:
         ending = self.path.suffix.lstrip(".").lower()
         try:
@@ -97,6 +99,7 @@ class Series:
         if self.at(0).n_points == 0:
             raise InputError("io.not-viewed-no-points", path=self.path)
 
+    @silent()
     def at(self, row: int) -> Any:
         """The data set of an instant, parts together, from 0."""
         import pyvista

@@ -15,9 +15,11 @@ table of a file is a `Message`; its data fill the templates:
 `{problem}` `{problem!h}`        the sentence, and the hint, of another error or `Sentence`
 ===============================  ==================================================================
 
-One is singular in English; in French nought is, too.
+One is singular in English; in French nought is, too. Sentences and hints steer no terminal,
+whatever a script, a file's name or what stands in it says.
 """
 
+import re
 from collections.abc import (
     Callable,
     Collection,
@@ -46,6 +48,14 @@ name_of_type: list[Callable[[object], str]] = []
 """Names what has no text of its own, an object of the language: by its type word."""
 _LONGEST = 40  # letters of a value that has not the form it should be shown in
 COLON = {"en": ": ", "fr": " : "}
+# all but the tab and the line end, which lay out text; those of eight bits steer as ESC does, and
+# signs of direction show a line in another order than it is read
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069]")
+
+
+def visible(text: str) -> str:
+    """The text with control characters written as in a program: `\\x1b`."""
+    return _CONTROL.sub(lambda m: ascii(m.group())[1:-1], text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,7 +229,7 @@ def sentence(code: str, data: Mapping[str, Any], language: str = "en") -> str:
     """What is wrong, in 'en' or 'fr'; `speaker` among the data is named first."""
     message = find(code)
     text = filled(spoken(message.en, message.fr, language), data, language)
-    return f"{data['speaker']}{COLON[language]}{text}" if "speaker" in data else text
+    return visible(f"{data['speaker']}{COLON[language]}{text}" if "speaker" in data else text)
 
 
 def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool = False) -> str:
@@ -229,7 +239,7 @@ def hint(code: str, data: Mapping[str, Any], language: str = "en", script: bool 
     hints = (
         (message.script_en, message.script_fr) if of_script else (message.hint_en, message.hint_fr)
     )
-    return filled(spoken(*hints, language), data, language, script)
+    return visible(filled(spoken(*hints, language), data, language, script))
 
 
 def filled(template: str, data: Mapping[str, Any], language: str, script: bool = False) -> str:
@@ -299,7 +309,7 @@ def _shown(value: object, spec: str, language: str) -> str:
     joint, _, form = spec.partition(" ")
     if joint not in _LAST and joint not in _BETWEEN:
         joint, form = "", spec
-    words = [_shown(v, form, language) for v in value]
+    words = [_shown(v, form, language).replace("\n", "\\n") for v in value]
     if joint in _LAST and len(words) > 1:
         return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
     return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)
@@ -313,6 +323,7 @@ def _formatted(value: object, spec: str) -> str:
     try:
         if isinstance(value, float) and spec.endswith("g"):
             value = float(format(value, _STEADY))
-        return format(value, spec)
+        told = format(value, spec)
+        return told.replace("\n", "\\n") if isinstance(value, PurePath) else told
     except (OverflowError, TypeError, ValueError):  # an integer past all reals, or of another type
         return str(value)[:_LONGEST]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from importlib import resources
 
-from ssilang.language.say.errors import visible
+from ssilang.messages.message import visible
 
 
 def text(value: object) -> str:

@@ -13,7 +13,7 @@ import re
 import warnings
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.vtk.silence import silent
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.system import CAN_FORK, limit_memory
 
@@ -55,22 +56,6 @@ _ARRAYS = (
     "joint_lines",
 )  # fmt: skip
 """What a scene's shape has: `points`, and numbers of them."""
-
-
-@contextmanager
-def _silent() -> Iterator[None]:
-    """VTK prints nothing of damaged files: what is wrong is told by the report."""
-    try:
-        from vtkmodules.vtkCommonCore import vtkObject
-    except ImportError:  # told by who needs it
-        yield
-        return
-    before = vtkObject.GetGlobalWarningDisplay()
-    vtkObject.SetGlobalWarningDisplay(0)
-    try:
-        yield
-    finally:
-        vtkObject.SetGlobalWarningDisplay(before)
 
 
 @dataclass(frozen=True)
@@ -135,7 +120,7 @@ def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
         If the series cannot be read, or holds nothing to see.
     """
     try:
-        with _silent():
+        with silent():
             return _fitting(path, most_bytes)
     except _DAMAGED:
         raise SceneError("report.series-damaged", name=path.name) from None

@@ -108,7 +108,7 @@ def warnings_of(folder: Path, rows: Sequence[Mapping[str, Any]]) -> list[Warned]
     count, found = Counter(code for code, _ in codes), []
     for code, row in dict(reversed(codes)).items():
         given = summary_of(folder, row["folder"]).get("warnings", ())
-        text = next((str(w["text"]) for w in given if w["code"] == code), code)
+        text = next((str(w["text"]).replace("\n", "\\n") for w in given if w["code"] == code), code)
         found.append(Warned(text, str(row["run"]), str(row["folder"]), count[code]))
     return found[::-1]
 

@@ -251,6 +251,7 @@ ARRAYS = {
     "shorter": lambda x: x.ravel()[:1],
     "of another rank": lambda x: x[None],
     "words": lambda x: x.astype("U9"),
+    "no numbers": lambda x: x * np.nan if x.dtype.kind == "f" else x,
 }
 
 

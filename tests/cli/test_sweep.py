@@ -146,6 +146,23 @@ def test_motions_whose_names_are_no_utf_8_are_runs_that_are_kept(tmp_path):
     assert "2 of 2 runs are done already" in run(options)[1]
 
 
+@pytest.mark.skipif(os.name != "posix", reason="names of one system")
+@pytest.mark.parametrize("control", ["\x1b[2J", "\x9b2J", "\u202e", "\nerror: x"])
+def test_names_of_motions_steer_no_terminal(tmp_path, control):
+    motions = tmp_path / "motions"
+    motions.mkdir()
+    for name in ("a", "b"):
+        (motions / f"{name}{control}.csv").write_text("0. 0.\n1. 1.5\n")
+    (motions / f"note{control}.txt").write_text("of somebody\n")
+    deck = tmp_path / f"case{control}.ssi"
+    deck.write_text("A = LIRE 'SIGNAL' MOTION 1. ; SORT 'BILA' 'peak' (MAXI (EXTR A 'ORDO')) ;")
+    code, told, wrong = run(SweepOptions(deck, motions=motions, out=tmp_path / "out", jobs=1))
+    assert code == 0
+    assert "left out, no motion: note" in wrong
+    assert "hold the same" in wrong
+    assert control not in told + wrong
+
+
 @pytest.mark.skipif(os.name != "posix", reason="links of one system")
 def test_motions_that_lead_out_of_their_folder_are_refused(tmp_path):
     motions, private = tmp_path / "motions", tmp_path / "private"

@@ -168,6 +168,17 @@ def test_what_cannot_be_shown_is_said(
     assert not list(results.glob("x.*"))
 
 
+@pytest.mark.parametrize("words", ["DATASET F\x1b[2JOO", "DATASET UNSTRUCTURED_GRID\nPO\x1b[2JI 3"])
+def test_words_of_a_damaged_file_reach_no_terminal(
+    words: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "bad.vtk"
+    path.write_text(f"# vtk DataFile Version 3.0\nof somebody\nASCII\n{words}\n")
+    with pytest.raises(InputError):
+        draw(path, tmp_path / "x.png", Wish())
+    assert capfd.readouterr() == ("", "")
+
+
 @pytest.mark.skipif(shutil.which("Xvfb") is None, reason="no X server without a screen (xvfb)")
 def test_a_window_opens_with_a_slider_over_instants(results: Path) -> None:
     """In a process of its own, on a screen in memory; the window is closed as soon as it stands."""

@@ -14,7 +14,7 @@ from ssilang.language.text.source import Source, encoding_of
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.late_imports import without_collections
-from ssilang.messages.message import teller
+from ssilang.messages.message import teller, visible
 
 OK, FAILED, USAGE = 0, 1, 2
 
@@ -157,7 +157,8 @@ def format_files(
             out.write(text)
         elif changes and diff:
             before, after = source.text.splitlines(True), text.splitlines(True)
-            out.writelines(difflib.unified_diff(before, after, source.name, source.name))
+            lines = difflib.unified_diff(before, after, source.name, source.name)
+            out.writelines(map(visible, lines) if out.isatty() else lines)
         elif changes and not check:
             _write(source, text)
             out.write(told("cli.formatted", file=name) + "\n")

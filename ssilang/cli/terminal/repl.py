@@ -25,6 +25,7 @@ from ssilang.language.text.source import Source
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot, type_of
+from ssilang.messages.message import visible
 from ssilang.operators.texts.words import written
 
 if TYPE_CHECKING:
@@ -235,7 +236,7 @@ class Repl:
         run_shown(self.session, nodes, self._show, lambda text: show(text, self.out))
 
     def _show(self, value: object) -> None:
-        self.out.write(listed(self.session, value) + "\n")
+        self.out.write(visible(listed(self.session, value)) + "\n")
 
     def _report(self, error: SsiError) -> None:
         names = self.session.frame.names() | self.session.library.standard_names
@@ -254,7 +255,7 @@ class Repl:
         for name, value in sorted(self.session.root.variables.items()):
             short = written(value) if isinstance(value, bool) else value
             shown = f" {short}" if isinstance(value, bool | int | float | Mot) else ""
-            self.out.write(f"{name:<24} {type_of(value)}{shown}\n")
+            self.out.write(visible(f"{name:<24} {type_of(value)}{shown}") + "\n")
 
     def _save(self, path: str) -> None:
         if not path:

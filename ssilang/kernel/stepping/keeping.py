@@ -13,7 +13,7 @@ import time as clock
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import fields, is_dataclass, replace
-from typing import Any, Protocol
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -199,7 +199,7 @@ def recall(owner: Any, kept: Any) -> None:
 
 
 def _fitting(value: Any, like: Any) -> NDArray[Any]:
-    """An array of a file that stands for another one: of its shape and kind of numbers.
+    """An array of a file that stands for another one: of its shape and kind of numbers, all there.
 
     One that begins with no rows (cells that have yielded, past steps) has any number of them.
 
@@ -211,9 +211,10 @@ def _fitting(value: Any, like: Any) -> NDArray[Any]:
     sizes = np.shape(like if like is not None else value)
     if sizes[:1] == (0,):
         sizes = (*np.shape(value)[:1], *sizes[1:])
-    if not isinstance(value, np.ndarray) or value.dtype.kind not in "biuf" or value.shape != sizes:
+    numbers = isinstance(value, np.ndarray) and value.dtype.kind in "biuf"
+    if not numbers or value.shape != sizes or np.isnan(value).any():
         raise ValueError(f"{np.shape(value)}, {sizes}")
-    return value
+    return cast(NDArray[Any], value)
 
 
 @contextmanager

@@ -14,11 +14,11 @@ from typing import Any, Protocol, TextIO
 
 from ssilang.language.run.library import Library
 from ssilang.language.run.scopes import PREDEFINED, Frame
-from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted, visible
+from ssilang.language.say.errors import ReaderLeft, SsiError, unprinted
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.language.vocabulary.unit_systems import UnitSystem
-from ssilang.messages.message import sentence
+from ssilang.messages.message import sentence, visible
 
 
 @dataclass

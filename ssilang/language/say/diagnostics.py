@@ -6,7 +6,7 @@ from typing import Any, cast
 from ssilang.language.cast3m import IN_SCOPE, find_cast3m_word
 from ssilang.language.registry import ANY, OPERATORS, Page, find_operator, keywords_of
 from ssilang.language.say import hints
-from ssilang.language.say.errors import SsiError, visible
+from ssilang.language.say.errors import SsiError
 from ssilang.language.search import LIKE, SHORT_LIKE, VERY_LIKE, nearest
 from ssilang.language.text.source import Span
 from ssilang.language.values import type_of
@@ -54,7 +54,7 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
     if place is not None:
         lines += _place(place, "-->")
     lines += [f"  = {part}" for part in hint.split("\n") if part]
-    return visible("\n".join(lines + _calls(calls, language)))
+    return message.visible("\n".join(lines + _calls(calls, language)))
 
 
 def _seen(error: SsiError) -> tuple[Span | None, list[tuple[str, Span]]]:

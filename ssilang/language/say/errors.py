@@ -1,9 +1,4 @@
-"""Errors of scripts: a code and data; the catalogue turns them into sentences.
-
-Control characters as text that is seen: a script or a file's name steers no terminal.
-"""
-
-import re
+"""Errors of scripts: a code and data; the catalogue turns them into sentences."""
 
 from ssilang.language.text.source import Span
 from ssilang.messages.message import Said, Severity, find
@@ -73,12 +68,3 @@ class SeveralErrors(Exception):
     def __init__(self, errors: list[SsiError]) -> None:
         super().__init__(f"{len(errors)} errors")
         self.errors = errors
-
-
-# all but the tab and the line end, which lay out text; those of eight bits steer as ESC does
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
-
-
-def visible(text: str) -> str:
-    """The text with control characters written as in a program: `\\x1b`."""
-    return _CONTROL.sub(lambda m: f"\\x{ord(m.group()):02x}", text)
