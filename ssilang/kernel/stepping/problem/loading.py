@@ -63,9 +63,16 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
 TimeCurve = tuple[FloatArray, FloatArray]
 
 
+def is_mechanical(part: LoadPart) -> bool:
+    """Whether a part is forces or displacements: by its name, or a pressure given as its forces."""
+    name, fields = part.name.strip(), [f for f, _ in terms_of(part)]
+    forces = name == "PRES" and all(isinstance(f, NodeField) for f in fields)
+    return name in MECHANICAL or forces
+
+
 def nodal_terms(part: LoadPart) -> list[tuple[NodeField, TimeCurve]]:
     """Fields of a mechanical part, each with its curve."""
-    if part.name.strip() not in MECHANICAL:
+    if not is_mechanical(part):
         raise FieldError("kernel.stepping.load-not-mechanical", name=part.name)
     return [(_nodal(field), curve) for field, curve in terms_of(part)]
 
