@@ -27,7 +27,7 @@ def session(tmp_path_factory):
     [
         ("X = BRUI 'BLAN' 'POIS' 7 2 -1", "skip >= 0"),
         ("X = SPO EV 'AMOR' 0.05 'FREQ' P0 'DEPL'", "one frequency"),
-        ("X = SIAR EV 1. 'ACCE' 'NPOI' -1", "n > 0"),
+        ("X = SIAR EV 1. 'ACCE' 'NPOI' -1", "n_instants > 0"),
         ("X = IPOL 0.5 T1 P0 'SPLI'", "as many"),
         ("X = LIGN 'TRAN' 3 B E 0.5", "no angle"),
         ("X = LIGN 'ROTA' 3 W1 A E 20.", "mesh"),
