@@ -47,9 +47,22 @@ def cerc(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
-    curve = arc_through if through == "PASS" else arc_about_centre
     cuts = cuts_of(count, sizes)
+
+    def about(first: FloatArray, centre: FloatArray, last: FloatArray) -> Arc:
+        return _about_centre(call, first, centre, last)
+
+    curve = arc_through if through == "PASS" else about
     return drawn_by_middle(call, curve, (start, middle, end), cuts)
+
+
+def _about_centre(call: Call, first: FloatArray, centre: FloatArray, last: FloatArray) -> Arc:
+    """The arc between two points, about the mediator's nearest point to a centre that is off."""
+    r1, r2 = (float(np.linalg.norm(p - centre)) for p in (first, last))
+    arc = arc_about_centre(first, centre, last)
+    if not 0.99 < r1 / r2 < 1.01:
+        call.warn("operators.mesh.arc-about-moved-centre", r1=r1, r2=r2, r=arc.length / arc.angle)
+    return arc
 
 
 @cerc.form(said("ROTA"))
@@ -104,7 +117,7 @@ def parc(
     ends = ends_of(call, start, end)
     different_nodes(ws.nodes, ends.start, ends.end)
     a, b = positions(ws, ends.start, ends.end)
-    arc = arc_about_centre(a, centre.coordinates.copy(), b)
+    arc = _about_centre(call, a, centre.coordinates.copy(), b)
     tips = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
     pieces = subdivide(arc.length, *tips, cuts.count)
     middles = ParabolicArc(arc, pieces.fractions).middles()
