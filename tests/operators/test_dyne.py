@@ -515,7 +515,8 @@ S . 'TEMPS_SAUVES' = PROG 0. 'PAS' 6.E-3 {cut} ; PASAPAS S ;
 
 
 @pytest.mark.parametrize(
-    ("cut", "between"), [(0.096, ""), (0.102, "OPTI SAUV 'r' ; SAUV ; OUBL S ; OPTI REST 'r' ; REST ;")]
+    ("cut", "between"),
+    [(0.096, ""), (0.102, "OPTI SAUV 'r' ; SAUV ; OUBL S ; OPTI REST 'r' ; REST ;")],
 )
 def test_links_go_on_from_the_last_results_of_the_table(cut, between, tmp_path):
     """Two calls, the second in the midst of the contact, are one."""
@@ -554,9 +555,12 @@ def test_links_go_on_with_another_step(tmp_path):
 
 
 def test_links_go_back_to_no_earlier_result(tmp_path):
-    script = STEPPED.format(cut=0.096) + """
+    script = (
+        STEPPED.format(cut=0.096)
+        + """
         S . 'REPRISE' = 0.048 ; S . 'TEMPS_CALCULES' = PROG 0.048 'PAS' 1.E-4 0.15 ; PASAPAS S ;
         """
+    )
     assert "links" in refused(script)
 
 

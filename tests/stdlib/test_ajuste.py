@@ -106,8 +106,10 @@ def test_further_bounds_are_told_and_left():
         "T1 . 'F' . 1 . 1 = 0. - ((X1 . 1) * (EXP ((0. - (EXTR P1 1)) * (X1 . 1)))) ; FINP T1 ;"
     )
     bounds = "T . 'PMIN' = PROG 0. -5. 3. ; T . 'PMAX' = PROG 6. -4. ; "
-    told = ran(f"{one}T = TABL ; T . 'X' = TABL ; T . 'X' . 1 = {prog(X)} ; T . 'K' = 1 ; "
-               f"T . 'F' = {prog(2.0 * np.exp(-0.7 * X))} ; T . 'L' = 1 ; {bounds} Q P = AJUSTE T ;")
+    told = ran(
+        f"{one}T = TABL ; T . 'X' = TABL ; T . 'X' . 1 = {prog(X)} ; T . 'K' = 1 ; "
+        f"T . 'F' = {prog(2.0 * np.exp(-0.7 * X))} ; T . 'L' = 1 ; {bounds} Q P = AJUSTE T ;"
+    )
     found = [told.session.root.find(n).values for n in "QP"]
     assert np.concatenate(found) == pytest.approx([2.0, 0.7], rel=1e-6)
     assert [w.code for w in told.session.warnings] == ["stdlib.ajuste-more-bounds"]

@@ -324,8 +324,8 @@ def _restart(run: ModalRun, system: System) -> Table:
     assert last.q_before is not None
     assert last.links is not None
     entries = {word: system.field(getattr(last, name)) for word, name in _MOTION.items()}
-    rest = {"TEMPS": float(last.time), "PAS_DE_TEMPS": last.h, "LIAISONS": ListReel(last.links.ravel())}
-    return Table.of(entries | rest, "REPRISE")
+    times, links = {"TEMPS": float(last.time), "PAS_DE_TEMPS": last.h}, last.links.ravel()
+    return Table.of(entries | times | {"LIAISONS": ListReel(links)}, "REPRISE")
 
 
 _FORM = operator(
