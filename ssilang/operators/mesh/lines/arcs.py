@@ -1,6 +1,7 @@
 """Arcs of circle: CERC CER3 PARC, and CONG for rounded corners."""
 
 import math
+from functools import partial
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.lines.curves import (
@@ -47,12 +48,8 @@ def cerc(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
+    curve = arc_through if through == "PASS" else partial(_about_centre, call)
     cuts = cuts_of(count, sizes)
-
-    def about(first: FloatArray, centre: FloatArray, last: FloatArray) -> Arc:
-        return _about_centre(call, first, centre, last)
-
-    curve = arc_through if through == "PASS" else about
     return drawn_by_middle(call, curve, (start, middle, end), cuts)
 
 
