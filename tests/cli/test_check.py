@@ -294,6 +294,8 @@ def test_words_of_operators_are_no_misspelt_names(text):
         ("M = MODE S 'POREUX' ;", "operators.models.formulation-not-available", "'POREUX'"),
         ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT MAZARS ;",
          "operators.models.behaviour-not-available", "ENDOMMAGEMENT"),
+        ("M = MODE S LIAISON PROFIL_PROFIL EXTERIEUR ;",
+         "operators.models.link-not-available", "PROFIL_PROFIL"),
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BAEX ;",
          "operators.models.element-not-built", "BAEX"),
         ("M = MODE L MECANIQUE ELASTIQUE PLASTIQUE DRUCKER_PARFAIT POUT ;",

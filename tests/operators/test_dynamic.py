@@ -318,3 +318,27 @@ def test_a_reduced_motion_that_amplifies_is_told(push, amplifies, tmp_path):
     error = np.abs(reduced - whole).max() / np.abs(whole).max()
     estimate = result.session.statistics["calculations"][1]["estimated_error"]
     assert [error > 10 * estimate and error > 3e-3, bool(told)] == [amplifies, amplifies]
+
+
+PRESSED = """
+OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = DROI 2 (0. 0.) (1. 0.) ; S = L TRAN 2 (0. 1.) ;
+M = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE M 'YOUN' 1.E6 'NU' 0.2 'RHO' 1.E3 ; H = COTE 3 S ;
+LT = PROG 0. 'PAS' 1.E-3 0.03 ; E = EVOL 'MANU' LT (SIN (LT * 3000.)) ;
+MP = MODE H 'CHARGEMENT' 'PRESSION' ;
+DEBP RUND C*CHARGEME ;
+  T = TABL ; T . 'RIGI' = (RIGI M A) ET (BLOQ 'DEPL' L) ; T . 'MASS' = MASS M A ; T . 'CHAR' = C ;
+  T . 'TEMPS_CALCULES' = LT ; T . 'PAS_SAUVES' = 1 ; R = DYNAMIC T ;
+FINP (R . 31 . 'DEPL') ;
+"""
+
+
+def test_a_pressure_given_as_its_forces_is_a_load_by_any_name(tmp_path):
+    end = "U = RUND (CHAR '{0}' (PRES 'MASS' M 1.E4 H) E) ; X = MAXI U 'ABS' ;"
+    pressed, forced = (
+        ran(PRESSED + end.format(n), tmp_path).session.root for n in ("PRES", "MECA")
+    )
+    assert pressed.find("X") > 1e-3
+    assert pressed.find("X") == forced.find("X")
+    assert "PRES is not mechanical" in fails(
+        PRESSED + "U = RUND (CHAR 'PRES' (PRES MP 'PRES' 1.E4) E) ;", tmp_path
+    )

@@ -491,3 +491,88 @@ def test_pasapas_steps_models_of_links(tmp_path):
     assert root.find("X") == pytest.approx(root.find("W"))
     assert root.find("Y") == pytest.approx(root.find("W"))
     assert root.find("E") < 1e-9
+
+
+STEPPED = (
+    MASS
+    + LINE.format(line="DROI 3 (2. 0.) (-1. 0.)")
+    + OF_MODELS
+    + """
+C = CHAR (MANU 'CHPO' PX 1 'FALF' 3.) (EVOL 'MANU' (PROG 0. 0.2) (PROG 1. 9.)) ;
+DEBP TABD ;
+  T = TABL 'PASAPAS' ; T . 'MODELE' = M1 ET M2 ET L ; T . 'CARACTERISTIQUES' = A ET AL ;
+  T . 'VITESSES' = TABL ; T . 'VITESSES' . 0 = TI . 'VITESSE' ; T . 'DYNAMIQUE' = VRAI ;
+  T . 'CHARGEMENT' = C ;
+FINP T ;
+T = TABD ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 0.15 ;
+T . 'TEMPS_SAUVES' = PROG 0. 'PAS' 6.E-3 0.15 ; PASAPAS T ; V = T . 'VITESSES' . 25 ;
+F = EXTR (T . 'VARIABLES_INTERNES' . 17) 'SLIA' 3 1 1 ;
+F = EXTR (F . 'FORCE_DE_CHOC_TANGENTIELLE') 1 ;
+S = TABD ; S . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 {cut} ;
+S . 'TEMPS_SAUVES' = PROG 0. 'PAS' 6.E-3 {cut} ; PASAPAS S ;
+"""
+)
+
+
+@pytest.mark.parametrize(
+    ("cut", "between"),
+    [(0.096, ""), (0.102, "OPTI SAUV 'r' ; SAUV ; OUBL S ; OPTI REST 'r' ; REST ;")],
+)
+def test_links_go_on_from_the_last_results_of_the_table(cut, between, tmp_path):
+    """Two calls, the second in the midst of the contact, are one."""
+    root = run(
+        STEPPED.format(cut=cut)
+        + f"{between} S . 'TEMPS_CALCULES' = PROG {cut} 'PAS' 1.E-4 0.15 ;"
+        + f"S . 'TEMPS_SAUVES' = PROG {cut} 'PAS' 6.E-3 0.15 ; PASAPAS S ;"
+        """
+        N = DIME (S . 'TEMPS') ; T0 = S . 'TEMPS' . 1 ; T1 = S . 'TEMPS' . 25 ;
+        G = EXTR (S . 'VARIABLES_INTERNES' . 17) 'SLIA' 3 1 1 ;
+        G = EXTR (G . 'FORCE_DE_CHOC_TANGENTIELLE') 1 ;
+        E = MAXI ((S . 'VITESSES' . 25) - V) 'ABS' ;
+        D = MAXI ((S . 'DEPLACEMENTS' . 3) - (T . 'DEPLACEMENTS' . 3)) 'ABS' ;
+        """,
+        tmp_path,
+    )
+    assert (root.find("N"), root.find("T0"), root.find("T1")) == (
+        26, pytest.approx(6e-3), pytest.approx(0.15)
+    )  # fmt: skip
+    assert abs(root.find("F")) > 10.0
+    assert root.find("G") == pytest.approx(root.find("F"), rel=1e-9)
+    assert max(root.find("E"), root.find("D")) < 1e-9
+
+
+def test_links_go_on_with_another_step(tmp_path):
+    """The half step before has another length then, which must not pass for a velocity."""
+    root = run(
+        STEPPED.format(cut=0.096)
+        + """
+        S . 'TEMPS_CALCULES' = PROG 0.096 'PAS' 5.E-5 0.15 ; S . 'TEMPS_SAUVES' = PROG 0.15 ;
+        PASAPAS S ; E = MAXI ((S . 'VITESSES' . 17) - V) 'ABS' ;
+        """,
+        tmp_path,
+    )
+    assert root.find("E") < 2e-3
+
+
+def test_links_go_back_to_no_earlier_result(tmp_path):
+    script = (
+        STEPPED.format(cut=0.096)
+        + """
+        S . 'REPRISE' = 0.048 ; S . 'TEMPS_CALCULES' = PROG 0.048 'PAS' 1.E-4 0.15 ; PASAPAS S ;
+        """
+    )
+    assert "links" in refused(script)
+
+
+def test_steps_of_links_begin_where_the_times_do(tmp_path):
+    root = run(
+        STEPPED.format(cut=0.006)
+        + """
+        S = TABD ; C = CHAR (MANU 'CHPO' PX 1 'FALF' 2.) (EVOL 'MANU' (PROG -1. 1.) (PROG 1. -1.)) ;
+        S . 'CHARGEMENT' = C ; S . 'TEMPS_CALCULES' = PROG -1. 'PAS' 1.E-3 -0.9 ; PASAPAS S ;
+        X = EXTR (S . 'VITESSES' . 100) 'ALFA' PX ; Y = S . 'TEMPS' . 100 ;
+        """,
+        tmp_path,
+    )
+    assert root.find("Y") == pytest.approx(-0.9)
+    assert root.find("X") == pytest.approx(0.5 + (1.0 - 0.9**2) / 2.0)

@@ -21,3 +21,9 @@ def test_mode_is_set_again_by_its_own_word(dimension, mode, said):
         f"L = (EGA M N) ET (EGA M '{said}') ;"
     )
     assert result.session.root.find("L") is True
+
+
+@pytest.mark.parametrize(("word", "told"), [("JAUMANN", 1), ("'QUAD'", 1), ("LINEAIRE", 0)])
+def test_a_measure_of_strains_that_changes_nothing_is_told(word, told):
+    warnings = ran(f"OPTI EPSILON {word} ;").session.warnings
+    assert [w.code for w in warnings] == ["operators.session.strain-measure-without-effect"] * told

@@ -96,3 +96,20 @@ def test_bounds_are_wanted_for_each_parameter():
         PLAIN + "T = TABL ; T . 'F' = PROG 1. ; T . 'K' = 2 ;"
         "T . 'L' = 2 ; T . 'PMIN' = PROG 0. ; T . 'PMAX' = PROG 1. ; Q P = AJUSTE T ;"
     )
+
+
+def test_further_bounds_are_told_and_left():
+    one = (
+        "DEBP FCT X1*TABLE P1*LISTREEL ; T1 = TABL ; T1 . 'F' = TABL ;"
+        "T1 . 'F' . 1 = EXP ((0. - (EXTR P1 1)) * (X1 . 1)) ; FINP T1 ;"
+        "DEBP DERI X1*TABLE P1*LISTREEL ; T1 = TABL ; T1 . 'F' = TABL ; T1 . 'F' . 1 = TABL ;"
+        "T1 . 'F' . 1 . 1 = 0. - ((X1 . 1) * (EXP ((0. - (EXTR P1 1)) * (X1 . 1)))) ; FINP T1 ;"
+    )
+    bounds = "T . 'PMIN' = PROG 0. -5. 3. ; T . 'PMAX' = PROG 6. -4. ; "
+    told = ran(
+        f"{one}T = TABL ; T . 'X' = TABL ; T . 'X' . 1 = {prog(X)} ; T . 'K' = 1 ; "
+        f"T . 'F' = {prog(2.0 * np.exp(-0.7 * X))} ; T . 'L' = 1 ; {bounds} Q P = AJUSTE T ;"
+    )
+    found = [told.session.root.find(n).values for n in "QP"]
+    assert np.concatenate(found) == pytest.approx([2.0, 0.7], rel=1e-6)
+    assert [w.code for w in told.session.warnings] == ["stdlib.ajuste-more-bounds"]

@@ -155,6 +155,18 @@ def test_truncation_adds_the_rigid_answer_of_the_modes_left_out():
     np.testing.assert_allclose(found[1], np.hypot(a, rigid), rtol=1e-8)
 
 
+def test_accelerations_have_the_grounds_own_where_modes_are_left_out():
+    """Masses that the modes do not move go with the ground; TRONCATURE is of pseudo-modes."""
+    text = script("SRSS") + (
+        "B = VIBR 'SIMU' 0.1 2 K M ; T . 'STRUCTURE' = B ;"
+        "T . 'EXCITATION' . 1 . 'ACCELERATION_MAXIMALE' = 1.3 ; R = SISSIB T ;"
+    )
+    found = read(text + _READ, "D", "A")
+    (d, a), shares, _ = combined("SRSS", 1.0, 1.0, n_modes=1)
+    np.testing.assert_allclose(found[0], d, rtol=1e-8)
+    np.testing.assert_allclose(found[1], np.hypot(a, 1.3 * shares[:, 1:].sum(axis=1)), rtol=1e-8)
+
+
 def test_reactions_and_the_domain():
     text = script("SRSS", "K2 = K ET (BLOQ 'UX' 'UY' P1) ; B = VIBR 'SIMU' 0.1 4 K2 M ;") + (
         "B = REAC B K2 ; T . 'STRUCTURE' = B ; LX = PROG ; REPE B1 4 ; LX = LX ET "

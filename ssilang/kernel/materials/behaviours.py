@@ -64,6 +64,9 @@ FIBRE_LAWS = (*UNIAXIAL_LAWS, "PARFAIT", "ISOTROPE", "CINEMATIQUE")
 SECTION_LAWS = ("PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of sections as a whole, and of points across the thickness of shells."""
 
+OTHER_LINKS = ("PROFIL_PROFIL", "PALIER_FLUIDE", "NEWMARK")
+"""Links between modes that Cast3M has and that are not built."""
+
 OTHER_BEHAVIOURS = (
     "NON_LINEAIRE", "HOMOGENEISE", "CAOUTCHOUC",
     # plasticity: of metals, concrete, pipes and global sections, of rock joints, of soils

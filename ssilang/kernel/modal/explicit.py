@@ -21,7 +21,10 @@ VARIABLES = ("DEPLACEMENT", "VITESSE", "DEPLACEMENT_1/2", "VITESSE_1/2", "ACCELE
 
 @dataclass(frozen=True, eq=False)
 class ModalState:
-    """Where a run stands: q, v, acceleration and displacement of the half step before, links."""
+    """Where a run stands: q, v, acceleration and displacement of the half step before, links.
+
+    `h` is the step that led there.
+    """
 
     time: float
     q: FloatArray
@@ -29,6 +32,7 @@ class ModalState:
     before: FloatArray | None
     q_before: FloatArray | None
     links: FloatArray | None
+    h: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,12 +59,13 @@ class ModalProblem:
 
 @dataclass(frozen=True)
 class ModalSteps:
-    """Step h (s), number of steps, steps from one saved to the next, one of SCHEMES."""
+    """Step h (s), number of steps, steps from one saved to the next, one of SCHEMES, begin (s)."""
 
     h: float
     count: int
     every: int = 1
     scheme: str = "DE_VOGELAERE"
+    begin: float = 0.0
 
 
 def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps) -> ModalRun:
@@ -112,7 +117,7 @@ def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps)
     if not np.isfinite(values).all():
         raise KernelError("kernel.modal.run-diverges")
     times = start.time + h * every * np.arange(saved, dtype=np.float64)
-    end = ModalState(start.time + h * count, q, v, before, q_before, state)
+    end = ModalState(start.time + h * count, q, v, before, q_before, state, h)
     return ModalRun(times, values, records, end)
 
 

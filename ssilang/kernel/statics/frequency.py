@@ -32,7 +32,7 @@ from ssilang.kernel.matrices.assembly import (
     vector_to_field,
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
-from ssilang.kernel.stepping.problem.loading import MECHANICAL, terms_of
+from ssilang.kernel.stepping.problem.loading import is_mechanical, terms_of
 
 _DENSE = 300
 """Up to this many unknowns full matrices are faster than sparse ones."""
@@ -182,7 +182,7 @@ def _loads(
 ) -> Iterator[tuple[ComplexArray, ComplexArray, tuple[FloatArray, FloatArray]]]:
     """Complex forces, imposed values and functions of the frequency of the parts of a load."""
     for part in load.parts if load is not None else ():
-        if part.name.strip() not in MECHANICAL:
+        if not is_mechanical(part):
             raise FieldError("kernel.statics.load-not-mechanical", name=part.name)
         for field, curve in terms_of(part):
             if not isinstance(field, NodeField):

@@ -47,7 +47,8 @@ def leftover_error(
         return refused
     words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
     unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
-    if unread is not None and not (_quoted(unread) and not _quoted(words[0])):
+    called = words and (not _quoted(words[0]) or _begins(words[0].span))
+    if unread is not None and not (_quoted(unread) and called):
         before = next((o for o in left if isinstance(o.value, Mot)), unread)
         name = "" if before is unread else before.span.text
         return SsiError("unread-operator", unread.span, name=str(unread.value), before=name)
@@ -63,8 +64,13 @@ def leftover_error(
 
 
 def _quoted(operand: Operand) -> bool:
-    """Whether a word stands in quotes: behind a bare one that nobody knows it is its keyword."""
+    """Whether a word stands in quotes: behind an unknown one that calls it is its keyword."""
     return operand.span.text[:1] == "'"
+
+
+def _begins(span: Span) -> bool:
+    """Whether a word begins a statement, and can only be meant as what it calls."""
+    return not span.source.code[: span.start].rpartition(";")[2].strip()
 
 
 def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:

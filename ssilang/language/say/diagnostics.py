@@ -179,7 +179,9 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["keyword_hint"] = _keyword_hint(data)
     if _expected(data) == ["MOT"] and data.get("name") and error.code == "wrong-argument":
         made["word_hint"] = hints.word_hint(str(data["name"]))
-    made["near_hint"] = _near_hint(data, language, names)
+    near = _near_hint(data, language, names)
+    outside = error.code == "unknown-operator" and near == elsewhere(str(data["name"]), language)
+    made["outside"], made["near_hint"] = (near, "") if outside else ("", near)
     made["excess_hint"] = hints.excess_hint(data)
     made["no_result_hint"] = hints.no_result_hint(data)
     made["comment_hint"] = hints.comment_hint(_text_from(error.span))

@@ -7,9 +7,9 @@ from ssilang.operators.dispatch import EXTR, listing, union
 from ssilang.operators.prelude import *
 
 
-def _mesh_of(field: CellField) -> Mesh:
+def _mesh_of(call: Call, field: CellField) -> Mesh:
     blocks = tuple({id(b.cells): b.cells for b in field.blocks}.values())
-    return Mesh(blocks[0].nodes, blocks)
+    return Mesh(workspace(call.session).nodes, blocks)
 
 
 def _restricted(field: CellField, what: Chosen) -> tuple[CellFieldBlock, ...]:
@@ -56,7 +56,6 @@ _OF_MODEL = [opt("model", "MMODEL", en="its zones only")]
 
 _OF_FIELD: dict[str, Callable[[CellField, Chosen], ListMots | Mesh | int]] = {
     **dict.fromkeys(("TITR", "TYPE"), lambda field, what: ListMots([field.title])),
-    "MAIL": lambda field, what: _mesh_of(field),
     "COMP": lambda field, what: _unique(
         [n for b in _restricted(field, what) for n in b.components]
     ),
@@ -71,16 +70,16 @@ _OF_FIELD: dict[str, Callable[[CellField, Chosen], ListMots | Mesh | int]] = {
     main("field", "MCHAML", en="field in cells"),
     select(
         "what",
-        {word: _OF_MODEL if word in ("COMP", "CONS") else [] for word in _OF_FIELD},
+        {word: _OF_MODEL if word in ("COMP", "CONS") else [] for word in ("MAIL", *_OF_FIELD)},
         optional=False,
         unless=_own_names,
         en="sub-type, mesh, names of components or constituents, number of zones",
     ),
     gives=by("what", {"MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
 )
-def extr_cells(field: CellField, what: Chosen) -> ListMots | Mesh | int:
+def extr_cells(call: Call, field: CellField, what: Chosen) -> ListMots | Mesh | int:
     """A part of a field in cells."""
-    return _OF_FIELD[what.word](field, what)
+    return _mesh_of(call, field) if what.word == "MAIL" else _OF_FIELD[what.word](field, what)
 
 
 @EXTR.form(gives=ANY)

@@ -227,7 +227,7 @@ def intg(
     wanted = component.rstrip() if component is not None else _only(call, field)
     material = others[0] if others else None
     parts = [integrals(z, field, wanted, material) for z in model.zones]
-    if all(p is None for p in parts):
+    if parts and all(p is None for p in parts):
         raise call.error("operators.fields.component-not-on-model", field, wanted=wanted)
     if not by_cell:
         return float(sum(p.sum() for p in parts if p is not None))

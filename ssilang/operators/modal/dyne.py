@@ -72,7 +72,7 @@ def _integrated(
 ) -> Table:
     """The table of results of a run."""
     links, arrays = links_of(call, tables.get("links"), system.basis)
-    start = _start(call, tables.get("start"), system, len(arrays.kinds))
+    start = _start(call, tables.get("start"), system, len(arrays.kinds), steps)
     # Forces on the modes (p, n) and their values at each half step (p, 2 steps + 1).
     table = tables.get("loads")
     load = None if table is None else table.get("BASE_A")
@@ -88,12 +88,12 @@ def _integrated(
 
 
 def results_of_models(
-    call: Call, entries: Entries, steps: ModalSteps
+    call: Call, entries: Entries, steps: ModalSteps, reached: Table | None
 ) -> tuple[Table, list[tuple[Zone, Model | None, Table]]]:
     """Step models MODAL and LIAISON of a table PASAPAS.
 
-    Gives the table of results and for each link its zone, the model that asks for its results and
-    its table.
+    It goes on from the state `reached` (REPRISE), where given. Gives the table of results and for
+    each link its zone, the model that asks for its results and its table.
     """
     model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
     base, dampings = modal_table(model, material)
@@ -108,9 +108,7 @@ def results_of_models(
     if kept is not None and kept.has(Mot("VARIABLE")):
         output.set(Mot("VARIABLE"), kept.get(Mot("VARIABLE")))
     start = {n: entries.at(f"{n}S", 0) for n in ("DEPLACEMENT", "VITESSE")}
-    start = {n: f for n, f in start.items() if f is not None}
-    if entries.has("INIT_DYNE"):
-        start["REPRISE"] = entries.get("INIT_DYNE")
+    start = {n: f for n, f in (start | {"REPRISE": reached}).items() if f is not None}
     tables = {"links": links, "start": Table.of(start, "INITIAL"), "output": output}
     if entries.has("CHARGEMENT"):
         tables["loads"] = Table.of({"BASE_A": entries.get("CHARGEMENT")}, "CHARGEMENT")
@@ -213,9 +211,11 @@ def damping_of(call: Call, table: Table | None, system: System) -> FloatArray:
     return _kept(assemble(matrix, system.numbering).toarray(), _full(table, "NATURE"))
 
 
-def _start(call: Call, table: Table | None, system: System, links: int) -> ModalState:
+def _start(
+    call: Call, table: Table | None, system: System, links: int, steps: ModalSteps
+) -> ModalState:
     n = len(system.M)
-    rest = ModalState(0.0, np.zeros(n), np.zeros(n), None, None, None)
+    rest = ModalState(steps.begin, np.zeros(n), np.zeros(n), None, None, None)
     if table is None:
         return rest
     again = table.get("REPRISE")
@@ -228,11 +228,13 @@ def _start(call: Call, table: Table | None, system: System, links: int) -> Modal
     state = np.asarray(kept.values).reshape(-1, STATES) if isinstance(kept, ListReel) else None
     if state is None or len(state) != links:
         raise call.error("operators.modal.table-reprise-not-hold", again, links=links)
-    return replace(
-        start, time=_of_mode(call, again, "TEMPS"), links=state,
-        before=_values(call, again, "ACCELERATION_1/2", system),
-        q_before=_values(call, again, "DEPLACEMENT_1/2", system),
-    )  # fmt: skip
+    start = replace(start, time=_of_mode(call, again, "TEMPS"), links=state)
+    if again.has("PAS_DE_TEMPS") and not np.isclose(_of_mode(call, again, "PAS_DE_TEMPS"), steps.h):
+        return start  # half a step before is another instant then
+    before, q_before = (
+        _values(call, again, f"{name}_1/2", system) for name in ("ACCELERATION", "DEPLACEMENT")
+    )
+    return replace(start, before=before, q_before=q_before)
 
 
 def _values(call: Call, table: Table, name: str, system: System) -> FloatArray | None:
@@ -322,8 +324,8 @@ def _restart(run: ModalRun, system: System) -> Table:
     assert last.q_before is not None
     assert last.links is not None
     entries = {word: system.field(getattr(last, name)) for word, name in _MOTION.items()}
-    rest = {"TEMPS": float(last.time), "LIAISONS": ListReel(last.links.ravel())}
-    return Table.of(entries | rest, "REPRISE")
+    times, links = {"TEMPS": float(last.time), "PAS_DE_TEMPS": last.h}, last.links.ravel()
+    return Table.of(entries | times | {"LIAISONS": ListReel(links)}, "REPRISE")
 
 
 _FORM = operator(
@@ -354,7 +356,7 @@ def _of_models(
     entries.check()
     steps, h = entries.needed("NOMBRE_PAS"), entries.needed("PAS_DE_TEMPS")
     plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"), scheme)
-    results, named = results_of_models(call, entries, plan)
+    results, named = results_of_models(call, entries, plan, entries.get("INIT_DYNE"))
     made = {name: Table() for name in ("TEMPS", "DEPLACEMENTS", "VITESSES", "LIAISONS")}
     times = results.get(Mot("TEMPS_DE_SORTIE"))
     assert isinstance(times, ListReel)

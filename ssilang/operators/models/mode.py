@@ -15,6 +15,7 @@ from ssilang.kernel.materials.behaviours import (
     JOINT_WORDS,
     OTHER_BEHAVIOURS,
     OTHER_FORMULATIONS,
+    OTHER_LINKS,
     PLASTIC_WORDS,
     UNDESCRIBED_LAWS,
     UNPUBLISHED,
@@ -307,6 +308,9 @@ def _unknown(call: Call, said: str) -> Exception:
         )  # fmt: skip
     if said[:4].rstrip() in OTHER_ELEMENTS:
         return call.error("operators.models.element-not-built", written, said=said)
+    if (link := full_word(said, OTHER_LINKS)) is not None:
+        kinds = tuple(dict.fromkeys(k[0] for k in LINKS))
+        return call.error("operators.models.link-not-available", written, said=link, kinds=kinds)
     if full_word(said, OTHER_BEHAVIOURS):
         code = "operators.models.behaviour-not-available"
         return call.error(code, written, said=said, words=laws)

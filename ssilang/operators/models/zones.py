@@ -119,7 +119,7 @@ def _names(kind: str, en: str) -> list[Entry]:
 def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
     """A part of a model."""
     if what.word == "MAIL":
-        return model.mesh
+        return model.mesh if model.zones else Mesh(workspace(call.session).nodes, ())
     if what.word == "ZONE":
         table = Table()
         for i, zone in enumerate(model.zones):

@@ -188,9 +188,18 @@ def _logical(call: Call, word: str) -> None:
     _store(call, word, call.required("LOGIQUE", after=call.keyword_end))
 
 
-@reader("COSC", "ISOV", "POLI", "POTR", "RESO", "EPSI", "NAVI", "TITR", "ECRA")
+@reader("COSC", "ISOV", "POLI", "POTR", "RESO", "NAVI", "TITR", "ECRA")
 def _word(call: Call, word: str) -> None:
     _store(call, word, Mot(value_word(call).rstrip()))
+
+
+@reader("EPSI")
+def _strain(call: Call, word: str) -> None:
+    known = ("LINEAIRE", "QUADRATIQUE", "TRUESDELL", "JAUMANN", "UTILISATEUR")
+    said = _one_of(call, word, known)
+    _store(call, word, Mot(said))
+    if said != "LINEAIRE":
+        call.warn("operators.session.strain-measure-without-effect", word=said)
 
 
 @reader("TRAC")

@@ -74,7 +74,7 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
         warn_of_temperatures(entries, times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
-    if stepped_links(entries, times, saved):
+    if stepped_links(entries, times, saved, start.index):
         entries.table.set(Mot("CONV"), True)
         entries.table.set(Mot("ERREUR"), False)
         return

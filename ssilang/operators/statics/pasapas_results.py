@@ -19,6 +19,17 @@ RESULTS = (
 """Tables of results, by number of the saved time."""
 
 
+def put_results(table: Table, number: int, values: Mapping[str, Any], keep: bool) -> None:
+    """Put results of a number into their tables; with `keep` what stands there already stays."""
+    for word, value in values.items():
+        if not isinstance(table.get(word), Table):
+            table.set(Mot(word), Table())
+        inner = table.get(word)
+        assert isinstance(inner, Table)
+        if not (keep and inner.has(number)):
+            inner.set(number, value)
+
+
 @dataclass
 class Stresses:
     """Stresses of the zones whose stiffness says all.
@@ -81,8 +92,7 @@ class ResultTables:
 
     def receive(self, snapshot: "Snapshot") -> None:
         """Add one time."""
-        for word, value in self.values(snapshot).items():
-            self._put(word, value, keep=snapshot.step == 0)
+        put_results(self.table, self.number, self.values(snapshot), keep=snapshot.step == 0)
         self.number += 1
 
     def values(self, snapshot: "Snapshot") -> dict[str, Any]:
@@ -122,12 +132,6 @@ class ResultTables:
             return found
         order = sorted(range(len(where)), key=where.__getitem__)
         return CellField(tuple(found.blocks[i] for i in order), found.title)
-
-    def _put(self, word: str, value: Any, keep: bool) -> None:
-        inner = self.table.get(word)
-        assert isinstance(inner, Table)
-        if not (keep and inner.has(self.number)):
-            inner.set(self.number, value)
 
     def close(self) -> None:
         """Nothing to do: tables are whole after each time."""

@@ -133,3 +133,19 @@ def test_volumes_have_their_volume(phrase: str, cells: int | None) -> None:
 def test_what_cannot_be_meshed_is_refused(phrase: str, said: str) -> None:
     assert said in failed(STRIP + f"X = {phrase} ;").message
     assert "OPTI ELEM" in failed("OPTI DIME 2 ; X = (0. 0.) D 2 (1. 0.) ;").message
+
+
+@pytest.mark.parametrize(("end", "told"), [("0. 1.04", 1), ("0. 1.", 0)])
+def test_an_arc_of_two_radii_goes_about_a_centre_beside_the_given_one(end, told):
+    """About the point of the mediator that is nearest; a wrong centre is told."""
+    result = ran(f"{PLANE} B = {end} ; X = CERC 8 A O B ;")
+    nodes = result.session.root.find("X")
+    xyz = nodes.nodes.coordinates[nodes.node_ids]
+    a, b = np.array([1.0, 0.0, 0.0]), np.array([*(float(v) for v in end.split()), 0.0])
+    chord = b - a
+    centre = chord * ((a + b) / 2 @ chord) / (chord @ chord)
+    radii = np.linalg.norm(xyz - centre, axis=1)
+    assert np.ptp(radii) < 1e-12
+    assert radii[0] == pytest.approx(np.linalg.norm(a - centre))
+    codes = [w.code for w in result.session.warnings]
+    assert codes == ["operators.mesh.arc-about-moved-centre"] * told

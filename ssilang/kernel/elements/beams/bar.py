@@ -14,7 +14,8 @@ from ssilang.kernel.elements.family import (
 )
 from ssilang.kernel.elements.shapes.geometry import line_geometry
 from ssilang.kernel.elements.shapes.reference import shape_gradients
-from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
+from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
+from ssilang.kernel.elements.solids.solid import circumference
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -107,27 +108,34 @@ def _radii(zone: Zone, cells: slice = slice(None)) -> FloatArray:
     return radii
 
 
+def _slopes_around(zone: Zone) -> FloatArray:
+    """Change of a displacement along, out of and across a ring, times its radius, (3, d)."""
+    n, d = harmonic(zone), len(NODE_TRANSLATIONS[zone.mode])
+    return np.array([[1.0, 0.0, n], [-n, 0.0, -1.0], [0.0, -n, 0.0]])[:, :d]
+
+
 class Hoop(Bar):
-    """Normal force EFFX = YOUN SECT EPSS along the ring, EPSS = UR / r; whole turns are summed."""
+    """Normal force EFFX = YOUN SECT EPSS along the ring, EPSS = (UR + n UT) / r of harmonic n.
+
+    Whole turns are summed. Rings do not bend.
+    """
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
     ) -> StrainOperator:
-        """Radial displacement over the radius."""
+        """Lengthening over the radius: radial displacement and change along the ring."""
         radii = _radii(zone, cells)
-        matrix = np.zeros((len(radii), 1, 1, 2))
-        matrix[:, 0, 0, 0] = 1.0 / radii[:, 0]
-        return StrainOperator(matrix, 2.0 * np.pi * radii)
+        slopes = _slopes_around(zone)[0] / radii
+        return StrainOperator(slopes[:, None, None], circumference(zone) * radii)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO SECT times the ring's length, in every direction."""
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
-        scalar = (2.0 * np.pi * _radii(zone) * density)[..., None]
-        return spread(scalar, 2), self.layout(zone)
+        scalar = (circumference(zone) * _radii(zone) * density)[..., None]
+        return spread(scalar, len(NODE_TRANSLATIONS[zone.mode])), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
-        """EFFX / r^2 on the radial displacement: the second-order part of the ring's strain."""
-        radii = _radii(zone)
-        values = np.zeros((len(radii), 2, 2))
-        values[:, 0, 0] = 2.0 * np.pi * stress[:, 0, 0] / radii[:, 0]
-        return values
+        """EFFX / r^2 on what changes along the ring: the second-order part of its strain."""
+        slopes = _slopes_around(zone)
+        factors = circumference(zone) * stress[:, 0] / _radii(zone)
+        return factors[..., None] * (slopes.T @ slopes)

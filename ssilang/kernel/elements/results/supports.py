@@ -170,12 +170,12 @@ def values_at_points(field: CellField) -> NodeField:
 
 
 def model_on_mesh(model: Model, mesh: Mesh) -> Model:
-    """Zones restricted to the cells of a mesh.
+    """Zones restricted to the cells of a mesh; none on an empty one.
 
     Raises
     ------
     FieldError
-        If none of the mesh's cells belongs to the model.
+        If the mesh has cells, none of which belongs to the model.
     """
     zones: list[Zone] = []
     for zone in model.zones:
@@ -183,7 +183,7 @@ def model_on_mesh(model: Model, mesh: Mesh) -> Model:
             same = len(kept) == len(zone.cells) and np.array_equal(kept, np.arange(len(kept)))
             cells = zone.cells if same else _picked(zone.cells, kept)
             zones.append(replace(zone, cells=cells))
-    if not zones:
+    if not zones and mesh.n_cells:
         raise FieldError("kernel.elements.no-cell-mesh-belongs")
     return Model(tuple(zones))
 

@@ -67,18 +67,18 @@ class Arc:
 
 def arc_about_centre(start: FloatArray, centre: FloatArray, end: FloatArray) -> Arc:
     """The shorter arc from `start` to `end` around `centre` (3,), which is moved onto the
-    mediator of the two points when it is slightly off.
+    mediator of the two points when it is off.
 
     Raises
     ------
     MeshError
-        If the radii differ by more than 1 %, or the three points are in line.
+        If one radius is twice the other or more, or the three points are in line.
     """
     chord = unit_vector(end - start, "kernel.mesh.two-ends-arc-coincide")
     middle = centre + ((start + end) / 2 - centre) @ chord * chord
     r1, r2 = np.linalg.norm(start - centre), np.linalg.norm(end - centre)
     first, last = start - middle, end - middle
-    if not 0.99 < r1 / max(float(r2), 1e-300) < 1.01:
+    if not 0.5 < r1 / max(float(r2), 1e-300) < 2.0:
         raise MeshError("kernel.mesh.ends-not-same-distance", r1=r1, r2=r2)
     normal = np.cross(first, last)
     sine = float(np.linalg.norm(normal))

@@ -30,8 +30,6 @@ class Loading:
     def at(self, times: FloatArray) -> FloatArray:
         """Factors c at times (m,), shape (m, k)."""
         columns = [np.interp(times, x, y) for x, y in self.curves]
-        if len(columns) == 1:
-            return columns[0][:, None]
         return np.stack(columns, axis=1) if columns else np.zeros((len(times), 0))
 
 
@@ -63,9 +61,15 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
 TimeCurve = tuple[FloatArray, FloatArray]
 
 
+def is_mechanical(part: LoadPart) -> bool:
+    """Whether a part is forces or displacements: by its name, or a pressure given as its forces."""
+    name, nodal = part.name.strip(), all(isinstance(f, NodeField) for f, _ in terms_of(part))
+    return name in MECHANICAL or (name == "PRES" and nodal)
+
+
 def nodal_terms(part: LoadPart) -> list[tuple[NodeField, TimeCurve]]:
     """Fields of a mechanical part, each with its curve."""
-    if part.name.strip() not in MECHANICAL:
+    if not is_mechanical(part):
         raise FieldError("kernel.stepping.load-not-mechanical", name=part.name)
     return [(_nodal(field), curve) for field, curve in terms_of(part)]
 

@@ -1,6 +1,7 @@
 """Arcs of circle: CERC CER3 PARC, and CONG for rounded corners."""
 
 import math
+from functools import partial
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.lines.curves import (
@@ -47,9 +48,18 @@ def cerc(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
-    curve = arc_through if through == "PASS" else arc_about_centre
+    curve = arc_through if through == "PASS" else partial(_about_centre, call)
     cuts = cuts_of(count, sizes)
     return drawn_by_middle(call, curve, (start, middle, end), cuts)
+
+
+def _about_centre(call: Call, first: FloatArray, centre: FloatArray, last: FloatArray) -> Arc:
+    """The arc between two points, about the mediator's nearest point to a centre that is off."""
+    r1, r2 = (float(np.linalg.norm(p - centre)) for p in (first, last))
+    arc = arc_about_centre(first, centre, last)
+    if not 0.99 < r1 / r2 < 1.01:
+        call.warn("operators.mesh.arc-about-moved-centre", r1=r1, r2=r2, r=arc.length / arc.angle)
+    return arc
 
 
 @cerc.form(said("ROTA"))
@@ -104,7 +114,7 @@ def parc(
     ends = ends_of(call, start, end)
     different_nodes(ws.nodes, ends.start, ends.end)
     a, b = positions(ws, ends.start, ends.end)
-    arc = arc_about_centre(a, centre.coordinates.copy(), b)
+    arc = _about_centre(call, a, centre.coordinates.copy(), b)
     tips = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
     pieces = subdivide(arc.length, *tips, cuts.count)
     middles = ParabolicArc(arc, pieces.fractions).middles()
