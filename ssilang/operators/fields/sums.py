@@ -103,10 +103,9 @@ def xtx_in_cells(
     if second is not None:
         first = _weighted_sum(call, cell_algebra, first, second, a, b)
     total = 0.0
-    for part in first.blocks:
-        nodes = part.cells.kind.n_nodes
-        count = n_points(part.element, part.support) if part.element in ELEMENTS else nodes
-        for v in cell_algebra.values_of(CellField((part,))):  # one alone stands for all
+    for p in first.blocks:
+        count = n_points(p.element, p.support) if p.element in ELEMENTS else p.cells.kind.n_nodes
+        for v in cell_algebra.values_of(CellField((p,))):  # one alone stands for all of its cell
             total += (count if v.shape[1] == 1 else 1) * float((v * v).sum())
     return total
 
