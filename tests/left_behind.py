@@ -15,6 +15,9 @@ import pytest
 
 MEANT = {"PYTEST_CURRENT_TEST", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"}
 """Of the environment: a sweep lets all processes that come later have one thread."""
+SIGNALS = signal.SIGINT, signal.SIGTERM
+USUAL = {signal.SIG_DFL, signal.default_int_handler}
+"""What answers them elsewhere; a mesher changes the one for the other."""
 
 
 def state() -> dict[str, Any]:
@@ -24,7 +27,7 @@ def state() -> dict[str, Any]:
         "environment": {k: v for k, v in os.environ.items() if k not in MEANT},
         "faults of numbers": np.geterr(), "print of arrays": np.get_printoptions(),
         "search for garbage": (gc.isenabled(), gc.get_threshold()), "modules": list(sys.path),
-        "signals": [signal.getsignal(s) for s in (signal.SIGINT, signal.SIGTERM)],
+        "signals": [h for h in map(signal.getsignal, SIGNALS) if h not in USUAL],
         "errors": sys.excepthook,
     }  # fmt: skip
 
@@ -43,7 +46,8 @@ def nothing_is_left_behind() -> Iterator[None]:
     before, held = state(), open_files()
     yield
     now = state()
-    assert {k: v for k, v in now.items() if v != before[k]} == {}
+    changed = {k: (before[k], v) for k, v in now.items() if v != before[k]}
+    assert changed == {}, changed
     if open_files() - held:
         gc.collect()  # what circles of objects hold is closed with them
     assert open_files() - held == set()

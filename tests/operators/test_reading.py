@@ -110,7 +110,7 @@ def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
         ("A = LIRE 'MDE' 'v.txt' ;", "did you mean 'MED'?"),
         ("A = LIRE 'v.txt' ;", "no mesh is known by the ending '.txt'"),
         ("A = LIRE 'v.mhs' ;", "did you mean '.msh'?"),
-        ("OPTI ACQU 'v.txt' ; ACQU I*ENTIER ;", "'WORD' is no number"),
+        ("OPTI ACQU 'v.txt' ; ACQU I*ENTIER ;", "'word' is no number"),
         ("OPTI ACQU 'v.txt' ; ACQU I*MAILLAGE ;", "'MAILLAGE' cannot be read"),
         ("OPTI ACQU 'v.txt' ; ACQU L*LISTREEL ;", "number of values must follow"),
         ("OPTI ACQU 'v.txt' ; ACQU A B C ;", "all have been read"),

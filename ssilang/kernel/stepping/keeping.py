@@ -13,7 +13,7 @@ import time as clock
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import fields, is_dataclass, replace
-from typing import Any, Protocol, cast
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -148,6 +148,13 @@ def put_back(record: Any, values: Sequence[Any]) -> None:
             array[...] = _fitting(value, array)
 
 
+def take_over(motion: Any, values: Sequence[Any]) -> None:
+    """A motion becomes that of `leaves` of a file, whose numbers are all there."""
+    put_back(motion, values)
+    if any(np.isnan(array).any() for array in _leaves(motion) if isinstance(array, np.ndarray)):
+        raise ValueError("NaN")
+
+
 def rebuilt(like: Any, values: Sequence[Any]) -> Any:
     """A record of the shape of another one with the values of `leaves`."""
     source = iter(values)
@@ -199,7 +206,7 @@ def recall(owner: Any, kept: Any) -> None:
 
 
 def _fitting(value: Any, like: Any) -> NDArray[Any]:
-    """An array of a file that stands for another one: of its shape and kind of numbers, all there.
+    """An array of a file that stands for another one: of its shape and kind of numbers.
 
     One that begins with no rows (cells that have yielded, past steps) has any number of them.
 
@@ -211,10 +218,9 @@ def _fitting(value: Any, like: Any) -> NDArray[Any]:
     sizes = np.shape(like if like is not None else value)
     if sizes[:1] == (0,):
         sizes = (*np.shape(value)[:1], *sizes[1:])
-    numbers = isinstance(value, np.ndarray) and value.dtype.kind in "biuf"
-    if not numbers or value.shape != sizes or np.isnan(value).any():
+    if not isinstance(value, np.ndarray) or value.dtype.kind not in "biuf" or value.shape != sizes:
         raise ValueError(f"{np.shape(value)}, {sizes}")
-    return cast(NDArray[Any], value)
+    return value
 
 
 @contextmanager
@@ -258,7 +264,7 @@ class KeptSteps:
             return False
         with fitting():
             self.done, h = len(kept["energies"]) - 1, self.history
-            put_back(self.motion, kept["motion"])
+            take_over(self.motion, kept["motion"])
             h.kept[: self.done + 1] = kept["energies"]
             h.iterations, h.seconds = kept["iterations"], kept["seconds"]
             if self.more is not None:

@@ -29,6 +29,7 @@ from ssilang.kernel.stepping.keeping import (
     recall,
     steady,
     stride_of,
+    take_over,
     told_to_leave,
 )
 from ssilang.kernel.stepping.problem.bodies import full_uplift
@@ -343,7 +344,7 @@ class Integration:
             if known["dt"] in made:
                 self._choices[known["dt"]] = made[known["dt"]]
             recall(self._choice(known["dt"]).loop, known["remembers"])
-        put_back(self.motion, kept["motion"])
+        take_over(self.motion, kept["motion"])
         self._closed[:], self._balance[:] = kept["closed"], kept["balance"]
         history.kept[: self._done + 1] = kept["energies"]
         told = kept["told"]

@@ -13,6 +13,10 @@ from ssilang.operators.prelude import *
 _ITEM = re.compile(r"'([^']*(?:''[^']*)*)'|([^\s,;]+)")
 
 
+class Bare(str):
+    """A word without quotes: its letters are capitals, as in a script."""
+
+
 @dataclass
 class Records:
     """The lines of a file and how far they have been read."""
@@ -55,7 +59,11 @@ def _item(match: re.Match[str]) -> str | float | int:
         value = float(re.sub("[dD]", "E", text))
         if math.isfinite(value):  # a gap in a record is no number
             return value
-    return text.upper()
+    return Bare(text)
+
+
+def _word(item: Any) -> Mot:
+    return Mot(item.upper() if isinstance(item, Bare) else item)
 
 
 def _whole(records: Records) -> int:
@@ -68,10 +76,10 @@ def _whole(records: Records) -> int:
 
 
 _READERS: dict[str, Callable[[Records, int], Any]] = {
-    "": lambda r, n: Mot(item) if isinstance(item := r.next(), str) else item,
+    "": lambda r, n: _word(item) if isinstance(item := r.next(), str) else item,
     "ENTIER": lambda r, n: _whole(r),
     "FLOTTANT": lambda r, n: float(r.number()),
-    "MOT": lambda r, n: Mot(r.next()),
+    "MOT": lambda r, n: _word(r.next()),
     "LISTENTI": lambda r, n: ListEnti([_whole(r) for _ in range(n)]),
     "LISTREEL": lambda r, n: ListReel([float(r.number()) for _ in range(n)]),
 }

@@ -113,7 +113,7 @@ def test_parabolas_touch_their_arc_at_their_ends():
     "made, match",
     [
         (lambda: curves.arc_about_centre(AT, place(1), AT), "coincide"),
-        (lambda: curves.arc_about_centre(place(0), AT, place(1, 1.8)), "distance"),
+        (lambda: curves.arc_about_centre(place(0), AT, place(1, 3.6)), "distance"),
         (lambda: curves.arc_about_centre(place(0), AT + 0.3 * FRAME[:, 2], place(np.pi)), "line"),
         (lambda: curves.arc_through(AT, AT + FRAME[0], AT + 3 * FRAME[0]), "line"),
         (lambda: curves.arc_about_axis(AT, AT, AT * 0, 1.0), "coincide"),
