@@ -16,7 +16,7 @@ import pytest
 MEANT = {"PYTEST_CURRENT_TEST", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"}
 """Of the environment: a sweep lets all processes that come later have one thread."""
 SIGNALS = signal.SIGINT, signal.SIGTERM
-USUAL = {signal.SIG_DFL, signal.default_int_handler}
+USUAL = {signal.SIG_DFL, signal.SIG_IGN, signal.default_int_handler}
 """What answers them elsewhere; a mesher changes the one for the other."""
 
 
