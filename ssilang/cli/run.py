@@ -393,7 +393,7 @@ def _tell_checkpoints(session: Session) -> None:
     from ssilang.operators.files.outputs import run_output
 
     kept = run_output(session).checkpoints
-    told = any(w.code == "operators.dynamics.checkpoint-left" for w in session.warnings)
+    told = session.warned("operators.dynamics.checkpoint-left")
     if kept is not None and kept.kept and not told:
         session.warn("cli.checkpoints-left", None, folder=kept.folder)
 

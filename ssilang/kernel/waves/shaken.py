@@ -169,9 +169,12 @@ def unlike_sides(
 
 
 def _strained(
-    block: "ElementMatrices", mass: "ElementMatrices", some: slice | IntArray, x: FloatArray,
+    block: "ElementMatrices",
+    mass: "ElementMatrices",
+    some: slice | IntArray,
+    x: FloatArray,
     name: str,
-) -> tuple[FloatArray, FloatArray]:  # fmt: skip
+) -> tuple[FloatArray, FloatArray]:
     """`s K s` and `t M t` of cells, s growing with coordinates x by one and t a translation."""
     moved = np.array([u == name for u in block.unknowns]) * 1.0
     strain = (x - x.mean(axis=1, keepdims=True))[:, block.local] * moved

@@ -320,7 +320,7 @@ def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str)
         return
     bend = abs(values[top - 1] - 2.0 * values[top] + values[top + 1]) / 8.0
     told = {"share": 100.0 * bend / (abs(values[top]) or 1.0), "kept": len(values), "steps": steps}
-    if told["share"] > _LOST and not any(w.code == code for w in call.session.warnings):
+    if told["share"] > _LOST and not call.session.warned(code):
         call.warn(code, name=name, **told)
 
 
@@ -345,7 +345,7 @@ def _tell_rounding(
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
     known = node in _LOOKED_AT.get(fields.track, ())
-    if free and not known and not any(w.code == code for w in call.session.warnings):
+    if free and not known and not call.session.warned(code):
         told = {"most": float(np.abs(values).max(initial=0.0)), "other": other}
         node_told = problem.numbering.table.told(node)
         call.warn(code, name=name, node=node_told, **told, moved=ways[other])

@@ -3,7 +3,6 @@
 `C = a M + b K` damps a motion of the pulsation w by `a / (2 w) + b w / 2` of the critical damping.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,11 +14,9 @@ from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.assembly import assemble
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.kernel.stepping.problem.plausibility import Start, Swing
+from ssilang.kernel.stepping.problem.plausibility import Start, Swing, Told
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import is_record, matter, strong_frequency
-
-Told = Iterator[tuple[str, dict[str, Any]]]
 
 MOST = 0.22  # of the critical damping: soil that shears by several thousandths has less
 OVERDAMPED = 2.0  # of it: what creeps, and does not swing

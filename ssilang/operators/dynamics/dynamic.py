@@ -20,7 +20,7 @@ from ssilang.operators.dynamics.motion_files import (
     vtk_observer,
 )
 from ssilang.operators.dynamics.recording import calculation_record, recorded
-from ssilang.operators.dynamics.reports import report
+from ssilang.operators.dynamics.reports import relative, report
 from ssilang.operators.dynamics.scheme_entries import contact_options, scheme_of
 from ssilang.operators.dynamics.watching import UpliftWatch, extremes_later, extremes_table
 from ssilang.operators.files.outputs import output_path, run_output
@@ -90,7 +90,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     finally:
         line.close()
     shown = extremes.known and uplift is not None  # macro-elements rock unseen
-    off = history.worst_imbalance / history.largest_energy if history.largest_energy else np.inf
+    off = relative(history.worst_imbalance, history.largest_energy)
     plausibility.warn_of_contact(entries, problem, extremes if shown else None, off)
     if record is not None:
         record.save(history, extremes)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
     Start,
+    Told,
     against_supports,
     contact_resolution,
     masses_alone,
@@ -63,8 +64,6 @@ if TYPE_CHECKING:
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-
-Told = Iterator[tuple[str, dict[str, Any]]]
 
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
@@ -335,11 +334,12 @@ def warn_of_strength(entries: Entries, problem: Problem) -> None:
 
 
 def warn_of_contact(
-    entries: Entries, problem: Problem, extremes: Extremes | None = None, off: float = np.inf
+    entries: Entries, problem: Problem, extremes: Extremes | None = None, off: float | None = None
 ) -> None:
     """Warn when the step does not resolve contact that was lost, as far as is known.
 
-    Energies `off` by next to nothing, of the largest, show that it does, but where they are kept.
+    Energies `off` by next to nothing, of the largest, show that it does, but where they are kept
+    (None: not known).
     """
     found, known = contact_resolution(problem), {} if extremes is None else extremes.found()
     lost = known.get(("OUVERTURE", ""))
@@ -350,7 +350,7 @@ def warn_of_contact(
     joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
     keeps = joints is not None and conserved(joints)
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
-    if (kept := keeps and problem.scheme.conserving) or off > RESOLVED:
+    if (kept := keeps and problem.scheme.conserving) or off is None or off > RESOLVED:
         entries.warn(code, **told, conserved=keeps, kept=kept)
 
 

@@ -74,7 +74,7 @@ def report(
         "most_interface_iterations": history.iterations,
         "seconds": history.seconds,
         "steps_per_second": steps / history.seconds if history.seconds > 0 else None,
-        "energy_imbalance": _relative(history.worst_imbalance, history.largest_energy),
+        "energy_imbalance": relative(history.worst_imbalance, history.largest_energy),
         "energy_imbalance_joules": history.worst_imbalance * _joules(session),
         "static": in_statics,
         "motions": [] if in_statics else largest_motions(problem).tolist(),
@@ -165,7 +165,7 @@ def _joules(session: Session) -> float:
     return 1.0 if units is None else units.factor("J")
 
 
-def _relative(imbalance: float, largest: float) -> float | None:
+def relative(imbalance: float, largest: float) -> float | None:
     """The imbalance as a part of the largest energy, None where there was none."""
     return imbalance / largest if largest > 0.0 else None
 

@@ -21,7 +21,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.plausibility import Start
+from ssilang.kernel.stepping.problem.plausibility import Start, Told
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.waves.shaken import (
     AXES,
@@ -38,8 +38,6 @@ from ssilang.kernel.waves.shaken import (
 )
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-Told = Iterator[tuple[str, dict[str, Any]]]
 
 STRONG = 3.0  # g; more than the ground of any earthquake but one
 WEIGHT = (0.05, 3.0)  # g; what pulls down
@@ -369,20 +367,20 @@ def _held_footings(start: Start, joints: Interface) -> Told:
         if len(kept):
             yield "operators.dynamics.footing-held", {"unknown": numbering.label(int(kept[0]))}
             return
-        mine = np.flatnonzero(upper & (numbering.codes == numbering.code(along)))
-        if start.shaking.any() and _level(rows[~alone], mine, numbering):
-            yield "operators.dynamics.footing-level", {"unknown": numbering.label(int(mine[0]))}
+        mine = upper & (numbering.codes == numbering.code(along))
+        if start.shaking.any() and mine.sum() >= MANY and _level(rows[~alone], mine, numbering):
+            told = {"unknown": numbering.label(int(mine.argmax()))}
+            yield "operators.dynamics.footing-level", told
             return
 
 
-def _level(ties: sp.csr_array, mine: IntArray, numbering: Numbering) -> bool:
+def _level(ties: sp.csr_array, mine: BoolArray, numbering: Numbering) -> bool:
     """Whether conditions among all of some unknowns let them move as one, and not turn."""
-    points = np.zeros((numbering.size, 3))
-    points[mine] = numbering.table.coordinates[numbering.nodes[mine]]
-    within, size = np.isin(np.arange(numbering.size), mine), np.ptp(points[mine], axis=0).max()
+    points = numbering.table.coordinates[numbering.nodes] * mine[:, None]
+    size = np.ptp(points[mine], axis=0).max()
     broken = np.abs(ties @ points).max(axis=1) > ROUNDING * size
-    broken &= (np.diff(ties.indptr) == abs(ties).sign() @ within) & (abs(ties @ within) < ROUNDING)
-    return len(mine) > MANY - 1 and len(np.unique(ties[broken].indices)) == len(mine)
+    broken &= (np.diff(ties.indptr) == abs(ties).sign() @ mine) & (abs(ties @ mine) < ROUNDING)
+    return bool(len(np.unique(ties[broken].indices)) == mine.sum())
 
 
 def _normal(joint: JointCells) -> str:

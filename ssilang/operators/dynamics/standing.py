@@ -4,7 +4,7 @@ A body that no-tension joints bear is in balance where the resultant of what pre
 them: the levers of all points about an axis have its own between them.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import product
 from typing import Any, cast
 
@@ -22,7 +22,7 @@ from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of, held
 from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
-from ssilang.kernel.stepping.problem.plausibility import Body, Start
+from ssilang.kernel.stepping.problem.plausibility import Body, Start, Told
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.waves.shaken import (
     AXES,
@@ -33,8 +33,6 @@ from ssilang.kernel.waves.shaken import (
 )
 from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
 from ssilang.operators.matrices.connections import rotary_without_mass
-
-Told = Iterator[tuple[str, dict[str, Any]]]
 
 OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 WEIGHT_TWICE = "operators.dynamics.weight-twice"

@@ -71,7 +71,7 @@ def _warn_of_size(call: Call, zone: Zone, system: UnitSystem) -> None:
     """Warn, once, of a body of some kilometres: millimetres of a drawing, most often."""
     here, code = system.factor("m"), "operators.models.unusual-size"
     size = _size(zone)
-    if size * here in _SIZES or any(w.code == code for w in call.session.warnings):
+    if size * here in _SIZES or call.session.warned(code):
         return
     told = {"size": size, "unit": system.written("m"), "system": system.name}
     call.warn(code, likely=list(likely_units(size, "m", _SIZES, system)), **told)

@@ -50,12 +50,18 @@ def norton(
     return Response(found, strained[:, None], tangent)
 
 
+def pace(parameters: PointParameters, q: FloatArray) -> FloatArray:
+    """What the creep strain to the power 1 / AF3 grows by in the step, under the stress q (m,)."""
+    power, age = parameters["AF2"], parameters["AF3"]
+    return np.asarray((parameters["AF1"] * q**power) ** (1.0 / age) * parameters[DURATION])
+
+
 def _crept(
     parameters: PointParameters, q: FloatArray, before: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Creep strain at the end of the step under the stress q, and its derivative by q."""
     power, age = parameters["AF2"], parameters["AF3"]
-    unit = (parameters["AF1"] * q**power) ** (1.0 / age) * parameters[DURATION]
+    unit = pace(parameters, q)
     total = before ** (1.0 / age) + unit
     found = total**age
     rise = np.divide(found * power * unit, total * q, out=np.zeros_like(q), where=total * q > 0)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.materials.plastic.creep import DURATION
+from ssilang.kernel.materials.plastic.creep import DURATION, pace
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 TURNS = 100
@@ -74,8 +74,7 @@ class CreepingSections(SectionParameters):
 
     def most(self, q: FloatArray, p: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The creep of the stress (m,) that does not relax: never less than the flow."""
-        age = self["AF3"]
-        unit = (self["AF1"] * q ** self["AF2"]) ** (1.0 / age) * self[DURATION]
+        age, unit = self["AF3"], pace(self, q)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             dp = p * np.expm1(age * np.log1p(unit / p ** (1.0 / age)))
         dp = np.where(p > 0.0, dp, unit**age)

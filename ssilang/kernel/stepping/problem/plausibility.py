@@ -9,6 +9,7 @@ What presses on ground that yields, against what the ground bears.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -102,6 +103,10 @@ class Body:
     size: float
 
 
+Told = Iterator[tuple[str, dict[str, Any]]]
+"""Codes of warnings with their data: what a look at a start gives."""
+
+
 class Start:
     """The start of a calculation: what several looks at it need, and what holds its bodies."""
 
@@ -158,11 +163,11 @@ class Start:
 
     def bodies(self) -> Iterator[Body]:
         """Those that supports let move, where they are few."""
-        problem, label = self.problem, bodies_of(self.problem)
+        problem, label, along = self.problem, bodies_of(self.problem), translations(self.problem).T
         points = problem.numbering.table.coordinates[problem.numbering.nodes]
         moving = np.unique(label[~held(problem)])
         for own in (label == k for k in moving if self.axes and len(moving) <= MOST_BODIES):
-            ways = dict(zip(self.axes, own * translations(problem).T, strict=True))
+            ways = dict(zip(self.axes, own * along, strict=True))
             up = ways[self.axes[-1]]
             mass, weight = float(up @ (problem.M @ up)), -float(up @ self.weight)
             size = float(np.ptp(points[own], axis=0).max())

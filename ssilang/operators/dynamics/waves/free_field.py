@@ -44,8 +44,7 @@ def _tell_coarse(entries: Entries, soil: SoilColumn, signal: CurvePart, cutoff: 
     speed = np.sqrt(soil.modulus / soil.density)
     wanted = speed / (_NODES * frequency)
     i = int(np.argmax(heights.values / wanted))
-    known = any(w.code == _COARSE for w in entries.call.session.warnings)
-    if heights.values[i] > (1 + 1e-9) * wanted[i] and not known:
+    if heights.values[i] > (1 + 1e-9) * wanted[i] and not entries.call.session.warned(_COARSE):
         told = {"top": soil.tops[i], "bottom": soil.tops[i + 1], "height": heights.values[i]}
         told |= {"wanted": wanted[i], "frequency": frequency, "speed": speed[i]}
         entries.warn(_COARSE, nodes=_NODES, **told)
