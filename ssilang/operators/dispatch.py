@@ -3,10 +3,6 @@
 A family adds its forms with the decorator `form`; help texts add up.
 """
 
-from collections.abc import Collection
-
-from ssilang.language.filled import Filled
-from ssilang.language.text.source import Span
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.soundness import other_values
 

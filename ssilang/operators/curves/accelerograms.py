@@ -4,7 +4,6 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.records.filters import brought_to_rest, integrated, without_trend
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL
 from ssilang.operators.curves.words import (
     COLOUR,
     LIMITS,

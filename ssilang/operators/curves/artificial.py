@@ -9,7 +9,6 @@ from ssilang.kernel.records.modulated import (
     perturbed,
     sines,
 )
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 from ssilang.operators.numbers.noise import session_generator

@@ -4,8 +4,6 @@ from weakref import WeakKeyDictionary
 
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
-from ssilang.language.filled import Filled
-from ssilang.language.values import LazyRows, LazyTable
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import (
     InstantField,

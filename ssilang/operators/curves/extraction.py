@@ -1,7 +1,6 @@
 """Curves in EXTR DIME CHAN ORDO MAXI MINI COPI ET and in signs."""
 
 from ssilang.io.plots.palette import NAMES
-from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import combined, is_complex
 from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union

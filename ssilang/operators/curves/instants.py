@@ -1,6 +1,6 @@
 """A nodal field of an instant of which only single values are asked for."""
 
-from typing import TYPE_CHECKING, TypeVar, overload
+from typing import TypeVar, overload
 
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.language.search import nearest

@@ -1,6 +1,5 @@
 """IPOL INTG PRIM on curves: interpolation, integrals, primitives."""
 
-from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (
     crossings,
     integral,
@@ -11,7 +10,6 @@ from ssilang.kernel.curves.algebra import (
 )
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.language.registry import either
 from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.curves.words import CURVE
 from ssilang.operators.dispatch import INTG

@@ -12,7 +12,6 @@ from ssilang.kernel.records.signals import (
     transform,
     turned,
 )
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL
 from ssilang.operators.curves.signals import filt
 from ssilang.operators.curves.words import (
     COLOUR,

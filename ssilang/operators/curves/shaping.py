@@ -6,7 +6,6 @@ from ssilang.kernel.records.signals import (
     inverse_laplace,
     mean_shock,
 )
-from ssilang.language.vocabulary.terms import RISING
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 from ssilang.operators.prelude import *
 

@@ -4,7 +4,6 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.signals import rotated_spectra
-from ssilang.language.vocabulary.terms import BELOW_CRITICAL, RISING
 from ssilang.operators.curves.words import (
     check_together,
     warn_of_damping,

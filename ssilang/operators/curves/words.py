@@ -4,7 +4,6 @@ import re
 
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.kernel.waves.shaken import strong_frequency
-from ssilang.language.values import LazyRows
 from ssilang.operators.prelude import *
 
 CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples show, they do

@@ -1,7 +1,6 @@
 """DESS: curves drawn to files."""
 
 from itertools import count
-from typing import TYPE_CHECKING
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LINE_OPTIONS, LineStyle, parse_style

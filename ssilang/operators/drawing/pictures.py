@@ -1,7 +1,6 @@
 """Pictures of a run: their formats, names and numbers."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ssilang.language.search import nearest
 from ssilang.operators.files.outputs import run_output

@@ -1,9 +1,5 @@
 """TRAC: meshes, deformed shapes, arrows and fields drawn to files."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
-from typing import Any
-
 import numpy as np
 
 from ssilang.io.errors import NoGraphicsError
@@ -17,7 +13,6 @@ from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along
 from ssilang.kernel.fields.deformed import Arrows, Deformed
-from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.submatrices import relation_nodes, support_mesh
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.combine import union as united

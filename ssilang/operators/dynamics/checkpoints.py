@@ -11,9 +11,8 @@ import time
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
-from ssilang.messages.message import Sentence
 from ssilang.operators.files.outputs import digests_of_read, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries

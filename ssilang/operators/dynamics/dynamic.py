@@ -1,7 +1,5 @@
 """ZDYN: the time integration behind the procedure DYNAMIC."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.interface.interface import without_zones
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.stepping.keeping import Cut

@@ -3,17 +3,14 @@
 The kernel's tracks hold them.
 """
 
-from dataclasses import field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ssilang.io.atomic import write_text
 from ssilang.io.tables import write_parquet
-from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.fields.node_algebra import restricted
-from ssilang.language.values import LazyRows, LazyTable, promises
-from ssilang.language.vocabulary.unit_systems import UnitSystem, result_unit
+from ssilang.language.values import promises
+from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
 from ssilang.operators.prelude import *
 

@@ -1,9 +1,6 @@
 """VTK and CSV series that a table of DYNAMIC asks for."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.io.tables import is_there
-from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic

@@ -1,8 +1,5 @@
 """What DYNAMIC and PASAPAS keep of a motion: tables of results, VTK series, CSV files."""
 
-from dataclasses import field
-from typing import TYPE_CHECKING
-
 from ssilang.io.vtk.labels import Labels
 from ssilang.operators.prelude import *
 

@@ -1,10 +1,8 @@
 """What a calculation says when it is done, and the warnings before."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.waves.shaken import largest_motions
-from ssilang.language.values import LazyTable, promises
+from ssilang.language.values import promises
 from ssilang.messages.message import sentence
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries

@@ -7,8 +7,6 @@ their imposed values are those of a translation.
 from itertools import chain
 
 from ssilang.io.ground_motions.record import G
-from ssilang.kernel.base.arrays import BoolArray
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, without_zones
@@ -17,7 +15,6 @@ from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms

@@ -1,7 +1,5 @@
 """ZGAM: the largest shear strains behind the procedure ISSLEQ."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.results.tensors import largest_shear_strain

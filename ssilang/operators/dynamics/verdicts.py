@@ -2,7 +2,6 @@
 
 from ssilang.io.recording import thinned_drawing
 from ssilang.kernel.waves.shaken import is_shaken
-from ssilang.language.values import LazyRows
 from ssilang.messages.message import teller
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *

@@ -1,6 +1,5 @@
 """What is watched during a motion beside what is kept: largest values, bodies that leave."""
 
-from dataclasses import field
 from typing import ClassVar
 
 from ssilang.kernel.interface.interface import Interface, is_macro
@@ -8,7 +7,7 @@ from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.track import Rows, Track
-from ssilang.language.values import LazyTable, promises
+from ssilang.language.values import promises
 from ssilang.operators.prelude import *
 
 SAMPLES = 24

@@ -6,11 +6,9 @@ from ssilang.kernel.elements.results.tensors import PRINCIPAL
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_algebra import through
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import Nature
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.plasticity.points import variable_names
-from ssilang.language.registry import each
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of

@@ -1,7 +1,5 @@
 """EXTR, ET and LIST of fields in cells."""
 
-from collections.abc import Collection
-
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.operators.dispatch import EXTR, listing, union
 from ssilang.operators.prelude import *

@@ -1,7 +1,5 @@
 """CHAN between supports of fields in cells, REDU and EXTR of models and fields in cells."""
 
-from functools import reduce
-
 from ssilang.kernel.elements.results.supports import (
     cells_of_mesh,
     cells_of_nodal,
@@ -14,8 +12,6 @@ from ssilang.kernel.elements.results.supports import (
     values_at_points,
 )
 from ssilang.kernel.fields.cell_algebra import united
-from ssilang.kernel.fields.cell_field import Support
-from ssilang.language.registry import When
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.prelude import *
 

@@ -2,7 +2,6 @@
 
 from ssilang.kernel.curves.cloud import Cloud, inverse_distance, moving_plane, on_grid
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.language.registry import each
 from ssilang.operators.dispatch import DIME, EXTR, REDU, listing, union
 from ssilang.operators.prelude import *
 

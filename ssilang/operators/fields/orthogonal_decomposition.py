@@ -1,6 +1,5 @@
 """POD: proper orthogonal decomposition of fields."""
 
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.proper_orthogonal import as_fields, modes, stacked
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.operators.prelude import *

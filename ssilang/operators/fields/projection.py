@@ -1,9 +1,6 @@
 """PROI: fields in cells projected on other supports."""
 
-from typing import NoReturn
-
 from ssilang.kernel.elements.results.projection import Lost, by_least_squares, on_mesh, on_model
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.operators.prelude import *
 
 _FIELDS = many("fields", "MCHAML", at_least=1, en="field at nodes")

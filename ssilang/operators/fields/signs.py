@@ -1,19 +1,13 @@
 """`+ - * / **`, ET, PSCA on fields at nodes and in cells."""
 
-from collections.abc import Collection
-from functools import reduce
-from typing import Any
-
 import numpy as np
 
-from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
 from ssilang.kernel.curves.algebra import combined
 from ssilang.kernel.elements.families import elastic_stress
 from ssilang.kernel.elements.solids.solid_moduli import HOOKE_COMPONENT
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.fields.node_field import Nature
-from ssilang.language.registry import When
 from ssilang.operators.dispatch import INVE, PSCA, PVEC, worded_union
 from ssilang.operators.numbers.arithmetic import _ARRAY, RULES, SIGNS, rule, rule_with_call
 from ssilang.operators.prelude import *

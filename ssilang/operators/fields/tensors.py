@@ -35,7 +35,6 @@ from ssilang.kernel.elements.solids.gradients import (
 )
 from ssilang.kernel.elements.solids.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *

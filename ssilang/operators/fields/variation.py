@@ -4,7 +4,6 @@ from ssilang.kernel.curves.algebra import beyond, interpolated
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.operators.curves.words import one_part
 from ssilang.operators.prelude import *
 

@@ -3,9 +3,7 @@
 import math
 import re
 from contextlib import suppress
-from dataclasses import field
 
-from ssilang.io.errors import InputError
 from ssilang.language.run.call import name_of
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.prelude import *

@@ -1,7 +1,5 @@
 """LIRE 'MESH' and SORT 'MESH': meshes of other programs, with their named parts."""
 
-from typing import NoReturn
-
 from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part
 from ssilang.io.mesh_files.reading import ENDINGS, Asked, read_mesh_file
 from ssilang.io.mesh_files.writing import WRITTEN, write_mesh_file

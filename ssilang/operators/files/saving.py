@@ -1,7 +1,6 @@
 """SAUV and REST: objects kept in a file between two runs."""
 
 from contextlib import closing
-from dataclasses import field
 
 # families of elements that restored models may have
 import ssilang.kernel.elements.springs
@@ -9,16 +8,13 @@ import ssilang.kernel.interface.family
 import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
-from ssilang.io.errors import InputError
-from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import parse_statements
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, Script, print_items
-from ssilang.language.values import Annule, LazyRows, LazyTable, Objet, Texte
-from ssilang.language.vocabulary.unit_systems import SYSTEMS
+from ssilang.language.values import Objet, Texte
 from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.session.configurations import Configuration

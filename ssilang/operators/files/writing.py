@@ -5,7 +5,6 @@ from pathlib import Path
 
 from ssilang.io.tables import Column, csv_lines
 from ssilang.language.run.session import Check
-from ssilang.language.vocabulary.unit_systems import UnitSystem
 from ssilang.operators.files.outputs import option_name, output_path, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, read_text

@@ -4,7 +4,6 @@ from contextlib import closing
 
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.atomic import replacing, write_text
-from ssilang.io.errors import InputError
 from ssilang.io.matrix_market import market_text, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines

@@ -1,6 +1,5 @@
 """SORT 'VTK ': meshes and fields to .vtu files and the .pvd that lists them."""
 
-from dataclasses import field
 from pathlib import Path
 
 from ssilang.io.run_output import RunOutput

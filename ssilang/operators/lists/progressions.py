@@ -2,7 +2,6 @@
 
 import math
 from array import array
-from typing import TYPE_CHECKING
 
 from ssilang.operators.prelude import *
 

@@ -3,7 +3,6 @@
 from ssilang.kernel.matrices import submatrices as parts
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
 from ssilang.kernel.matrices.condensation import dependence
-from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
 from ssilang.kernel.statics.linear import linear_system, product
 from ssilang.operators.dispatch import CHAN, DIME, EXTR, INTE, REDU, listing, union

@@ -8,8 +8,7 @@ from ssilang.kernel.matrices.build import (
     sum_of_outer_products,
 )
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
-from ssilang.kernel.matrices.matrix import dual_of
-from ssilang.kernel.mesh.cells import CELL_TYPES, many_noded
+from ssilang.kernel.mesh.cells import many_noded
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.matrices.supports import nodes_of
 from ssilang.operators.prelude import *

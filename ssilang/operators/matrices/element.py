@@ -10,10 +10,8 @@ from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.matrices.build import lumped_matrix, nodal_diagonal
-from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.mesh.boundary import faces_inside
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
-from ssilang.language.registry import Argument
 from ssilang.messages.message import Refusal, find
 from ssilang.operators.models.contact import model_relations
 from ssilang.operators.prelude import *

@@ -2,7 +2,6 @@
 
 from ssilang.kernel.contact import touching
 from ssilang.kernel.matrices.relations import in_space
-from ssilang.language.values import ANNULE, Annule
 from ssilang.operators.matrices.relations import length_of
 from ssilang.operators.matrices.supports import as_matrix
 from ssilang.operators.prelude import *

@@ -3,7 +3,6 @@
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.relations import Term
-from ssilang.language.registry import each
 from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
 from ssilang.operators.mesh.changes.cells import tie_relations
 from ssilang.operators.prelude import *

@@ -4,7 +4,6 @@ from ssilang.kernel.elements.solids.kinematics import SECTION_UNKNOWNS
 from ssilang.kernel.matrices import imposed
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices.matrix import Relations
-from ssilang.language.registry import Argument, When
 from ssilang.operators.prelude import *
 
 _SENSE = {"MINI": 1, "MAXI": -1}

@@ -1,6 +1,5 @@
 """How near points count as being at one place."""
 
-from ssilang.language.registry import When
 from ssilang.operators.prelude import *
 
 DISTANCE = opt(

@@ -1,6 +1,5 @@
 """PJBA PSMO IDLI: projection on modes and static shapes, pseudo-modes."""
 
-from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.modal.basis import (
     projected_matrix,
@@ -11,7 +10,6 @@ from ssilang.kernel.modal.basis import (
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.modal.shape_models import shape_points
 from ssilang.kernel.statics.linear import product, solve
-from ssilang.language.registry import either
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.prelude import *

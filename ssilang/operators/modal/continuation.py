@@ -1,6 +1,5 @@
 """ZCON of harmonic balance along the arc (CONTINU, 'HBM' = VRAI), nonlinear forces by CHARMECA."""
 
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
 from ssilang.kernel.continuation.arc import Point as Solution
 from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
@@ -14,7 +13,6 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
-from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names

@@ -1,7 +1,5 @@
 """DYNC: branches of periodic motions on modes by harmonic balance and continuation."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.operators.modal.dyne import (

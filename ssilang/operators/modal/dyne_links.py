@@ -1,7 +1,5 @@
 """Tables LIAISON_ELEMENTAIRE of DYNE read as links of the kernel, and their results as tables."""
 
-from dataclasses import field
-
 from ssilang.kernel.modal import links as law
 from ssilang.kernel.modal.links import Link, LinkArrays, Points, link_arrays, segments_of
 from ssilang.operators.modal.basis import Shape

@@ -3,7 +3,6 @@
 from numpy.typing import ArrayLike
 
 from ssilang.kernel.matrices.build import nodal_diagonal
-from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.modal.basis import MULTIPLIERS, on_marks, projected_matrix, work
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.operators.matrices.element import amor, mass, rigi

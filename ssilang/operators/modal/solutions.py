@@ -1,6 +1,5 @@
 """SOLUTION: modes as one object (MANU 'MODE', VIBR 'SOLU'), and the operators that read it."""
 
-from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements import families
 from ssilang.kernel.waves.shaken import AXES
 from ssilang.operators.dispatch import DIME, MANU, union

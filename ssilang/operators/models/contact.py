@@ -1,8 +1,5 @@
 """MODE ... 'CONTACT': two sides that must not go into each other, cables that slide in a body."""
 
-from typing import TYPE_CHECKING
-
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field

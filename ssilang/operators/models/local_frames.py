@@ -23,7 +23,6 @@ from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, sk
 from ssilang.kernel.elements.results.tensors import tensor
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.mesh.lines.lines import frenet_frames
 from ssilang.operators.fields.turning import turned_node_field
 from ssilang.operators.matrices.element import joined, present

@@ -1,11 +1,7 @@
 """MATE and CARA: fields of parameters of a model."""
 
-from collections.abc import Collection
-
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.zone_fields import INSTEAD, zone_field
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.parameter_table import ELASTIC_SHEAR
 from ssilang.kernel.interface.laws.parameter_table import check_given as check_joint
@@ -13,7 +9,7 @@ from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.parameters import geometric_names, idle_names, known_names
 from ssilang.kernel.materials.plastic.backbone import break_points, hardening_of, hyperbola
 from ssilang.kernel.materials.plastic.laws import check_given, plastic_law
-from ssilang.language.registry import HelpTable, each
+from ssilang.language.registry import HelpTable
 from ssilang.language.search import nearest_names
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.prelude import *

@@ -1,7 +1,5 @@
 """MODE: which element and which law stand on a mesh."""
 
-from dataclasses import field
-
 import ssilang.kernel.interface.family  # noqa: F401  joints as a family of elements
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
@@ -27,7 +25,6 @@ from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.modal import shape_models
 from ssilang.language.cast3m import IN_SCOPE
 from ssilang.language.search import nearest
-from ssilang.messages.message import Sentence
 from ssilang.operators.dispatch import union
 from ssilang.operators.models.contact import METHODS, cable_model, contact_model
 from ssilang.operators.prelude import *

@@ -1,9 +1,6 @@
 """MOCU: moments and curvatures of sections of fibres."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
-from ssilang.language.registry import When
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.language.vocabulary import Quantity
-from ssilang.language.vocabulary.unit_systems import MATTER, SYSTEMS, UnitSystem, likely_units
+from ssilang.language.vocabulary.unit_systems import MATTER, likely_units
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
 

@@ -3,12 +3,9 @@
 import operator as python
 from typing import TypeVar
 
-from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.base.powers import real_power
-from ssilang.language.filled import Filled
 from ssilang.language.registry import SCALAR_RULES
-from ssilang.language.text.source import Span
-from ssilang.messages.message import Said, Sentence
+from ssilang.messages.message import Said
 from ssilang.operators.prelude import *
 
 Rule = Callable[[Any, Any], Any]

@@ -1,7 +1,6 @@
 """MASQ: ones where values meet a relation, zeros elsewhere; BORN: values cut at bounds."""
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.language.registry import each, either
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.prelude import *
 

@@ -1,7 +1,5 @@
 """QUIT ITER FIN ASSI ARGU RESP COMM: where statements go on; INFO NOTI AIDE SOUC: what is told."""
 
-from typing import NoReturn
-
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.library import standard_procedures
@@ -10,7 +8,6 @@ from ssilang.language.say.reference import (
     overview,
     procedure_page,
 )
-from ssilang.language.values import ANNULE
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary.pages import help_text, near_name
 

@@ -3,7 +3,6 @@
 from ssilang.io.plots.labels import Annotation
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.fields.deformed import Arrows, Deformed
-from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language.values import is_empty
 from ssilang.operators.prelude import *
 

@@ -2,7 +2,7 @@
 
 from ssilang.language.registry import find_operator
 from ssilang.language.run.procedures import BoundMethod, call_procedure
-from ssilang.language.values import ANNULE, Objet
+from ssilang.language.values import Objet
 from ssilang.operators.files.outputs import forbidden_path, run_output
 from ssilang.operators.lists.search import equal_items
 from ssilang.operators.prelude import *

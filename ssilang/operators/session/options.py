@@ -5,12 +5,10 @@ import sys
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
-from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
-from ssilang.language.registry import each
 from ssilang.language.search import nearest, nearest_names
-from ssilang.language.vocabulary.unit_systems import SYSTEMS
 from ssilang.operators.prelude import *
 from ssilang.operators.session.option_files import UNIT, include, read_file_option
 from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE

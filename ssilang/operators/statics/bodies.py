@@ -1,7 +1,5 @@
 """Plastic bodies of the tables of PASAPAS and DYNAMIC."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.results.frames import FOLLOWING
 from ssilang.kernel.elements.solids.finite_motion import motion_of

@@ -1,7 +1,6 @@
 """Loads on a structure followed along the arc length; ZCON: both problems of CONTINU."""
 
 import time
-from typing import TYPE_CHECKING
 
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report

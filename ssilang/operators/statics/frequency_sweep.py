@@ -1,13 +1,10 @@
 """PASAPAS under OPTI 'MODE' 'FREQ': harmonic responses over a sweep of frequencies."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures

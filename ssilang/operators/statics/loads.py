@@ -1,7 +1,5 @@
 """FORC MOME PRES FSUR CNEQ: nodal forces of loads."""
 
-from typing import NoReturn
-
 from ssilang.kernel.elements.loads.loads import (
     body_force,
     line_load,
@@ -15,9 +13,7 @@ from ssilang.kernel.elements.loads.loads import (
 from ssilang.kernel.elements.results.supports import model_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.queries.quality import repeated_cells
-from ssilang.language.registry import either
 from ssilang.operators.matrices.element import joined, nodes_of
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *

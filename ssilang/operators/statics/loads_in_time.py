@@ -1,9 +1,6 @@
 """CHAR TIRE, and loadings in EXTR DIME ENLE ET CHAN."""
 
-from functools import reduce
-
 from ssilang.kernel.curves.algebra import check_increasing
-from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.curves.words import one_part
 from ssilang.operators.dispatch import CHAN, DIME, ENLE, EXTR, union

@@ -1,8 +1,5 @@
 """ZPAS: the load steps behind the procedure PASAPAS."""
 
-from typing import TYPE_CHECKING
-
-from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint

@@ -1,9 +1,7 @@
 """Loads of PASAPAS that depend on where bodies are: of CHARMECA, pressures on sides that turn."""
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
-from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk

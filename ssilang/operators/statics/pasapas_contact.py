@@ -1,13 +1,11 @@
 """Contact, friction and sliding cables of PASAPAS's model: conditions, least values, limits."""
 
-from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
 from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
-from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
 from ssilang.operators.models.contact import FROCABLE, model_relations

@@ -4,7 +4,6 @@ Each time has the characteristics of its own fields. Elastic strains stay while 
 stresses are D(T) (strain - thermal strain - plastic strain) at all times.
 """
 
-from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.families import family_of, moduli_of
 from ssilang.kernel.elements.family import apply_moduli, cell_block

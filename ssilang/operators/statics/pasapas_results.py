@@ -1,8 +1,5 @@
 """The tables that PASAPAS fills."""
 
-from dataclasses import field
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.statics.thermal_load import ThermalStress

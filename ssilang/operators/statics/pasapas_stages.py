@@ -4,10 +4,6 @@ A model that changes (CHAR 'MODE') builds and digs: cells that come are without 
 come, cells that go take their forces away.
 """
 
-from dataclasses import field
-from typing import TYPE_CHECKING
-
-from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.interface.elements import is_joint

@@ -1,7 +1,5 @@
 """PERSO1, REEV_MEC: what procedures of the user see of PASAPAS, and what they change of it."""
 
-from typing import TYPE_CHECKING
-
 from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.files.saving import save

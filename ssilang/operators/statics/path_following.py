@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import field
-from typing import TYPE_CHECKING
 
-from ssilang.kernel.curves.curve import LoadPart
 from ssilang.kernel.elements.families import family_of, strain
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector, vector_to_field

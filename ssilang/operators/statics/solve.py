@@ -1,9 +1,6 @@
 """RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +11,7 @@ from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenv
 from ssilang.operators.matrices.connections import warn_connections
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
-from ssilang.operators.workspace import solver_of, workspace
+from ssilang.operators.workspace import solver_of
 
 FAR, NOT_SMALL = 10.0, 0.2
 """Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""

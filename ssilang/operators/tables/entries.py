@@ -3,11 +3,8 @@
 from contextlib import contextmanager
 
 from ssilang.kernel.stepping.times import every, nearest
-from ssilang.language.text.source import Span
-from ssilang.language.values import Annule
 from ssilang.language.vocabulary.entries import NUMBER, TableEntry
 from ssilang.language.vocabulary.entry_checks import TableCheck, checked, shown
-from ssilang.messages.message import Sentence
 from ssilang.operators.prelude import *
 
 

@@ -1,6 +1,5 @@
 """TABL INDE OTER ETG and tables in DIME, ENLE, COPI; tables of type VECTEUR in sums."""
 
-from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.mesh.combine import gathered
 from ssilang.operators.dispatch import COPI, DIME, ENLE, unite_all
 from ssilang.operators.numbers.arithmetic import rule

@@ -2,7 +2,7 @@
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language.text.tree import print_items
-from ssilang.language.values import ANNULE, Objet, Texte
+from ssilang.language.values import Objet, Texte
 from ssilang.operators.dispatch import LISTINGS, listing
 from ssilang.operators.fields.signs import nature_word
 from ssilang.operators.prelude import *

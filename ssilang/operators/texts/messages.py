@@ -1,6 +1,6 @@
 """MESS, ERRE, SAUT, TITR: what a script says to its reader."""
 
-from ssilang.messages.message import Sentence, find
+from ssilang.messages.message import find
 from ssilang.operators.prelude import *
 from ssilang.operators.texts.words import TEXT, TEXT_IS_FREE, filling, read_text, written
 

@@ -5,7 +5,6 @@ unknowns are; the vocabulary (`ssilang.language.vocabulary`) knows what each nam
 MODE, MATE, OPTI and the checker ask here.
 """
 
-from collections.abc import Collection
 from functools import cache
 
 from ssilang.kernel.elements import springs
@@ -27,7 +26,6 @@ from ssilang.kernel.materials.behaviours import (
 )
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
-from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON

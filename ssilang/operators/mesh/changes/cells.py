@@ -5,7 +5,6 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.boundary import edges, faces
-from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.degree import (
     COMPLETE,
     LINEAR,
@@ -17,7 +16,6 @@ from ssilang.kernel.mesh.changes.degree import (
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parted
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union
-from ssilang.language.registry import either
 from ssilang.operators.dispatch import CHAN, COUL, MANU
 from ssilang.operators.matrices.supports import as_matrix
 from ssilang.operators.prelude import *

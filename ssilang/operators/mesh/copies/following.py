@@ -1,7 +1,5 @@
 """DEDU: copies that follow some nodes, or go through the map between two meshes."""
 
-from typing import NoReturn
-
 from ssilang.kernel.fields.deformed import displacements, moving_components
 from ssilang.kernel.mesh.changes.transform import NodeCopier, followed, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes

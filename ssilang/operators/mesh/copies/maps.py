@@ -11,7 +11,6 @@ from ssilang.kernel.mesh.surfaces.analytic import (
     sphere_shape,
     torus_shape,
 )
-from ssilang.language.registry import Argument
 from ssilang.operators.prelude import *
 
 RATIO = arg("ratio", "FLOTTANT", en="ratio", usual=NOT_ZERO)

@@ -1,7 +1,6 @@
 """Arcs of circle: CERC CER3 PARC, and CONG for rounded corners."""
 
 import math
-from functools import partial
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.lines.curves import (

@@ -2,7 +2,6 @@
 
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.kernel.mesh.boundary import chained
-from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted
 from ssilang.kernel.mesh.combine import (
     of_type,

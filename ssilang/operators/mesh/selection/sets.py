@@ -1,7 +1,5 @@
 """Meshes as sets: ET DIFF INTE UNIQ, and VISA for nodes at the same place."""
 
-from collections.abc import Collection
-
 from ssilang.kernel.mesh.combine import (
     intersection,
     poi1,
