@@ -186,8 +186,7 @@ def local_socket() -> "socket.socket | None":
     net = _module("socket")
     if not hasattr(net, "AF_UNIX") or not hasattr(net, "send_fds"):
         return None
-    made: socket.socket = net.socket(net.AF_UNIX, net.SOCK_STREAM)
-    return made
+    return net.socket(net.AF_UNIX, net.SOCK_STREAM)
 
 
 def is_of_user(connection: "socket.socket") -> bool:

@@ -83,8 +83,7 @@ class Part:
             told = {"side": side, "near": near, "known": list(ends)}
             raise refused("api.no-such-side", self.language, MissingKey, **told)
         axis, last = divmod(ends.index(side), 2)
-        found: IntArray = np.take(self.ids, -1 if last else 0, axis=self.ids.ndim - 1 - axis)
-        return found
+        return np.take(self.ids, -1 if last else 0, axis=self.ids.ndim - 1 - axis)
 
 
 @dataclass(frozen=True, eq=False)
@@ -429,8 +428,7 @@ class Motion:
         """Share of a joint's area that pushes, in time (n_times,)."""
         pushes = self.traction(joint)[:, :, -1] < 0.0
         weights = self._cells(joint)[0].weights.ravel()
-        found: FloatArray = pushes @ weights / weights.sum()
-        return found
+        return pushes @ weights / weights.sum()
 
     def _cells(self, joint: Joint) -> tuple[Any, slice]:
         """The kernel's cells of a joint, and which of its points they are."""

@@ -126,8 +126,7 @@ def nodes_of(table: Table, word: str, component: str) -> IntArray:
         if component not in numbering.unknowns:
             return np.zeros(0, dtype=np.int64)
         codes = numbering.codes[track.shown]
-        found: IntArray = numbering.nodes[track.shown[codes == numbering.code(component)]]
-        return found
+        return numbering.nodes[track.shown[codes == numbering.code(component)]]
     first = fields[0].make() if isinstance(fields[0], InstantField) else fields[0]
     part = first.components.get(component) if isinstance(first, NodeField) else None
     return np.zeros(0, dtype=np.int64) if part is None else part.nodes

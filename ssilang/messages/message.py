@@ -178,8 +178,7 @@ def _french() -> dict[str, str]:
 
 def help_texts(family: str, operator: str) -> Mapping[str, Any]:
     """What help says of an operator: `en`, `fr`, `syntax`, and the same of forms by function."""
-    found: Mapping[str, Any] = _of_family("pages", family).get(operator, {})
-    return found
+    return _of_family("pages", family).get(operator, {})
 
 
 def examples(family: str, operator: str) -> tuple[str, ...]:

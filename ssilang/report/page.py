@@ -214,8 +214,7 @@ def _notes(results: Results, told: Teller) -> list[str]:
 
 def _runs(results: Results) -> list[dict[str, Any]]:
     statistics = results.summary.get("statistics", {})
-    found: list[dict[str, Any]] = statistics.get("calculations", [])
-    return found
+    return statistics.get("calculations", [])
 
 
 _OF_CHECKS = (

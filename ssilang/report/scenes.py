@@ -278,10 +278,9 @@ class _Shape:
 def _mises(s: FloatArray) -> FloatArray:
     """Von Mises' stress of tensors (n, 6): XX YY ZZ XY YZ XZ."""
     x, y, z, xy, yz, xz = s.T
-    found: FloatArray = np.sqrt(
+    return np.sqrt(
         0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3.0 * (xy**2 + yz**2 + xz**2)
     )
-    return found
 
 
 def _cells_of(grid: Any) -> tuple[IntArray, IntArray]:

@@ -23,8 +23,7 @@ class Levels:
 
     def rgba(self, values: FloatArray) -> FloatArray:
         """Colours (n, 4) of values (n,)."""
-        made: FloatArray = self.colours(self.norm(values))
-        return made
+        return self.colours(self.norm(values))
 
 
 def choose_levels(

@@ -87,8 +87,7 @@ class _Keys:
         wanted = np.sort(other.connectivity, axis=1)
         at = np.minimum(np.searchsorted(keys, _hashed(wanted)), len(keys) - 1)
         rows = order[at]
-        found: IntArray = rows[(nodes[rows] == wanted).all(axis=1)]
-        return found
+        return rows[(nodes[rows] == wanted).all(axis=1)]
 
     def _index(self) -> tuple[NDArray[np.uint64], IntArray, IntArray]:
         if self._sorted is None:

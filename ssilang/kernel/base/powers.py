@@ -29,5 +29,4 @@ def real_power(base: Any, exponent: Any) -> NDArray[np.float64]:
             "kernel.base.no-real-power", number=x[low][worst], power=power[low][worst]
         )
     roots = np.power(np.abs(x), power)
-    made: NDArray[np.float64] = np.where(low, -roots, np.power(np.where(low, 1.0, x), power))
-    return made
+    return np.where(low, -roots, np.power(np.where(low, 1.0, x), power))

@@ -212,8 +212,7 @@ class FrictionRows:
         bound = self.coefficient[own] * p + self.constant[own]
         limit[own] = np.where(p > 0.0, bound, 0.0)
         size = np.linalg.norm(tau.reshape(-1, self.width), axis=1)
-        found: BoolArray = (limit > 0.0) & (size < (1.0 - STICKING) * limit)
-        return found
+        return (limit > 0.0) & (size < (1.0 - STICKING) * limit)
 
 
 def friction_rows(

@@ -175,8 +175,7 @@ def stopped_motions(contact: ContactRows, free: FloatArray) -> FloatArray:
     """
     B = contact.pushing @ free
     _, sizes, motions = np.linalg.svd(B, full_matrices=False)
-    found: FloatArray = motions[sizes > UNSTOPPED * sizes.max(initial=0.0)].T
-    return found
+    return motions[sizes > UNSTOPPED * sizes.max(initial=0.0)].T
 
 
 def step_solver(problem: Problem, effective: Effective) -> StepSolver:

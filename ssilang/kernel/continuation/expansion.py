@@ -158,8 +158,7 @@ class FrequencyProblem:
 
     def load(self, t: float) -> FloatArray:
         """F at t on the motions that supports leave (r,)."""
-        found: FloatArray = self.T.T @ (self.loading.forces @ self.loading.at(np.array([t]))[0])
-        return found
+        return self.T.T @ (self.loading.forces @ self.loading.at(np.array([t]))[0])
 
     def at(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Residual and derivatives in q (r,) and t."""

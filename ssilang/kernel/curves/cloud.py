@@ -72,8 +72,7 @@ def inverse_distance(
         weights = np.where(distance > 0, distance, 1.0) ** -power
     weights = np.where(exact[:, None], 0.0, weights)
     weights[exact, close[exact]] = 1.0
-    found: FloatArray = weights @ values / weights.sum(axis=1, keepdims=True)
-    return found
+    return weights @ values / weights.sum(axis=1, keepdims=True)
 
 
 def moving_plane(

@@ -179,8 +179,7 @@ def per_cell(array: FloatArray, cells: slice) -> FloatArray:
 def apply_moduli(moduli: FloatArray, strain: FloatArray) -> FloatArray:
     """Stresses from strains (n_cells, n_strains, n_points), moduli (n or 1, p or 1, s, s)."""
     if moduli.shape[:2] == (1, 1):
-        out: FloatArray = np.einsum("st,ctp->csp", moduli[0, 0], strain)
-        return out
+        return np.einsum("st,ctp->csp", moduli[0, 0], strain)
     n, _, p = strain.shape
     full = np.broadcast_to(moduli, (n, p, *moduli.shape[2:]))
     out = np.einsum("cpst,ctp->csp", full, strain)
@@ -200,8 +199,7 @@ def contract(operator: StrainOperator, moduli: FloatArray) -> FloatArray:
             DB[:, i] += moduli[..., i, j, None] * B[:, j]
     DB *= operator.weights[:, None, :, None]
     left, right = B.reshape(n, s * p, m), DB.reshape(n, s * p, m)
-    values: FloatArray = np.matmul(left.transpose(0, 2, 1), right)
-    return values
+    return np.matmul(left.transpose(0, 2, 1), right)
 
 
 def node_major_layout(zone: Zone, unknowns: tuple[str, ...]) -> Layout:

@@ -66,10 +66,7 @@ class Bed:
 
     def taken(self, t: FloatArray) -> FloatArray:
         """Moments and force (..., d) that yielding takes, from tractions (..., g, d) there."""
-        found: FloatArray = np.einsum(
-            "g,...gi,gij->...j", self.areas, t, self.operator()[:, :, : t.shape[-1]]
-        )
-        return found
+        return np.einsum("g,...gi,gij->...j", self.areas, t, self.operator()[:, :, : t.shape[-1]])
 
     def in_contact(self, w: FloatArray, t: FloatArray) -> FloatArray:
         """Share (...) of its area that presses, from w, t (..., g, d) at its places."""

@@ -549,8 +549,7 @@ def point_history(
         )
         if bed is not None:
             common = common_results(bed, common[1:], *at_places)
-        found: FloatArray = common[COMMON_VARIABLES.index(component)]
-        return found
+        return common[COMMON_VARIABLES.index(component)]
     if bed is not None and component in OF_WHOLE:
         return whole_variables(bed, *at_places)[component]
     shown = shown_variables(law_of(j.zone.behaviour), state[:, None], interface.dimension)

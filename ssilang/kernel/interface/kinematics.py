@@ -38,8 +38,7 @@ class JointCells:
         """`w = operator @ jumps`: array (n, g, d, m d), nodal jumps node by node."""
         n, g, d, _ = self.frames.shape
         product = np.einsum("gm,ngij->ngimj", self.shape, self.frames)
-        found: FloatArray = product.reshape(n, g, d, -1)
-        return found
+        return product.reshape(n, g, d, -1)
 
 
 def joint_cells(zone: Zone, given: ZoneField | None = None) -> JointCells:

@@ -135,8 +135,7 @@ def _regular(A: sp.csr_array, problem: ReducedProblem) -> Solve | None:
     def solve(b: FloatArray) -> FloatArray:
         full = np.zeros((A.shape[0], *b.shape[1:]))
         full[:size] = (b.T * scale[:size]).T
-        found: FloatArray = (factor.solve(full)[:size].T * scale[:size]).T
-        return found
+        return (factor.solve(full)[:size].T * scale[:size]).T
 
     return solve
 

@@ -181,8 +181,7 @@ class FibreParameters(PointParameters):
 
     def elastic_energy(self, stress: FloatArray) -> FloatArray:
         """Energy (m,) that stresses (m, 6) store in a unit of volume."""
-        found: FloatArray = 0.5 * np.einsum("mi,mij,mj->m", stress, self.compliance, stress)
-        return found
+        return 0.5 * np.einsum("mi,mij,mj->m", stress, self.compliance, stress)
 
 
 @dataclass(frozen=True, eq=False)

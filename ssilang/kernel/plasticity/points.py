@@ -141,8 +141,7 @@ class PlasticPoints:
         """Element vectors (n_cells, n_rows) in balance with stresses (m, 6)."""
         n, s, p, rows = self.B.shape
         weighted = (self.gathered(self.paired(stress)) * self.weights[:, None]).reshape(n, 1, s * p)
-        found: FloatArray = np.matmul(weighted, self.B.reshape(n, s * p, rows))[:, 0]
-        return found
+        return np.matmul(weighted, self.B.reshape(n, s * p, rows))[:, 0]
 
     def stiffness(self, tangent: FloatArray) -> FloatArray:
         """Element matrices (n_cells, n_rows, n_rows) of tangents (m, 6, 6)."""

@@ -356,8 +356,7 @@ class _BulkLoop(SparseLoop):
         """
         if not self._carries or len(self._increments) < 2:
             return None
-        found: FloatArray = dt * (2 * self._increments[1] - self._increments[0])
-        return found
+        return dt * (2 * self._increments[1] - self._increments[0])
 
     @property
     def solver(self) -> BulkSolver:

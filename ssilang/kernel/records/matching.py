@@ -149,7 +149,4 @@ def wavelets(
     turning = 2.0 * np.pi * frequencies[:, None] * np.sqrt(1.0 - damping**2)
     delay = np.arctan(np.sqrt(1.0 - damping**2) / damping) / turning
     s = times - peaks[:, None] + delay
-    found: FloatArray = np.cos(turning * s) * np.exp(
-        -((s / (1.178 * frequencies[:, None] ** -0.93)) ** 2)
-    )
-    return found
+    return np.cos(turning * s) * np.exp(-((s / (1.178 * frequencies[:, None] ** -0.93)) ** 2))

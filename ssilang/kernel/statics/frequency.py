@@ -262,5 +262,4 @@ def natural_frequencies(system: _System) -> FloatArray:
     real = np.asarray(values[np.isfinite(values)].real, float)
     if not len(real) or real.max() <= 0.0:
         return np.zeros(0)
-    found: FloatArray = np.sqrt(np.sort(real[real > 1e-8 * real.max()])) / (2.0 * np.pi)
-    return found
+    return np.sqrt(np.sort(real[real > 1e-8 * real.max()])) / (2.0 * np.pi)

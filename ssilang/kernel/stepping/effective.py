@@ -49,8 +49,7 @@ class Effective:
     def solve(self, r: FloatArray) -> FloatArray:
         """Admissible motion (n,) or (n, k) under r, for `C du = 0`."""
         to, back = self._conditions
-        found: FloatArray = back @ self.inverse.solve(to @ r)
-        return found
+        return back @ self.inverse.solve(to @ r)
 
     @cached_property
     def _conditions(self) -> tuple[Any, Any]:

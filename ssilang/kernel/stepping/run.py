@@ -124,8 +124,7 @@ class History:
         """Energy that came from nowhere since the start, shape (n_times,)."""
         kept = self.energies.T
         total = kept[0] + kept[1] + kept[2] + kept[3] + kept[4] - kept[5]
-        found: FloatArray = total - total[0]
-        return found
+        return total - total[0]
 
     @property
     def given(self) -> FloatArray:
@@ -139,8 +138,7 @@ class History:
         work = kept[:, 5]
         reach = np.maximum.accumulate(work) - np.minimum.accumulate(work)
         least = LITTLE * np.abs(kept).max(initial=0.0)
-        found: FloatArray = np.maximum(np.abs(kept[0, :3]).sum() + reach, least)
-        return found
+        return np.maximum(np.abs(kept[0, :3]).sum() + reach, least)
 
 
 @dataclass(eq=False)

@@ -31,8 +31,7 @@ def expand(X: FloatArray, z: FloatArray) -> FloatArray:
     A product of matrices sums in an order that depends on how many rows there are; here a few rows
     of X give to the last bit what all of them give.
     """
-    found: FloatArray = np.vecdot(np.ascontiguousarray(z)[:, None], np.ascontiguousarray(X)[None])
-    return found
+    return np.vecdot(np.ascontiguousarray(z)[:, None], np.ascontiguousarray(X)[None])
 
 
 class Map(Protocol):

@@ -27,8 +27,7 @@ def _of_lists(
     if not others:
         if not len(arrays[0]):
             raise call.error("operators.fields.list-empty", value)
-        found: float | int = (arrays[0].max() if largest else arrays[0].min()).item()
-        return found
+        return (arrays[0].max() if largest else arrays[0].min()).item()
     if len({len(a) for a in arrays}) > 1:
         raise call.error(
             "operators.fields.list-lengths-differ", lengths=[str(len(a)) for a in arrays]

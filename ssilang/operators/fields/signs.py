@@ -328,8 +328,7 @@ def vector_product(
     made: ListMots,
 ) -> NodeField:
     """Vector product at each node."""
-    found: NodeField = _crossed(node_algebra, first, second, _lists_of(call, left, right, made))
-    return found
+    return _crossed(node_algebra, first, second, _lists_of(call, left, right, made))
 
 
 @PVEC.form(
@@ -347,8 +346,7 @@ def vector_product_in_cells(
     made: ListMots,
 ) -> CellField:
     """Vector product at each point of the cells."""
-    found: CellField = _crossed(cell_algebra, first, second, _lists_of(call, left, right, made))
-    return found
+    return _crossed(cell_algebra, first, second, _lists_of(call, left, right, made))
 
 
 def _crossed(algebra: Any, first: Any, second: Any, names: list[list[str]]) -> Any:

@@ -194,5 +194,4 @@ def stressed(
 @rigi.form()
 def stiffness_of_modes(call: Call, solution: Solution = _MAIN) -> Matrix:
     """Generalised stiffnesses on the diagonal."""
-    made: Matrix = modal_stiffness(call, solution.table, None)
-    return made
+    return modal_stiffness(call, solution.table, None)

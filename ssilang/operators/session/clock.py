@@ -13,10 +13,9 @@ _WIDTH = 32  # of the words of DATE, blanks included
 
 
 def _clocks(session: Session) -> dict[str, tuple[float, float]]:
-    found: dict[str, tuple[float, float]] = session.statistics.setdefault(
+    return session.statistics.setdefault(
         "clocks", {"zero": (session.started, 0.0), "last": (session.started, 0.0)}
     )
-    return found
 
 
 TEMP = shared("TEMP", "session", full_name="TEMPS")

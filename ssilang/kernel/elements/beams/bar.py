@@ -94,8 +94,7 @@ def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
     layout = node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
     u = layout.gather(displacement).reshape(len(zone.cells), -1, d)
     slopes = np.einsum("pk,ckd->cpd", reference, u) / speed[..., None]
-    found: FloatArray = np.linalg.norm(slopes, axis=-1)
-    return found
+    return np.linalg.norm(slopes, axis=-1)
 
 
 def _radii(zone: Zone, cells: slice = slice(None)) -> FloatArray:

@@ -303,8 +303,7 @@ class FibreBeam(Timoshenko):
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Full matrix (1, 1, s, s)."""
         rows = np.array(kept_rows(zone))
-        found: FloatArray = section_of_beam(parameters).rigidity[rows[:, None], rows][None, None]
-        return found
+        return section_of_beam(parameters).rigidity[rows[:, None], rows][None, None]
 
     def linear_mass(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, FloatArray]:
         """Mass per length (n_cells,) and mass moments per length (n_cells, 3) about the line."""

@@ -128,8 +128,7 @@ class FibreSection:
     def rigidity(self) -> FloatArray:
         """Elastic moduli (6, 6) between the strains of the beam and its forces."""
         A = self.operator
-        found: FloatArray = np.einsum("f,fs,fsi,fsj->ij", self.areas, self.moduli, A, A)
-        return found
+        return np.einsum("f,fs,fsi,fsj->ij", self.areas, self.moduli, A, A)
 
     @property
     def mass(self) -> FloatArray:
@@ -139,8 +138,7 @@ class FibreSection:
         N = np.zeros((len(y), 3, 6))
         N[:, 0, 0] = N[:, 1, 1] = N[:, 2, 2] = 1.0
         N[:, 0, 4], N[:, 0, 5], N[:, 1, 3], N[:, 2, 3] = z, -y, -z, y
-        found: FloatArray = np.einsum("f,fsi,fsj->ij", rho * self.areas, N, N)
-        return found
+        return np.einsum("f,fsi,fsj->ij", rho * self.areas, N, N)
 
     def _density(self, part: SectionZone) -> FloatArray:
         n = part.rows.stop - part.rows.start
@@ -151,8 +149,7 @@ class FibreSection:
     def squared_radii(self) -> FloatArray:
         """Squared radii (2,) of gyration about y and z, of the areas."""
         total = self.areas.sum()
-        found: FloatArray = (self.areas @ self.places**2)[::-1] / total
-        return found
+        return (self.areas @ self.places**2)[::-1] / total
 
 
 def fibre_section(model: Model, material: CellField) -> FibreSection:

@@ -47,8 +47,7 @@ def unit(v: FloatArray) -> FloatArray:
     size = np.linalg.norm(v, axis=-1, keepdims=True)
     if (size <= 0).any():
         raise FieldError("kernel.elements.vector-radius-frame-zero")
-    found: FloatArray = v / size
-    return found
+    return v / size
 
 
 def fixed_frame(first: FloatArray, second: FloatArray | None) -> FloatArray:
@@ -66,8 +65,7 @@ def points_of(zone: Zone, support: Support) -> FloatArray:
     kind = ELEMENTS[zone.element]
     rule = support_rule(zone.element, support)
     shapes = shape_functions(kind.reference or kind.cell_type, rule.points)
-    found: FloatArray = np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates)
-    return found
+    return np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates)
 
 
 def polar_frames(x: FloatArray, centre: FloatArray) -> FloatArray:

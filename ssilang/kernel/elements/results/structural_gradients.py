@@ -106,8 +106,7 @@ def _tensor(zone: Zone, gradient: CellField) -> FloatArray:
 def structural_work(zone: Zone, stress: CellField, gradient: CellField) -> FloatArray:
     """Sum of N_ij u_i,j (n_cells, n_points): a work per length or surface."""
     N, H = _forces(zone, stress), _tensor(zone, gradient)
-    found: FloatArray = np.einsum("cijp,cijp->cp", N, H[:, : N.shape[1]])
-    return found
+    return np.einsum("cijp,cijp->cp", N, H[:, : N.shape[1]])
 
 
 def structural_forces(

@@ -92,8 +92,7 @@ def principal(zone: Zone, T: FloatArray, ordered: bool) -> FloatArray:
 def von_mises(T: FloatArray) -> FloatArray:
     """Square root of 3/2 s:s, (n, p)."""
     deviator = T - np.trace(T, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
-    found: FloatArray = np.sqrt(1.5 * np.einsum("npij,npij->np", deviator, deviator))
-    return found
+    return np.sqrt(1.5 * np.einsum("npij,npij->np", deviator, deviator))
 
 
 def tresca(T: FloatArray) -> FloatArray:

@@ -228,8 +228,7 @@ def reference_cell(cell_type: str) -> ReferenceCell:
 
 def _powers(points: FloatArray, exponents: IntArray) -> FloatArray:
     """Monomials (n_points, n_monomials)."""
-    values: FloatArray = (points[:, None, :] ** exponents[None]).prod(axis=2)
-    return values
+    return (points[:, None, :] ** exponents[None]).prod(axis=2)
 
 
 def _power_gradients(points: FloatArray, exponents: IntArray) -> FloatArray:
@@ -298,5 +297,4 @@ def shape_gradients(cell_type: str, points: FloatArray) -> FloatArray:
     if cell_type in SIDES:
         return polygon_gradients(SIDES[cell_type], points)
     gradients = _monomial_gradients(REFERENCE_CELLS[cell_type], points)
-    out: FloatArray = np.einsum("pfd,fn->pnd", gradients, _coefficients(cell_type))
-    return out
+    return np.einsum("pfd,fn->pnd", gradients, _coefficients(cell_type))

@@ -56,8 +56,7 @@ def flat_frames(zone: Zone, cells: slice = slice(None)) -> tuple[FloatArray, Flo
 def rises(zone: Zone, cells: slice, frames: FloatArray, slopes: FloatArray) -> FloatArray:
     """Slopes (n, p, 2) of warped cells against their mean plane."""
     x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
-    found: FloatArray = np.einsum("cpik,ckj,cj->cpi", slopes, x, frames[:, 2], optimize=True)
-    return found
+    return np.einsum("cpik,ckj,cj->cpi", slopes, x, frames[:, 2], optimize=True)
 
 
 def surface_slopes(zone: Zone, local: FloatArray, rule: Rule) -> tuple[FloatArray, FloatArray]:

@@ -50,8 +50,7 @@ def fibres(zone: Zone, cells: slice = slice(None)) -> FloatArray:
     size = np.linalg.norm(normal, axis=2, keepdims=True)
     if (size <= 0).any():
         raise MeshError("kernel.elements.middle-surface-shell-folds")
-    found: FloatArray = normal / size
-    return found
+    return normal / size
 
 
 def _crossed(v: FloatArray) -> FloatArray:

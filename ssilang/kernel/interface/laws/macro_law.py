@@ -296,8 +296,7 @@ class Outline:
     def levers(self) -> FloatArray:
         """Levers (d - 1, 2) of the edges about the axes, the lowest and the highest."""
         across = self.halves if len(self.halves) == 1 else self.halves[::-1]
-        found: FloatArray = across[:, None] * np.array([-1.0, 1.0])
-        return found
+        return across[:, None] * np.array([-1.0, 1.0])
 
     def reach(self, w: FloatArray) -> FloatArray:
         """What turning adds (...) to the opening of the edge that opens most, from w (..., d)."""

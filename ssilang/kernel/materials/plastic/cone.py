@@ -164,8 +164,7 @@ class _Flow:
         by_shear = (2 / 3) * (shear / np.maximum(dp, 1e-300))[:, None] * N
         strain = rate[:, None] * UNIT + by_shear
         change = slope / (self.alpha + slope * rate / (3 * self.B))
-        found: FloatArray = UNIT[:, None] / 3 * (change[:, None] * strain)[:, None, :]
-        return found
+        return UNIT[:, None] / 3 * (change[:, None] * strain)[:, None, :]
 
 
 def perfect(

@@ -96,8 +96,7 @@ def locked(
     square = square + 2.0 * (inner[..., 2:] ** 2).sum(axis=-1)
     shares = parts.shares[parts.which]
     own = np.divide(square, shares, out=np.zeros_like(square), where=shares > 0).sum(axis=1)
-    found: FloatArray = (0.25 * own - mises(_sum(inner))[0] ** 2 / 6.0) / parameters.shear
-    return found
+    return (0.25 * own - mises(_sum(inner))[0] ** 2 / 6.0) / parameters.shear
 
 
 def slid_last(
@@ -121,8 +120,7 @@ def slid_last(
     flown = plastic[:, kept] - plastic[:, :3].sum(axis=1)[:, None] * mean
     flown[:, 2:] *= 0.5
     slip = elastic / (2.0 * parameters.shear)[:, None] + flown - bears / (2.0 * own)[:, None]
-    found: FloatArray = 2.0 * slip / parts.strains[parts.which, last][:, None]
-    return found
+    return 2.0 * slip / parts.strains[parts.which, last][:, None]
 
 
 def _sum(inner: FloatArray) -> FloatArray:

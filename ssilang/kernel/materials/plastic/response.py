@@ -115,8 +115,7 @@ class Response:
         """Elastic strain (m, 6) of a step from the stress `before`."""
         if self.elastic is not None:
             return self.elastic
-        found: FloatArray = np.einsum("mij,mj->mi", parameters.compliance, self.stress - before)
-        return found
+        return np.einsum("mij,mj->mi", parameters.compliance, self.stress - before)
 
 
 def mises(stress: FloatArray) -> tuple[FloatArray, FloatArray]:

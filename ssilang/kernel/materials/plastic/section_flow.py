@@ -32,8 +32,7 @@ class SectionParameters(PointParameters):
 
     def elastic_energy(self, stress: FloatArray) -> FloatArray:
         """Energy (m,) that forces (m, 6) store in a unit of length or surface."""
-        found: FloatArray = 0.5 * np.einsum("mi,mij,mj->m", stress, self.softness, stress)
-        return found
+        return 0.5 * np.einsum("mi,mij,mj->m", stress, self.softness, stress)
 
     def at(self, points: IntArray) -> "SectionParameters":
         """The same for some of the points."""

@@ -99,8 +99,7 @@ def _interval(t: FloatArray, h: FloatArray, way: FloatArray) -> tuple[FloatArray
 
 
 def _along(vectors: FloatArray, way: FloatArray) -> FloatArray:
-    found: FloatArray = (vectors * way).sum(axis=1)
-    return found
+    return (vectors * way).sum(axis=1)
 
 
 def _further(p: FloatArray, q: FloatArray, way: FloatArray) -> FloatArray:

@@ -51,15 +51,13 @@ class _Eigen:
         self.values, self.axes = np.linalg.eigh(A)
 
     def of(self, function: Callable[[FloatArray], FloatArray]) -> FloatArray:
-        found: FloatArray = (self.axes * function(self.values)[:, None]) @ self.axes.swapaxes(1, 2)
-        return found
+        return (self.axes * function(self.values)[:, None]) @ self.axes.swapaxes(1, 2)
 
     def change(self, function: Function, dA: FloatArray) -> FloatArray:
         """Derivatives (m, k, 3, 3) of a function by changes dA (m, k, 3, 3)."""
         Q = self.axes[:, None]
         slopes = function[1](self.values[:, :, None], self.values[:, None, :])[:, None]
-        found: FloatArray = Q @ (slopes * (Q.swapaxes(2, 3) @ dA @ Q)) @ Q.swapaxes(2, 3)
-        return found
+        return Q @ (slopes * (Q.swapaxes(2, 3) @ dA @ Q)) @ Q.swapaxes(2, 3)
 
 
 def _tensors(flat: FloatArray, strains: bool) -> FloatArray:

@@ -81,8 +81,7 @@ class Acceleration:
         size = np.sqrt(np.maximum(np.diagonal(self._products)[:m], 1e-300))
         scaled = self._products[:m, :m] / np.outer(size, size)
         share = np.linalg.lstsq(scaled, (rows @ residual) / size, rcond=DEPENDENT)[0] / size
-        found: FloatArray = image - share @ self._images[:m]
-        return found
+        return image - share @ self._images[:m]
 
 
 @dataclass(frozen=True, eq=False)

@@ -294,5 +294,4 @@ def _inverse(A: Rows) -> FloatArray:
     dense = 0.5 * (dense + dense.T)
     values, vectors = np.linalg.eigh(dense)
     least = 8.0 * np.finfo(A.values.dtype).eps * values.max(initial=0.0)
-    found: FloatArray = (vectors / np.maximum(values, least or 1.0)) @ vectors.T
-    return found
+    return (vectors / np.maximum(values, least or 1.0)) @ vectors.T

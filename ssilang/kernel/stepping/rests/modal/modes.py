@@ -328,8 +328,7 @@ def local_jumps(joints: Joints, delta: FloatArray) -> FloatArray:
     """Jumps (k, n_points, d) at the joints' points from those (k, q) at their nodes."""
     d = joints.B.shape[1]
     jumps = delta.reshape(len(delta), delta.shape[1] // d, d)[:, joints.pairs[:, 0]]
-    found: FloatArray = np.einsum("pij,kpj->kpi", joints.B, jumps)
-    return found
+    return np.einsum("pij,kpj->kpi", joints.B, jumps)
 
 
 def has_no_shear(joints: Joints) -> bool:

@@ -341,5 +341,4 @@ def _whiten(W: FloatArray, N: sp.csr_array) -> FloatArray:
     gram = W.T @ (N @ W)
     values, vectors = np.linalg.eigh(0.5 * (gram + gram.T))
     kept = values > DEPENDENT
-    found: FloatArray = (W @ vectors[:, kept]) / np.sqrt(values[kept])
-    return found
+    return (W @ vectors[:, kept]) / np.sqrt(values[kept])
