@@ -52,8 +52,7 @@ class View:
 
     def depth(self, points: FloatArray) -> FloatArray:
         """How near points (..., 3) are to the eye; larger is nearer."""
-        near: FloatArray = points @ self.axes[2]
-        return near
+        return points @ self.axes[2]
 
 
 def plane_view() -> View:

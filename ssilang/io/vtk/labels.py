@@ -101,5 +101,4 @@ class _Keys:
 def _hashed(nodes: IntArray) -> NDArray[np.uint64]:
     """A number for each row of nodes (n,): equal rows have equal ones."""
     factors = np.random.default_rng(0).integers(1, 1 << 63, nodes.shape[1], dtype=np.uint64)
-    keys: NDArray[np.uint64] = (nodes.astype(np.uint64) * (factors | np.uint64(1))).sum(axis=1)
-    return keys
+    return (nodes.astype(np.uint64) * (factors | np.uint64(1))).sum(axis=1)

@@ -86,8 +86,7 @@ def possible_links(master: Mesh, slave: Mesh) -> Mesh:
 def _pairs(cells: IntArray, nodes: IntArray) -> IntArray:
     """Each of the cells (n, k) with each node (m,) that is not its own: (links, k + 1)."""
     found = np.column_stack([np.repeat(cells, len(nodes), axis=0), np.tile(nodes, len(cells))])
-    pairs: IntArray = found[(found[:, :-1] != found[:, -1:]).all(axis=1)]
-    return pairs
+    return found[(found[:, :-1] != found[:, -1:]).all(axis=1)]
 
 
 def touching(links: Mesh, unknowns: tuple[str, str], nose: Nose | None = None) -> Relations | None:

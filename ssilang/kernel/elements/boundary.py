@@ -98,8 +98,7 @@ def outward(faces: CellBlock, geometry: SurfaceGeometry, model: Model, of: Paren
             centre[mine] = part.cells.coordinates[of.cell[mine]].mean(axis=1)[:, :dim]
     out = faces.coordinates.mean(axis=1)[:, :dim] - centre
     side = np.sign(np.einsum("cd,cpd->c", out, geometry.normals))
-    vectors: FloatArray = geometry.normals * side[:, None, None]
-    return vectors
+    return geometry.normals * side[:, None, None]
 
 
 def zones_of_faces(of: Parents, model: Model) -> list[tuple[Zone, IntArray]]:

@@ -239,5 +239,4 @@ def _mean(block: CellFieldBlock, name: str) -> FloatArray:
 
 
 def _centres(block: CellFieldBlock) -> FloatArray:
-    middle: FloatArray = block.cells.coordinates.mean(axis=1)
-    return middle
+    return block.cells.coordinates.mean(axis=1)

@@ -111,8 +111,7 @@ def integration_points(zone: Zone, support: Support) -> FloatArray:
     kind = ELEMENTS[zone.element]
     shapes = shape_functions(kind.reference or kind.cell_type, rule.points)
     corners = zone.cells.coordinates[:, : shapes.shape[1]]
-    points: FloatArray = np.einsum("pk,ckd->cpd", shapes, corners)
-    return points
+    return np.einsum("pk,ckd->cpd", shapes, corners)
 
 
 def _radial(zone: Zone, given: Directions, flat: bool) -> tuple[FloatArray, FloatArray]:

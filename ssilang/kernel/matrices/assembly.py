@@ -91,8 +91,7 @@ class Numbering:
 
     def name(self, index: int) -> str:
         """Name of one unknown: 'UX'."""
-        name: str = self.unknowns[self.codes[index]]
-        return name
+        return self.unknowns[self.codes[index]]
 
     def told(self, values: NDArray[Any]) -> str:
         """The node, as messages name it, of the largest of values (n,), or the first of a mask."""

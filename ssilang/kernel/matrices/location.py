@@ -92,8 +92,7 @@ def _outside(cell_type: str, xi: FloatArray) -> FloatArray:
         excess = polygon_excess(SIDES[cell_type], xi)
     else:
         excess = _EXCESS[shape](xi) if shape in _EXCESS else np.abs(xi) - 1.0
-    worst: FloatArray = np.clip(excess, 0.0, None).max(axis=1, initial=0.0)
-    return worst
+    return np.clip(excess, 0.0, None).max(axis=1, initial=0.0)
 
 
 def _simplex(xi: FloatArray) -> FloatArray:

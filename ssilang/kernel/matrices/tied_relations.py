@@ -247,5 +247,4 @@ def _line_tangents(line: Mesh) -> FloatArray:
         along = along / np.linalg.norm(along, axis=1, keepdims=True)
         np.add.at(total, block.connectivity.ravel(), np.repeat(along, x.shape[1], axis=0))
     length = np.linalg.norm(total, axis=1, keepdims=True)
-    unit: FloatArray = np.divide(total, length, out=np.zeros_like(total), where=length > 0.0)
-    return unit
+    return np.divide(total, length, out=np.zeros_like(total), where=length > 0.0)

@@ -34,8 +34,7 @@ class Point:
     @property
     def coordinates(self) -> FloatArray:
         """Coordinates, shape (3,)."""
-        row: FloatArray = self.nodes.coordinates[self.node]
-        return row
+        return self.nodes.coordinates[self.node]
 
     @property
     def density(self) -> float:

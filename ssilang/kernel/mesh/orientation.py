@@ -76,8 +76,7 @@ def surface_normals(block: CellBlock) -> FloatArray:
     corners = block.coordinates[:, list(block.kind.corners)]
     origin = corners[:, :1]
     rays = corners - origin
-    vectors: FloatArray = 0.5 * np.cross(rays[:, 1:-1], rays[:, 2:]).sum(axis=1)
-    return vectors
+    return 0.5 * np.cross(rays[:, 1:-1], rays[:, 2:]).sum(axis=1)
 
 
 def signed_volumes(block: CellBlock) -> FloatArray:

@@ -94,8 +94,7 @@ class PardisoFactor:
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b."""
         self._solver.set_phase(33)
-        x: FloatArray = self._solver._call_pardiso(self._matrix, np.asfortranarray(b))
-        return x
+        return self._solver._call_pardiso(self._matrix, np.asfortranarray(b))
 
 
 class CholmodFactor:

@@ -171,8 +171,7 @@ class Share:
 
     def force(self, u: FloatArray, v: FloatArray, a: FloatArray) -> FloatArray:
         """`M a + C v + K u` for histories (n, n_times)."""
-        total: FloatArray = self.mass @ a + self.damping @ v + self.stiffness @ u
-        return total
+        return self.mass @ a + self.damping @ v + self.stiffness @ u
 
 
 def elements_of(ground: Ground, cells: Mesh) -> Share:

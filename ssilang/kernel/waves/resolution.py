@@ -38,8 +38,7 @@ def longest_sides(zone: Zone) -> FloatArray:
         np.linalg.norm(nodes[:, i] - nodes[:, j], axis=1)
         for i, j in _edges(CELL_TYPES[zone.cells.cell_type])
     ]
-    longest: FloatArray = np.max(sides, axis=0)
-    return longest
+    return np.max(sides, axis=0)
 
 
 def _edges(kind: CellType) -> set[tuple[int, int]]:
@@ -64,8 +63,7 @@ def pressure_speed(zone: Zone, material: CellField) -> FloatArray:
         for name in ("YOUN", "NU", "RHO")
     )
     modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
-    speed: FloatArray = np.sqrt(modulus / density)
-    return speed
+    return np.sqrt(modulus / density)
 
 
 #: a face whose middle lies so far above its cell's, as a share of the way, is the surface's

@@ -111,8 +111,7 @@ def _jumps(interface: Interface, u: FloatArray) -> FloatArray:
     """Jumps (n_points, d) at the points."""
     of_pairs = (interface.J @ u).reshape(-1, interface.dimension)[interface.pairs]
     local = of_pairs.reshape(interface.n_points, -1)
-    w: FloatArray = np.einsum("pia,pa->pi", interface.B, local)
-    return w
+    return np.einsum("pia,pa->pi", interface.B, local)
 
 
 def _results(

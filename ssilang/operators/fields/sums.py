@@ -27,8 +27,7 @@ def resu_of_list(
     ),
 ) -> float | int:
     """Sum of a list."""
-    total: float | int = values.values.sum()
-    return total
+    return values.values.sum()
 
 
 _PAIRED = (

@@ -124,8 +124,7 @@ class Reached:
     @property
     def wanted(self) -> NDArray[np.bool_]:
         """The last time alone."""
-        last: NDArray[np.bool_] = np.arange(self.n_times) == self.n_times - 1
-        return last
+        return np.arange(self.n_times) == self.n_times - 1
 
     def receive(self, snapshot: "Snapshot") -> None:
         """The last time."""

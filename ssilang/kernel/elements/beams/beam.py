@@ -183,8 +183,7 @@ class Beam(_LineBeam):
     ) -> FloatArray:
         matrix = _end_forces(section, beam_frame(zone, parameters), zone)
         vectors = self.layout(zone).gather(displacement)
-        forces: FloatArray = np.einsum("cspm,cm->csp", matrix, vectors)
-        return forces
+        return np.einsum("cspm,cm->csp", matrix, vectors)
 
     def stress_values(
         self, zone: Zone, displacement: NodeField, moduli: FloatArray, parameters: ZoneField
@@ -196,8 +195,7 @@ class Beam(_LineBeam):
         """Forces at the nodes that hold the section forces found there."""
         local = np.concatenate([-stress[:, :, 0], stress[:, :, 1]], axis=1)
         T = beam_frame(zone, parameters).rotation(zone)
-        vectors: FloatArray = np.einsum("cji,cj->ci", T, local)
-        return vectors
+        return np.einsum("cji,cj->ci", T, local)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """Consistent mass of the cubic deflection and its slope, linear lengthening and twist."""

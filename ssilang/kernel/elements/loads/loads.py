@@ -382,8 +382,7 @@ def _side(normals: FloatArray, along: FloatArray) -> FloatArray:
     along_face = np.abs(share) <= _LEAST_ANGLE * lengths
     if along_face.any():
         raise MeshError("kernel.elements.pressure-along-face", count=int(along_face.sum()))
-    side: FloatArray = np.sign(share)
-    return side
+    return np.sign(share)
 
 
 def on_sides(model: Model, field: CellField) -> NodeField | CellField:

@@ -75,8 +75,7 @@ def in_global_axes(zone: Zone, T: FloatArray) -> FloatArray:
         frames[:, 2, 0], frames[:, 2, 1] = along[:, 1], -along[:, 0]
     else:
         frames = flat_frames(zone)[0]
-    turned: FloatArray = np.einsum("cki,cpkl,clj->cpij", frames, T, frames)
-    return turned
+    return np.einsum("cki,cpkl,clj->cpij", frames, T, frames)
 
 
 def is_thick_shell(zone: Zone) -> bool:

@@ -40,8 +40,7 @@ def polygon_functions(n: int, points: FloatArray) -> FloatArray:
     normals, offsets = _sides(n)
     distance = offsets - points @ normals.T
     weight: FloatArray = distance[:, _others(n)].prod(axis=2)
-    total: FloatArray = weight / weight.sum(axis=1, keepdims=True)
-    return total
+    return weight / weight.sum(axis=1, keepdims=True)
 
 
 def polygon_gradients(n: int, points: FloatArray) -> FloatArray:
@@ -55,8 +54,7 @@ def polygon_gradients(n: int, points: FloatArray) -> FloatArray:
         rest = np.delete(factors, k, axis=2).prod(axis=2)
         slope -= rest[..., None] * normals[others[:, k]]
     total = weight.sum(axis=1)[:, None, None]
-    turned: FloatArray = slope / total - weight[..., None] * slope.sum(axis=1)[:, None] / total**2
-    return turned
+    return slope / total - weight[..., None] * slope.sum(axis=1)[:, None] / total**2
 
 
 def polygon_excess(n: int, points: FloatArray) -> FloatArray:

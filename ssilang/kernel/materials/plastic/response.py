@@ -75,8 +75,7 @@ class PointParameters:
         """Energy (m,) that stresses (m, 6) store in a unit of volume."""
         trace = stress[:, 0] + stress[:, 1] + stress[:, 2]
         square = np.vecdot(stress, stress) + np.vecdot(stress[:, 3:], stress[:, 3:])
-        own: FloatArray = (square - trace**2 / 3) / (4 * self.shear) + trace**2 / (18 * self.bulk)
-        return own
+        return (square - trace**2 / 3) / (4 * self.shear) + trace**2 / (18 * self.bulk)
 
     def at(self, points: IntArray) -> "PointParameters":
         """The same for some of the points."""

@@ -75,8 +75,7 @@ class _Return:
 
     def far(self) -> FloatArray:
         """Stress of the trial over cohesion (m,)."""
-        far: FloatArray = np.abs(self.trial).max(axis=1) / self.parameters["COHE"]
-        return far
+        return np.abs(self.trial).max(axis=1) / self.parameters["COHE"]
 
     def equations(self, unknown: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Residual (m, 7), its derivative (m, 7, 7), its size (m,).

@@ -160,8 +160,7 @@ class _Middles:
 
 
 def _edge_keys(pairs: IntArray) -> IntArray:
-    keys: IntArray = (pairs.min(axis=-1) << _EDGE_BITS) | pairs.max(axis=-1)
-    return keys
+    return (pairs.min(axis=-1) << _EDGE_BITS) | pairs.max(axis=-1)
 
 
 def _face_keys(faces: IntArray) -> IntArray:
@@ -264,8 +263,7 @@ def _excess(state: _State, cells: _Cells) -> FloatArray:
     ends = state.nodes.coordinates[edges]
     longest = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).max(axis=1, initial=0.0)
     wanted = state.sizes[cells.table].mean(axis=1) * (1.0 + 1e-9)
-    ratio: FloatArray = longest / wanted
-    return ratio
+    return longest / wanted
 
 
 def _check_number(state: _State, active: list[_Cells]) -> None:

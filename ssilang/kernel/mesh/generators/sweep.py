@@ -223,8 +223,7 @@ def _cell_nodes(mesh: Mesh) -> IntArray:
 
 
 def _cell_nodes_mean(mesh: Mesh) -> FloatArray:
-    mean: FloatArray = mesh.nodes.coordinates[_cell_nodes(mesh)].mean(axis=0)
-    return mean
+    return mesh.nodes.coordinates[_cell_nodes(mesh)].mean(axis=0)
 
 
 def _summary(mesh: Mesh) -> list[str]:

@@ -175,8 +175,7 @@ class Polynomial:
     def _speed(self, u: FloatArray) -> FloatArray:
         order = np.arange(1, len(self.coefficients))
         slope = (u[..., None] ** (order - 1)) @ (order[:, None] * self.coefficients[1:])
-        speed: FloatArray = np.linalg.norm(slope, axis=-1)
-        return speed
+        return np.linalg.norm(slope, axis=-1)
 
     def _lengths(self, u: FloatArray) -> FloatArray:
         """Length from the first to each of the parameters (m,), by Gauss in each interval."""

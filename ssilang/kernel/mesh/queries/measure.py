@@ -32,8 +32,7 @@ def cell_measures(block: CellBlock) -> FloatArray:
         size = np.linalg.norm(np.cross(frames[:, :, 0], frames[:, :, 1]), axis=-1)
     else:
         size = np.linalg.norm(frames[:, :, 0], axis=-1)
-    total: FloatArray = size @ rule.weights
-    return total
+    return size @ rule.weights
 
 
 def total_measure(mesh: Mesh) -> float:

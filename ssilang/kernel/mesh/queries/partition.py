@@ -202,8 +202,7 @@ def _smooth(mesh: Mesh, links: IntArray, angle: float, folded: bool) -> BoolArra
     turn = np.degrees(np.arccos(cosine))
     if not folded:  # cells described in opposite senses are not folded
         turn = np.minimum(turn, np.where(turn > 180 - 1e-6, 0.0, turn))
-    smooth: BoolArray = turn <= angle
-    return smooth
+    return turn <= angle
 
 
 def _directions(mesh: Mesh) -> FloatArray:

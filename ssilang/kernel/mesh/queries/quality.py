@@ -115,8 +115,7 @@ def smallest_lengths(block: CellBlock) -> FloatArray:
             found += [_to_line(x[:, k], x[:, corners[0]], x[:, corners[1]]) for k in others]
         else:
             found += [_to_plane(x[:, k], x[:, corners]) for k in others]
-    smallest: FloatArray = np.min(found, axis=0)
-    return smallest
+    return np.min(found, axis=0)
 
 
 def _to_line(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:

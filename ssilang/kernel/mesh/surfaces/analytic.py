@@ -45,8 +45,7 @@ def line_shape(a: FloatArray, b: FloatArray) -> Shape:
 
     def distance(x: FloatArray) -> FloatArray:
         arm = x - a
-        away: FloatArray = np.linalg.norm(arm - (arm @ unit)[:, None] * unit, axis=1)
-        return away
+        return np.linalg.norm(arm - (arm @ unit)[:, None] * unit, axis=1)
 
     return Shape(distance, lambda x, d: _plane_hit(x, d, a, normal))
 
@@ -96,8 +95,7 @@ def cone_shape(apex: FloatArray, axis_point: FloatArray, on: FloatArray) -> Shap
     def distance(x: FloatArray) -> FloatArray:
         arm = x - apex
         radial = np.linalg.norm(_across(arm, unit), axis=1)
-        off: FloatArray = radial * cosine - np.abs(arm @ unit) * sine
-        return off
+        return radial * cosine - np.abs(arm @ unit) * sine
 
     def hit(x: FloatArray, d: FloatArray) -> FloatArray:
         arm, way = x - apex, d
@@ -120,8 +118,7 @@ def torus_shape(
 
     def to_ring(x: FloatArray) -> FloatArray:
         arm = x - centre
-        ring: FloatArray = np.hypot(np.linalg.norm(_across(arm, unit), axis=1) - large, arm @ unit)
-        return ring
+        return np.hypot(np.linalg.norm(_across(arm, unit), axis=1) - large, arm @ unit)
 
     small = float(to_ring(on[None])[0])
 
@@ -221,10 +218,7 @@ class PolynomialSurface:
         rows, columns = self.coefficients.shape[:2]
         powers_u = u[..., None] ** np.arange(columns)
         powers_v = v[..., None] ** np.arange(rows)
-        position: FloatArray = np.einsum(
-            "...j,...i,jik->...k", powers_v, powers_u, self.coefficients
-        )
-        return position
+        return np.einsum("...j,...i,jik->...k", powers_v, powers_u, self.coefficients)
 
     def along_u(self, v: float, regular: bool) -> Polynomial:
         """The curve of constant v."""

@@ -142,8 +142,7 @@ def sphere_chart(boundary: FloatArray, centre: FloatArray) -> Chart:
         q = p / (2.0 * radius)
         square = (q * q).sum(axis=1)[:, None]
         flat = 2.0 * (q[:, :1] * first + q[:, 1:] * second)
-        place: FloatArray = centre + radius * (flat + (1.0 - square) * up) / (1.0 + square)
-        return place
+        return centre + radius * (flat + (1.0 - square) * up) / (1.0 + square)
 
     return Chart(flatten, lift)
 

@@ -215,8 +215,7 @@ def certain_sides(points: FloatArray, triangles: IntArray) -> IntArray:
     inverse = inverse.ravel()
     both = np.bincount(inverse) == 2
     tied = np.abs(np.bincount(inverse, opposite.ravel())) < 1e-9  # sum of cotangents
-    certain: IntArray = found[~(both & tied)]
-    return certain
+    return found[~(both & tied)]
 
 
 def sides_of(cells: IntArray) -> IntArray:

@@ -96,8 +96,7 @@ def _along(line: FloatArray) -> FloatArray:
     length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     if length[-1] == 0.0:
         raise MeshError("kernel.mesh.side-surface-no-length")
-    fraction: FloatArray = length / length[-1]
-    return fraction
+    return length / length[-1]
 
 
 def _transfinite(
@@ -112,8 +111,7 @@ def _transfinite(
     across = (1 - v) * bottom[None] + v * top[None] + (1 - u) * left[:, None] + u * right[:, None]
     corners = (1 - v) * ((1 - u) * bottom[0] + u * bottom[-1])
     corners = corners + v * ((1 - u) * top[0] + u * top[-1])
-    inside: FloatArray = across - corners
-    return inside
+    return across - corners
 
 
 def _sizes(

@@ -171,8 +171,7 @@ def squareness(points: FloatArray, quads: IntArray) -> FloatArray:
     sine = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
     cosine = (after * before).sum(axis=2)
     angle = np.arctan2(sine, cosine) % (2 * np.pi)
-    shape: FloatArray = 1.0 - np.abs(angle - np.pi / 2).max(axis=1) / (np.pi / 2)
-    return shape
+    return 1.0 - np.abs(angle - np.pi / 2).max(axis=1) / (np.pi / 2)
 
 
 def _pairs(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray]:

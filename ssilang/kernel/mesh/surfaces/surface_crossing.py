@@ -79,8 +79,7 @@ def _heights(corners: FloatArray, t: FloatArray, tiny: float) -> FloatArray:
 
 def _apart(h: FloatArray) -> BoolArray:
     """Triangles wholly on one side of the other's plane, or wholly in it."""
-    away: BoolArray = (h > 0).all(axis=1) | (h < 0).all(axis=1) | (h == 0).all(axis=1)
-    return away
+    return (h > 0).all(axis=1) | (h < 0).all(axis=1) | (h == 0).all(axis=1)
 
 
 def _interval(t: FloatArray, h: FloatArray, way: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -313,8 +312,7 @@ def _flattened(xyz: FloatArray, every: list[int], corners: list[int]) -> FloatAr
     x = (p - o) / np.linalg.norm(p - o)
     y = (q - o) - ((q - o) @ x) * x
     axes = np.column_stack([x, y / np.linalg.norm(y)])
-    flat: FloatArray = (xyz[every] - o) @ axes
-    return flat
+    return (xyz[every] - o) @ axes
 
 
 def _bent(

@@ -163,8 +163,7 @@ def _fractions(x: FloatArray) -> FloatArray:
     edges = x[:, [0, 0, -1, -1], [0, -1, 0, -1]]
     steps = np.linalg.norm(np.diff(edges, axis=0), axis=2)
     length = np.vstack([np.zeros(4), np.cumsum(steps, axis=0)])
-    mean: FloatArray = (length / length[-1]).mean(axis=1)
-    return mean
+    return (length / length[-1]).mean(axis=1)
 
 
 def brick_cells(ids: IntArray) -> IntArray:

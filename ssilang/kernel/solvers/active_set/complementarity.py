@@ -218,8 +218,7 @@ def _wrong_rows(
     size = sum(float(np.abs(part).max(initial=0.0)) for part in parts)
     tensile = active & ~problem.equality & (p < -tolerance * np.abs(p).max(initial=0.0))
     crossing = ~active & (w < -tolerance * size)
-    wrong: BoolArray = tensile | crossing
-    return wrong
+    return tensile | crossing
 
 
 def _one_of(wrong: BoolArray, active: BoolArray, p: FloatArray, held: bool) -> BoolArray:

@@ -213,16 +213,14 @@ def _best_cuts(
 
 
 def _spans(x: FloatArray, first: IntArray) -> FloatArray:
-    span: FloatArray = np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
-    return span
+    return np.maximum.reduceat(x, first) - np.minimum.reduceat(x, first)
 
 
 def _middles(points: _Points, axis: _Coordinate, size: IntArray) -> FloatArray:
     """Coordinate of each part that half of its points have before it."""
     many = len(axis.values)
     ordered = np.sort(points.part * many + axis.ranks[points.of])
-    middles: FloatArray = axis.values[ordered[points.first + size // 2] % many]
-    return middles
+    return axis.values[ordered[points.first + size // 2] % many]
 
 
 def _touching(points: _Points, upper: BoolArray, n: int) -> BoolArray:

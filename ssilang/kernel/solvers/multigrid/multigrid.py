@@ -178,8 +178,7 @@ class MultigridFactor:
         B = self._motions
         image = np.column_stack([self.multiply(np.ascontiguousarray(x)) for x in B.T])
         values, vectors = np.linalg.eigh(B.T @ image)
-        free: FloatArray = B @ vectors[:, values < FREE]
-        return free
+        return B @ vectors[:, values < FREE]
 
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b, b (n,) or (n, k).

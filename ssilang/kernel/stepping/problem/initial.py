@@ -98,8 +98,7 @@ def closed_at_start(problem: Problem) -> BoolArray:
     codes, of_gaps = problem.numbering.codes, np.unique(contact.G.indices)
     alike = np.abs(problem.u[np.isin(codes, codes[of_gaps])]).max(initial=0.0)
     size = abs(contact.G).sum(axis=1).max(initial=0.0) * alike + np.abs(gaps).max(initial=0.0)
-    closed: BoolArray = gaps <= TOUCHING * size
-    return closed
+    return gaps <= TOUCHING * size
 
 
 def with_contact(

@@ -150,8 +150,7 @@ def _crossed(block: CellBlock) -> NDArray[np.bool_]:
         across = y[:, 2] - y[:, 0]
         one, other = np.cross(y[:, 1] - y[:, 0], across), np.cross(across, y[:, 3] - y[:, 0])
         products.append((one * other).sum(axis=1))
-    crossed: NDArray[np.bool_] = (products[0] < 0.0) & (products[1] < 0.0)
-    return crossed
+    return (products[0] < 0.0) & (products[1] < 0.0)
 
 
 def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) -> Mesh:
