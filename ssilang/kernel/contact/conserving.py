@@ -42,15 +42,12 @@ class Joints(Protocol):
     @property
     def size(self) -> int:
         """Unknowns of the joints."""
-        ...
 
     def respond(self, y: FloatArray) -> FloatArray:
         """h (size,) at the increment y of the jumps."""
-        ...
 
     def tangent(self) -> FloatArray:
         """dh/dy (size, size) at the last response."""
-        ...
 
 
 @dataclass(frozen=True)

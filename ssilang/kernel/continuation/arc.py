@@ -27,11 +27,9 @@ class System(Protocol):
 
     def at(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray, FloatArray]:
         """R (n,), dR/du (n, n), dR/dt (n,)."""
-        ...
 
     def force(self, t: float) -> float:
         """Size of the forces that R is compared with."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,6 @@ class Forces(Protocol):
 
     def at(self, q: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """f (N, n), df/dq and df/dv (N, n, n) at motions q and velocities v (N, n)."""
-        ...
 
 
 def derivative_matrix(harmonics: int) -> FloatArray:

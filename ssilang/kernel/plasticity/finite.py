@@ -53,27 +53,21 @@ class FiniteZone(Protocol):
     @property
     def zone(self) -> Zone:
         """Where it stands."""
-        ...
 
     def forces(self, u: FloatArray) -> FloatArray:
         """Internal forces (n_cells, n_rows)."""
-        ...
 
     def tangent(self, u: FloatArray) -> FloatArray:
         """Their derivative (n_cells, n_rows, n_rows)."""
-        ...
 
     def stored(self, u: FloatArray) -> float:
         """Elastic energy, from the state without displacement on."""
-        ...
 
     def shown(self, u: FloatArray) -> FloatArray:
         """Cauchy stresses (n_cells, n_components, n_points)."""
-        ...
 
     def stressed(self, given: FloatArray, u: FloatArray) -> "FiniteZone":
         """The zone whose Cauchy stresses at the displacement u are the given ones."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,6 @@ class Factor(Protocol):
 
     def solve(self, b: FloatArray) -> FloatArray:
         """Solution of A x = b, same shape as b."""
-        ...
 
 
 @dataclass(frozen=True)

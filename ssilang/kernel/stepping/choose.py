@@ -41,11 +41,9 @@ class Loop(Protocol):
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps between the rows of `factors` (n_steps + 1, k)."""
-        ...
 
     def view(self, unknowns: IntArray) -> View:
         """How unknowns of the problem follow from what the loop keeps of steps."""
-        ...
 
 
 class RenewableLoop(Loop, Protocol):
@@ -53,7 +51,6 @@ class RenewableLoop(Loop, Protocol):
 
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,11 +30,9 @@ class Keeper(Protocol):
 
     def stride(self, done: int, unknowns: int) -> int:
         """Steps after `done` up to the next instant at which the state may be kept."""
-        ...
 
     def steady(self, done: int, state: Callable[[], State]) -> AbstractContextManager[None]:
         """While steps change the state an interruption waits."""
-        ...
 
     def reached(self, done: int, state: Callable[[], State]) -> None:
         """Steps are done: keep their state if it is time to.
@@ -44,23 +42,18 @@ class Keeper(Protocol):
         KeyboardInterrupt
             If the run was told to end.
         """
-        ...
 
     def left(self, done: int, state: Callable[[], State]) -> None:
         """The calculation ends early, and whole: keep its state."""
-        ...
 
     def lost(self, done: int, state: Callable[[], State]) -> None:
         """The solver's program has ended, if it did so within steps, these are not done."""
-        ...
 
     def finished(self, done: int, state: Callable[[], State]) -> None:
         """All steps are done."""
-        ...
 
     def last(self) -> State | None:
         """The state that an earlier run kept of this calculation, None without."""
-        ...
 
 
 class Cut:

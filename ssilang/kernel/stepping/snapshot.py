@@ -124,12 +124,9 @@ class Observer(Protocol):
     @property
     def wanted(self) -> NDArray[np.bool_]:
         """Which times, shape (n_times,)."""
-        ...
 
     def receive(self, snapshot: Snapshot) -> None:
         """Take an instant."""
-        ...
 
     def close(self) -> None:
         """End of the calculation, also when it failed."""
-        ...

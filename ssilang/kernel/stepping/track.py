@@ -40,15 +40,12 @@ class Map(Protocol):
     @property
     def shape(self) -> tuple[int, int]:
         """p and c."""
-        ...
 
     def __getitem__(self, places: IntArray | slice) -> Map:
         """That of some of the unknowns."""
-        ...
 
     def __call__(self, z: FloatArray) -> FloatArray:
         """The unknowns."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)

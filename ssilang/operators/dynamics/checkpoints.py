@@ -39,11 +39,9 @@ class Holding(Protocol):
 
     def content(self) -> Any:
         """What a checkpoint keeps."""
-        ...
 
     def restore(self, kept: Any) -> None:
         """Go on from a checkpoint."""
-        ...
 
 
 class KeptCalculation:

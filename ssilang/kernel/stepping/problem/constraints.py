@@ -34,15 +34,12 @@ class Constraints(Protocol):
 
     def particular(self, d: FloatArray) -> FloatArray:
         """A displacement (n,) with `C u = d`."""
-        ...
 
     def multipliers(self, residual: FloatArray) -> FloatArray:
         """lambda (n_rows,) with `D^T lambda = residual` (n,)."""
-        ...
 
     def pushers(self, rows: IntArray) -> FloatArray:
         """Columns (n, m) whose products with a residual are some of its multipliers."""
-        ...
 
 
 class EliminatedConstraints:

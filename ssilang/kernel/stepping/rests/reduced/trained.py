@@ -57,23 +57,18 @@ class Shelf(Protocol):
     @property
     def name(self) -> str:
         """As messages call it."""
-        ...
 
     def stamp(self) -> str:
         """Another one for each state of what stands there."""
-        ...
 
     def read(self) -> Training | None:
         """What stands there, None for nothing."""
-        ...
 
     def held(self) -> AbstractContextManager[None]:
         """Nobody else writes meanwhile."""
-        ...
 
     def write(self, training: Training) -> None:
         """Put it in the place of what stands there."""
-        ...
 
 
 class TrainedBasis(Basis):

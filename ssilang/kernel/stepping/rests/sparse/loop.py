@@ -55,7 +55,6 @@ class StepSolver(Protocol):
         `gap` (m,) are the gaps of relations for du = 0 and the imposed values at the end of the
         step; (2, m) with those of both ends where steps conserve energy.
         """
-        ...
 
 
 class CondensedSolver:
