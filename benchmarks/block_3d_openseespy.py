@@ -21,8 +21,8 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
@@ -136,8 +136,8 @@ class Forces:
 def inputs_of(case: Case) -> tuple[Inputs, Forces]:
     """The problem for ssilang, and what the peer needs of it."""
     zones = [zone(case, case.soil, SOIL), zone(case, case.block, BLOCK)]
-    K = Matrix(case.table, tuple(elements.stiffness(*z) for z in zones), (supports(case),))
-    M = Matrix(case.table, tuple(elements.mass(*z, True) for z in zones), kind="MASSE")
+    K = Matrix(case.table, tuple(families.stiffness(*z) for z in zones), (supports(case),))
+    M = Matrix(case.table, tuple(families.mass(*z, True) for z in zones), kind="MASSE")
     numbering = numbering_of(K, M)
     diagonal = assemble(M, numbering).diagonal()
     along_x, along_z = numbering.where("UX"), numbering.where("UZ")

@@ -23,7 +23,7 @@ from typing import Any
 import block_3d_openseespy as solid
 import numpy as np
 
-from ssilang.kernel import elements
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.node_algebra import added
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -72,7 +72,7 @@ def at_rest(inputs: Inputs, solver: Solver) -> tuple[NodeField, NodeField, str]:
     joints, data = inputs.model.zones[0], inputs.characteristics
     matrix = replace(
         inputs.stiffness, cache={},
-        blocks=(*inputs.stiffness.blocks, elements.stiffness(joints, data)),
+        blocks=(*inputs.stiffness.blocks, families.stiffness(joints, data)),
     )  # fmt: skip
     weight, push = (part.space for part in inputs.load.parts)
     options = SolveOptions(solver=solver)

@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.kernel import elements
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
@@ -44,7 +44,7 @@ def block_of_bricks(n: int) -> tuple[sp.csr_array, Ordering, tuple[float, float]
     field = CellField((CellFieldBlock(cells, {"YOUN": 1e9 * one, "NU": 0.3 * one}, "STRESSES"),))
     zone = Zone(cells, "MECANIQUE", ("ELASTIQUE", "ISOTROPE"), "CUB8", Mode.THREE_DIMENSIONAL)
     start = time.process_time()
-    bricks = elements.stiffness(zone, field)
+    bricks = families.stiffness(zone, field)
     made = time.process_time()
     matrix = Matrix(table, (bricks,))
     numbering = numbering_of(matrix)

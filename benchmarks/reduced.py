@@ -32,8 +32,8 @@ from uplift_openseespy import (
     zone,
 )
 
-from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
@@ -68,8 +68,8 @@ def problem_of(steps: int) -> Problem:
     """The block on soil, 7 524 unknowns."""
     case = make_case(7500, steps)
     parts = [zone(case, quads(case.soil), SOIL), zone(case, quads(case.block), BLOCK)]
-    stiffness = tuple(elements.stiffness(*p) for p in parts)
-    mass = tuple(elements.mass(*p) for p in parts)
+    stiffness = tuple(families.stiffness(*p) for p in parts)
+    mass = tuple(families.mass(*p) for p in parts)
     K, M = Matrix(case.table, stiffness, (supports(case),)), Matrix(case.table, mass, kind="MASSE")
     C = Matrix(case.table, M.scaled(ALPHA).blocks + K.scaled(BETA).blocks)
     numbering = numbering_of(K, M)

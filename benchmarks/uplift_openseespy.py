@@ -20,8 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
@@ -129,8 +129,8 @@ def inputs_of(case: Case) -> tuple[Inputs, Forces]:
     """The problem for ssilang, and what the peer needs of it."""
     soil, soil_field = zone(case, quads(case.soil), SOIL)
     block, block_field = zone(case, quads(case.block), BLOCK)
-    stiffness = [elements.stiffness(soil, soil_field), elements.stiffness(block, block_field)]
-    lumped = [elements.mass(soil, soil_field, True), elements.mass(block, block_field, True)]
+    stiffness = [families.stiffness(soil, soil_field), families.stiffness(block, block_field)]
+    lumped = [families.mass(soil, soil_field, True), families.mass(block, block_field, True)]
     K = Matrix(case.table, tuple(stiffness), (supports(case),))
     M = Matrix(case.table, tuple(lumped), kind="MASSE")
     numbering = numbering_of(K, M)

@@ -21,8 +21,8 @@ from dataclasses import dataclass
 import numpy as np
 from uplift_openseespy import DT, GRAVITY, SIZE, grid, quads
 
-from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
@@ -122,8 +122,8 @@ def make_model(case: Case, steps: int) -> Model2D:
     plastic = ("ELASTIQUE", "ISOTROPE", "PLASTIQUE", "J2")
     soil, clay = zone(case, case.soil, plastic, SOIL | CLAY)
     tower, concrete = zone(case, case.tower, ("ELASTIQUE", "ISOTROPE"), TOWER)
-    lumped = (elements.mass(soil, clay, True), elements.mass(tower, concrete, True))
-    stiffness = (without_stiffness(soil), elements.stiffness(tower, concrete))
+    lumped = (families.mass(soil, clay, True), families.mass(tower, concrete, True))
+    stiffness = (without_stiffness(soil), families.stiffness(tower, concrete))
     K = Matrix(case.table, stiffness, (supports(case),))
     M = Matrix(case.table, lumped, kind="MASSE")
     numbering = numbering_of(K, M)

@@ -15,10 +15,11 @@ from numpy.typing import ArrayLike
 from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
 from ssilang.api.fields import MeshView
-from ssilang.kernel import elements
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
+from ssilang.kernel.elements.catalog import ELEMENTS, default_element
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import JOINT_NAMES
@@ -192,7 +193,7 @@ class Builder:
         flat = self.dimension == 2
         cell = "QUA4" if flat else "CUB8"
         cells = CellBlock.make(self.table, cell, grid_cells(ids, 1) if flat else brick_cells(ids))
-        element = elements.default_element(cell, self.mode)
+        element = default_element(cell, self.mode)
         zone = Zone(cells, "MECANIQUE", ("ELASTIQUE", "ISOTROPE"), element, self.mode)
         self._zones.append((zone, self._material(zone, material)))
         return Part(ids, MeshView(Mesh(self.table, (cells,)), self.language), self.language)
@@ -219,7 +220,7 @@ class Builder:
         with _one_error(self.language):
             made = joint_mesh(*faces, tolerance=_SAME_PLACE * extent)
         (cells,) = made.blocks
-        names = [n for n in JOINT_NAMES if elements.ELEMENTS[n].cell_type == cells.cell_type]
+        names = [n for n in JOINT_NAMES if ELEMENTS[n].cell_type == cells.cell_type]
         zone = Zone(cells, "MECANIQUE", ("ELASTIQUE", law), names[0], self.mode)
         self._joints.append((zone, self._material(zone, parameters)))
         return Joint(zone, upper, lower)
@@ -297,8 +298,8 @@ class Builder:
 
     def matrices(self) -> tuple[Matrix, Matrix]:
         """Stiffness, with supports but without joints, and mass: the kernel's objects."""
-        K = [elements.stiffness(zone, material) for zone, material in self._zones]
-        M = [elements.mass(z, m) for z, m in self._zones if "RHO" in m.blocks[0].components]
+        K = [families.stiffness(zone, material) for zone, material in self._zones]
+        M = [families.mass(z, m) for z, m in self._zones if "RHO" in m.blocks[0].components]
         return (
             Matrix(self.table, tuple(K), tuple(self._held)),
             Matrix(self.table, tuple(M), kind="MASSE"),
@@ -316,7 +317,7 @@ class Builder:
             parts.append(LoadPart("MECA", self._force(M, way), curve))
         rest = None
         if start == "rest" and self.gravity:  # under the weight, with closed joints
-            closed = tuple(elements.stiffness(zone, material) for zone, material in self._joints)
+            closed = tuple(families.stiffness(zone, material) for zone, material in self._joints)
             rest = solve(Matrix(self.table, (*K.blocks, *closed), K.relations), [weight])[0]
         alpha, beta = self._damping
         damped = (*M.scaled(alpha).blocks, *K.scaled(beta).blocks)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of, vector_to_field
@@ -29,7 +29,7 @@ def _solid(table: NodeTable, ids: np.ndarray, young: float, density: float):
     one = np.ones((len(block), 1))
     values = {"YOUN": young * one, "NU": 0.3 * one, "RHO": density * one}
     field = CellField((CellFieldBlock(block, values, "STRESSES", "QUA4"),))
-    return elements.stiffness(zone, field), elements.mass(zone, field)
+    return families.stiffness(zone, field), families.mass(zone, field)
 
 
 def _joints(table: NodeTable, low: np.ndarray, up: np.ndarray, law: tuple[str, ...], given: dict):

@@ -3,8 +3,8 @@
 import numpy as np
 
 from references.recorder import Recorder
-from ssilang.kernel import elements
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
@@ -65,9 +65,9 @@ def tower_on_clay(law: str = "J2", steps: int = 56, wide: int = 4, moved: float 
     base = soil[:, 0]
     held = [relation_rows(table, [Term(1.0, u, base)], 0) for u in ("UX", "UY")]
     K = Matrix(
-        table, (without_stiffness(clay), elements.stiffness(stiff, stiff_field)), tuple(held)
+        table, (without_stiffness(clay), families.stiffness(stiff, stiff_field)), tuple(held)
     )
-    lumped = (elements.mass(clay, clay_field, True), elements.mass(stiff, stiff_field, True))
+    lumped = (families.mass(clay, clay_field, True), families.mass(stiff, stiff_field, True))
     M = Matrix(table, lumped, kind="MASSE")
     numbering = numbering_of(K, M)
     mass = assemble(M, numbering).diagonal()

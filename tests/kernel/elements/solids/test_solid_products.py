@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ssilang.kernel import elements
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements import families
 from ssilang.kernel.elements.solids import solid
 from ssilang.kernel.elements.solids.solid_products import _cofactors
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -45,9 +45,9 @@ def matrices(zone, parameters, monkeypatch):
 
     monkeypatch.setattr(solid, "MANY_TERMS", 0)
     monkeypatch.setattr(solid, "uniform_stiffness", watched)
-    found = elements.stiffness(zone, field).values
+    found = families.stiffness(zone, field).values
     monkeypatch.setattr(solid, "uniform_stiffness", lambda *given: None)
-    return found, elements.stiffness(zone, field).values, seen[0] is not None
+    return found, families.stiffness(zone, field).values, seen[0] is not None
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from script_runs import ran
 
-from ssilang.kernel import elements
 from ssilang.kernel.base import memory
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements import families
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
@@ -48,7 +48,7 @@ def bar(long=24, wide=4, held=True):
     one = np.ones((len(block), 1))
     field = CellField((CellFieldBlock(block, {"YOUN": 1e9 * one, "NU": 0.3 * one}, "STRESSES"),))
     zone = Zone(block, "MECANIQUE", ("ELASTIQUE", "ISOTROPE"), "CUB8", Mode.THREE_DIMENSIONAL)
-    matrix = Matrix(table, (elements.stiffness(zone, field),))
+    matrix = Matrix(table, (families.stiffness(zone, field),))
     numbering = numbering_of(matrix)
     at = numbering.table.coordinates[numbering.nodes]
     kept = np.flatnonzero(at[:, 0] > 0.0) if held else np.arange(numbering.size)
