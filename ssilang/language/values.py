@@ -44,10 +44,22 @@ class Annule:
 ANNULE = Annule()
 
 
-class ListReel:
-    """LISTREEL: `values`, array (n,) of float. REMP changes it in place."""
+class _Items:
+    """A list of the language: `values`, in their order."""
 
     __slots__ = ("values",)
+
+    def __init__(self, values: Iterable[Any] = ()) -> None:
+        self.values: Any = list(values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+
+class ListReel(_Items):
+    """LISTREEL: `values`, array (n,) of float. REMP changes it in place."""
+
+    __slots__ = ()
 
     def __init__(self, values: object = ()) -> None:
         self.values: NDArray[np.float64] = np.atleast_1d(np.array(values, dtype=float))
@@ -59,26 +71,20 @@ class ListReel:
         made.values = values
         return made
 
-    def __len__(self) -> int:
-        return len(self.values)
 
-
-class ListEnti:
+class ListEnti(_Items):
     """LISTENTI: `values`, array (n,) of int."""
 
-    __slots__ = ("values",)
+    __slots__ = ()
 
     def __init__(self, values: object = ()) -> None:
         self.values: NDArray[np.int64] = np.atleast_1d(np.array(values, dtype=np.int64))
 
-    def __len__(self) -> int:
-        return len(self.values)
 
-
-class ListMots:
+class ListMots(_Items):
     """LISTMOTS: `values`, a list of words."""
 
-    __slots__ = ("values",)
+    __slots__ = ()
 
     def __init__(self, values: Iterator[str] | list[str] | tuple[str, ...] = ()) -> None:
         self.values = [Mot(v) for v in values]
@@ -89,32 +95,17 @@ class ListMots:
         made.values = [*self.values, *words]
         return made
 
-    def __len__(self) -> int:
-        return len(self.values)
 
-
-class ListChpo:
+class ListChpo(_Items):
     """LISTCHPO: a list of nodal fields."""
 
-    __slots__ = ("values",)
-
-    def __init__(self, values: list[object] | tuple[object, ...] = ()) -> None:
-        self.values = list(values)
-
-    def __len__(self) -> int:
-        return len(self.values)
+    __slots__ = ()
 
 
-class ListObje:
+class ListObje(_Items):
     """LISTOBJE: a list of objects of one type (ENUM)."""
 
-    __slots__ = ("values",)
-
-    def __init__(self, values: list[object] | tuple[object, ...] = ()) -> None:
-        self.values = list(values)
-
-    def __len__(self) -> int:
-        return len(self.values)
+    __slots__ = ()
 
 
 def key_of(index: object) -> tuple[object, ...]:
