@@ -15,8 +15,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.modal.link_laws import link_forces
-from ssilang.kernel.modal.links import (
+from ssilang.kernel.modal.link_laws import (
     COSINE_OF_TIME,
     FRICTION,
     PLASTIC,
@@ -25,6 +24,7 @@ from ssilang.kernel.modal.links import (
     STATES,
     TANGENT,
     LinkArrays,
+    link_forces,
 )
 
 

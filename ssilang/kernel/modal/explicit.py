@@ -10,7 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.modal.links import RECORDS, STATES, LinkArrays
+from ssilang.kernel.modal.link_laws import RECORDS, STATES, LinkArrays
 
 SCHEMES = ("DE_VOGELAERE", "DIFFERENCES_CENTREES", "ACCELERATION_MOYENNE", "FOX_GOODWIN")
 BETA = {"DIFFERENCES_CENTREES": 0.0, "ACCELERATION_MOYENNE": 0.25, "FOX_GOODWIN": 1.0 / 12.0}

@@ -6,8 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.modal.link_laws import link_forces, times_vector
-from ssilang.kernel.modal.links import LinkArrays
+from ssilang.kernel.modal.link_laws import LinkArrays, link_forces, times_vector
 
 
 class System(NamedTuple):

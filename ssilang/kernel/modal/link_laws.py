@@ -1,67 +1,72 @@
 """Forces of links, compiled: contacts, friction, plastic springs, couplings of modes."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.modal.links import (
-    A0,
-    CIRCLE,
-    COSINE,
-    COSINE_OF_TIME,
-    CUMULATED,
-    DAMP,
-    DX,
-    EX,
-    EXPONENT,
-    F0,
-    FACTOR,
-    FIRST,
-    FN,
-    FORCE,
-    FREQUENCY,
-    FRICTION,
-    FT,
-    GAP,
-    IF_TOUCHED,
-    KINEMATIC,
-    LAST,
-    LINE,
-    MC,
-    NX,
-    NY,
-    NZ,
-    OUTSIDE,
-    PERMANENT,
-    PLANE,
-    PLASTIC,
-    PLASTIC_PART,
-    PLASTIC_SUM,
+
+(
+    PLANE, CIRCLE, LINE, RING, POWER, SINE, COSINE, COSINE_OF_TIME, SINE_OF_TIME, VELOCITY,
     POLYNOMIAL,
-    POWER,
-    RADIUS,
-    RING,
-    S0,
-    SINE,
-    SINE_OF_TIME,
-    SLIDE,
-    STICK,
-    STICKS,
-    STIFF,
-    T0,
-    TANGENT,
-    TANGENT_DAMP,
-    TOUCHES,
-    VC,
-    VN,
-    VT,
-    WEAR,
-    XP,
-    LinkArrays,
-    Points,
-    X,
-)
+) = range(11)  # fmt: skip
+CONTACTS = (PLANE, CIRCLE, LINE, RING)
+
+# columns of the numbers of a link
+(
+    NX, NY, NZ, GAP, STIFF, DAMP, EX, EY, EZ, OUTSIDE, PERMANENT, PLASTIC, KINEMATIC, FRICTION,
+    SLIDE, STICK, TANGENT, TANGENT_DAMP, DX, DY, DZ, FACTOR, EXPONENT, FREQUENCY, RADIUS, FIRST,
+    LAST, IF_TOUCHED, COLUMNS,
+) = range(29)  # fmt: skip
+# columns of the state of a link: plastic part, its cumulated value, contact and adherence,
+# anchor of adherence, force there, time there, last sliding direction
+XP, CUMULATED, TOUCHES, STICKS, A0, F0, T0, S0, STATES = 0, 1, 2, 3, 4, 7, 10, 11, 14
+# columns of what is recorded: relative motion, normal force, tangential force, normal and sliding
+# velocities, power of wear, plastic part, its cumulated value, norm of the force, velocity where a
+# circle touches, moment of the force about its centre
+(
+    X, _, _, FN, FT, _, _, VN, VT, WEAR, PLASTIC_PART, PLASTIC_SUM, FORCE, VC, _, _, MC, _, _,
+    RECORDS,
+) = range(20)  # fmt: skip
+
+
+class Points(NamedTuple):
+    """Points whose place counts: of lines, and of rigid bodies that turn.
+
+    Rows of their motion (N, 3, n), places at rest (N, 3), the mode that turns their body (-1 where
+    none does), its axis and their place from its centre (N, 3).
+    """
+
+    rows: FloatArray
+    places: FloatArray
+    spins: IntArray
+    axes: FloatArray
+    arms: FloatArray
+
+
+class LinkArrays(NamedTuple):
+    """Links as arrays: kinds (L,), rows (L, 3, n), numbers (L, COLUMNS), conditions (L, G).
+
+    `ends` (L, 2) are points, -1 where there is none, with `signs`; `terms` (L, k, 5) ends with
+    modes -1; `segments` (S, 4) as `segments_of` makes them.
+    """
+
+    kinds: IntArray
+    receives: FloatArray
+    sees: FloatArray
+    numbers: FloatArray
+    law_sizes: IntArray
+    laws: FloatArray
+    conditions: IntArray
+    groups: IntArray
+    turns: FloatArray
+    ends: IntArray
+    signs: FloatArray
+    terms: FloatArray
+    points: Points
+    segments: IntArray
 
 
 @compiled

@@ -10,7 +10,7 @@ from ssilang.kernel.modal.explicit import (
     ModalSteps,
     integrate_modes,
 )
-from ssilang.kernel.modal.links import STATES
+from ssilang.kernel.modal.link_laws import STATES
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.basis import shapes_in

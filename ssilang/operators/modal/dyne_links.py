@@ -1,7 +1,8 @@
 """Tables LIAISON_ELEMENTAIRE of DYNE read as links of the kernel, and their results as tables."""
 
-from ssilang.kernel.modal import links as law
-from ssilang.kernel.modal.links import Link, LinkArrays, Points, link_arrays, segments_of
+from ssilang.kernel.modal import link_laws as law
+from ssilang.kernel.modal.link_laws import LinkArrays, Points
+from ssilang.kernel.modal.links import Link, link_arrays, segments_of
 from ssilang.operators.modal.basis import Shape
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries

@@ -13,7 +13,7 @@ from ssilang.kernel.continuation.expansion import FrequencyProblem
 from ssilang.kernel.continuation.floquet import ONE, monodromy, unstable
 from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
-from ssilang.kernel.modal import links as law
+from ssilang.kernel.modal import link_laws as law
 from ssilang.kernel.modal.links import Link, link_arrays
 from ssilang.kernel.stepping.problem.loading import Loading
 

@@ -5,7 +5,7 @@ import pytest
 from together import together
 
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.modal import links as law
+from ssilang.kernel.modal import link_laws as law
 from ssilang.kernel.modal.explicit import (
     SCHEMES,
     ModalProblem,

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from together import together
 
-from ssilang.kernel.modal import links as law
-from ssilang.kernel.modal.link_laws import link_forces
-from ssilang.kernel.modal.links import Link, Points, link_arrays, segments_of
+from ssilang.kernel.modal import link_laws as law
+from ssilang.kernel.modal.link_laws import Points, link_forces
+from ssilang.kernel.modal.links import Link, link_arrays, segments_of
 
 N = 4
 RNG = np.random.default_rng(17)
