@@ -14,15 +14,7 @@ from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.orientation import surface_normals
 from ssilang.kernel.mesh.volumes.block import fill_block
 from ssilang.kernel.mesh.volumes.volume import fill_volume
-from ssilang.operators.mesh.lines.ends import (
-    ANGLE,
-    AXIS,
-    SIZES,
-    Cuts,
-    Sizes,
-    count_and_angle,
-    cuts_of,
-)
+from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.mesh.surfaces.sweeps import LAYERS, generator_path, turning
 from ssilang.operators.prelude import *
 

@@ -13,22 +13,7 @@ from ssilang.kernel.mesh.lines.curves import (
 )
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.operators.mesh.lines.ends import (
-    ANGLE,
-    AXIS,
-    COUNT,
-    END,
-    SIZES,
-    START,
-    Sizes,
-    axis_of,
-    count_and_angle,
-    cuts_of,
-    drawn_by_middle,
-    drawn_from,
-    ends_of,
-    positions,
-)
+from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 

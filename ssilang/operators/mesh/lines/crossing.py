@@ -10,18 +10,7 @@ from ssilang.kernel.mesh.surfaces.analytic import (
     torus_shape,
 )
 from ssilang.operators.dispatch import INTE
-from ssilang.operators.mesh.lines.ends import (
-    COUNT,
-    END,
-    SIZES,
-    START,
-    Ends,
-    Sizes,
-    cuts_of,
-    drawn,
-    ends_of,
-    positions,
-)
+from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 _CENTRE = arg("centre", "POINT", en="centre")

@@ -15,6 +15,12 @@ from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.language.vocabulary.terms import CELLS_ALONG
 from ssilang.operators.prelude import *
 
+__all__ = [
+    "ANGLE", "AXIS", "COUNT", "END", "SIZES", "START", "Cuts", "Ends", "Sizes", "axis_of",
+    "chosen_family", "count_and_angle", "cuts_of", "drawn", "drawn_by_middle", "drawn_from",
+    "ends_of", "positions", "warn_of_flat_cells",
+]  # fmt: skip
+
 COUNT = opt(
     "count",
     "ENTIER",

@@ -2,19 +2,7 @@
 
 from ssilang.kernel.mesh.lines.curves import Polynomial, cubic_tangents, cubic_through, parabola
 from ssilang.kernel.mesh.lines.lines import line_ends
-from ssilang.operators.mesh.lines.ends import (
-    COUNT,
-    END,
-    SIZES,
-    START,
-    Ends,
-    Sizes,
-    cuts_of,
-    drawn,
-    drawn_by_middle,
-    ends_of,
-    positions,
-)
+from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 

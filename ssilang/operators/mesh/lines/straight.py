@@ -4,21 +4,7 @@ import math
 
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
 from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
-from ssilang.operators.mesh.lines.ends import (
-    ANGLE,
-    COUNT,
-    END,
-    SIZES,
-    START,
-    Sizes,
-    chosen_family,
-    count_and_angle,
-    cuts_of,
-    drawn,
-    drawn_from,
-    ends_of,
-    positions,
-)
+from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 

@@ -14,18 +14,7 @@ from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.vocabulary.terms import CELLS_ALONG
-from ssilang.operators.mesh.lines.ends import (
-    ANGLE,
-    AXIS,
-    SIZES,
-    Cuts,
-    Sizes,
-    axis_of,
-    chosen_family,
-    count_and_angle,
-    cuts_of,
-    warn_of_flat_cells,
-)
+from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 LAYERS = opt(
