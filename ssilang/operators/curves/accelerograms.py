@@ -4,16 +4,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.records.filters import brought_to_rest, integrated, without_trend
 from ssilang.kernel.records.power import power_density, response_spectrum
 from ssilang.kernel.records.signals import constant_step
-from ssilang.operators.curves.words import (
-    COLOUR,
-    LIMITS,
-    RECORD,
-    one_part,
-    shade,
-    warn_of_motions,
-    warn_of_points,
-    warn_of_sampling,
-)
+from ssilang.operators.curves.words import *
 from ssilang.operators.prelude import *
 
 _KINDS = ("DEPL", "VITE", "ACCE")

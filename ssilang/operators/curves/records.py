@@ -13,15 +13,7 @@ from ssilang.kernel.records.signals import (
     turned,
 )
 from ssilang.operators.curves.signals import filt
-from ssilang.operators.curves.words import (
-    COLOUR,
-    CURVE,
-    check_together,
-    one_part,
-    shade,
-    warn_of_points,
-    warn_of_sampling,
-)
+from ssilang.operators.curves.words import *
 from ssilang.operators.mesh.copies.images import tour
 from ssilang.operators.prelude import *
 

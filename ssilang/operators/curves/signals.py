@@ -10,17 +10,7 @@ from ssilang.kernel.records.signals import (
     smoothed,
     time_above,
 )
-from ssilang.operators.curves.words import (
-    COLOUR,
-    CURVE,
-    LIMITS,
-    RECORD,
-    one_part,
-    shade,
-    warn_of_order,
-    warn_of_points,
-    warn_of_sampling,
-)
+from ssilang.operators.curves.words import *
 from ssilang.operators.prelude import *
 
 _PARTS = {"PREE": "PART REEL", "PIMA": "PART IMAG"}

@@ -4,13 +4,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.signals import rotated_spectra
-from ssilang.operators.curves.words import (
-    check_together,
-    warn_of_damping,
-    warn_of_motions,
-    warn_of_rate,
-    warn_of_steps,
-)
+from ssilang.operators.curves.words import *
 from ssilang.operators.mesh.selection.boundaries import enve
 from ssilang.operators.prelude import *
 

@@ -6,6 +6,12 @@ from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.kernel.waves.shaken import strong_frequency
 from ssilang.operators.prelude import *
 
+__all__ = [
+    "COLOUR", "CURVE", "LIMITS", "RECORD", "axis_name", "check_together", "one_part",
+    "read_colour", "read_colours", "shade", "warn_of_damping", "warn_of_motions", "warn_of_order",
+    "warn_of_points", "warn_of_rate", "warn_of_sampling", "warn_of_steps",
+]  # fmt: skip
+
 CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples show, they do
 CURVE = arg("curve", "EVOLUTIO", en="curves")
 RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")
