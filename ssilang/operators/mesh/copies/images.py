@@ -16,19 +16,7 @@ from ssilang.kernel.mesh.changes.transform import (
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.surfaces.surface import facet_shape
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
-from ssilang.operators.mesh.copies.maps import (
-    ANGLE,
-    DIRECTION,
-    FIXED,
-    MIRRORS,
-    RATIO,
-    RAYS,
-    VECTOR,
-    positions,
-    projection_of,
-    projection_on,
-    rotation_matrix,
-)
+from ssilang.operators.mesh.copies.maps import *
 from ssilang.operators.mesh.tolerance import IN_PLANE, IN_SPACE
 from ssilang.operators.prelude import *
 

@@ -13,6 +13,11 @@ from ssilang.kernel.mesh.surfaces.analytic import (
 )
 from ssilang.operators.prelude import *
 
+__all__ = [
+    "ANGLE", "DIRECTION", "FIXED", "MIRRORS", "RATIO", "RAYS", "SHAPES", "VECTOR", "positions",
+    "projection_of", "projection_on", "rotation_matrix", "shape_of",
+]  # fmt: skip
+
 RATIO = arg("ratio", "FLOTTANT", en="ratio", usual=NOT_ZERO)
 FIXED = arg("fixed", "POINT", en="point that stays")
 DIRECTION = arg("towards", "POINT", en="other point of the direction")

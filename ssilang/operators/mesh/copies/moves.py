@@ -18,16 +18,7 @@ from ssilang.kernel.mesh.changes.transform import (
     turn,
 )
 from ssilang.kernel.mesh.generators.sweep import rotate
-from ssilang.operators.mesh.copies.maps import (
-    DIRECTION,
-    FIXED,
-    MIRRORS,
-    RATIO,
-    RAYS,
-    VECTOR,
-    positions,
-    projection_of,
-)
+from ssilang.operators.mesh.copies.maps import *
 from ssilang.operators.mesh.lines.ends import AXIS, axis_of
 from ssilang.operators.prelude import *
 
