@@ -17,17 +17,8 @@ from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
+from ssilang.language import values
 from ssilang.language.search import SHORT_LIKE, nearest
-from ssilang.language.values import (
-    ListChpo,
-    ListEnti,
-    ListMots,
-    ListObje,
-    ListReel,
-    Mot,
-    Table,
-    type_of,
-)
 
 if TYPE_CHECKING:
     import pandas
@@ -36,7 +27,7 @@ if TYPE_CHECKING:
 _MOST_SHOWN = 20
 
 
-class TableView(View[Table], Mapping[Any, Any]):
+class TableView(View[values.Table], Mapping[Any, Any]):
     """A TABLE. What a calculation saved is made when it is asked for, not before.
 
     Examples
@@ -76,7 +67,7 @@ class TableView(View[Table], Mapping[Any, Any]):
         lists = {
             str(i): v.values
             for i, v in self.held.items()
-            if isinstance(v, ListReel | ListEnti | ListMots)
+            if isinstance(v, values.ListReel | values.ListEnti | values.ListMots)
         }
         return library("pandas", self.language).DataFrame(lists)
 
@@ -106,19 +97,19 @@ class OpaqueView(View[Any]):
     """What has no form of its own in Python: RIGIDITE, MMODEL, CHARGEMENT, PROCEDUR ..."""
 
     def __repr__(self) -> str:
-        return f"<{type_of(self.held)}>"
+        return f"<{values.type_of(self.held)}>"
 
 
 _VALUES: dict[type, Callable[[Any], Any]] = {
-    Mot: str,
-    ListReel: lambda v: v.values.copy(),
-    ListEnti: lambda v: v.values.copy(),
-    ListMots: lambda v: [str(word) for word in v.values],
+    values.Mot: str,
+    values.ListReel: lambda v: v.values.copy(),
+    values.ListEnti: lambda v: v.values.copy(),
+    values.ListMots: lambda v: [str(word) for word in v.values],
 }
 """What numbers and words are in Python, by the class of the list."""
 _VIEWS: dict[type, Callable[[Any, str], Any]] = {
-    ListChpo: lambda v, language: [seen(part, language) for part in v.values],
-    ListObje: lambda v, language: [seen(part, language) for part in v.values],
+    values.ListChpo: lambda v, language: [seen(part, language) for part in v.values],
+    values.ListObje: lambda v, language: [seen(part, language) for part in v.values],
     Point: PointView,
     Mesh: MeshView,
     NodeField: FieldView,
@@ -134,7 +125,7 @@ def seen(value: Any, language: str = "en") -> Any:
     plain = _VALUES.get(type(value))
     if plain is not None:
         return plain(value)
-    view = TableView if isinstance(value, Table) else _VIEWS.get(type(value))
+    view = TableView if isinstance(value, values.Table) else _VIEWS.get(type(value))
     if view is not None:
         return view(value, language)
     return value if isinstance(value, _AS_THEY_ARE) else OpaqueView(value)
@@ -153,11 +144,11 @@ def held(value: Any, language: str = "en") -> Any:
     if isinstance(value, bool | int | float):
         return value
     if isinstance(value, str):
-        return Mot(value)
+        return values.Mot(value)
     if isinstance(value, np.generic):
         return held(value.item(), language)
     if hasattr(value, "__fspath__"):
-        return Mot(value.__fspath__())
+        return values.Mot(value.__fspath__())
     if hasattr(value, "index") and hasattr(value, "to_numpy"):  # a Series
         name = str(getattr(value, "name", "") or "")
         x, y = np.asarray(value.index, float), np.asarray(value.to_numpy(), float)
@@ -170,8 +161,8 @@ def held(value: Any, language: str = "en") -> Any:
 def _list(value: Any, language: str) -> Any:
     """The list of numbers or words that a sequence is."""
     if len(value) and all(isinstance(v, str) for v in value):
-        return ListMots([str(v) for v in value])
+        return values.ListMots([str(v) for v in value])
     array = np.asarray(value)
     if array.ndim != 1 or array.dtype.kind not in "iuf":
         raise refused("api.no-such-object", language, kind=type(value).__name__)
-    return ListEnti(array) if array.dtype.kind in "iu" else ListReel(array)
+    return values.ListEnti(array) if array.dtype.kind in "iu" else values.ListReel(array)

@@ -6,18 +6,7 @@ from functools import cache, lru_cache
 
 from ssilang.cli.checking.usage import statements_of
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.language import vocabulary
-from ssilang.language.registry import (
-    OPERATORS,
-    Argument,
-    Entry,
-    Group,
-    Operator,
-    Select,
-    arguments_in,
-    find_operator,
-    keywords_of,
-)
+from ssilang.language import registry, vocabulary
 from ssilang.language.say.errors import SsiError
 from ssilang.language.search import VERY_LIKE, nearest, slips
 from ssilang.language.text import tree
@@ -64,7 +53,7 @@ class _Words:
     def phrase(self, items: Iterable[tree.Item]) -> Iterator[SsiError]:
         """What is misspelt in a phrase and in its parentheses."""
         items = tuple(items)
-        operator: Operator | None = None
+        operator: registry.Operator | None = None
         for place, item in enumerate(items):
             if isinstance(item, tree.Paren):
                 yield from self.phrase(item.items)
@@ -83,22 +72,24 @@ class _Words:
                     yield SsiError("unknown-operator", item.span, name=item.text)
 
     @staticmethod
-    def _named(before: Operator | None, word: str, quoted: bool) -> Operator | None:
+    def _named(
+        before: registry.Operator | None, word: str, quoted: bool
+    ) -> registry.Operator | None:
         """The operator that a word names behind another one, which may take it as a word."""
         if before is not None and (quoted or _takes_words(before.name)):
             return None
-        return find_operator(word)
+        return registry.find_operator(word)
 
     def _is_operator(self, word: str) -> bool:
         """Whether a word that stands nowhere else is nearly an operator's name."""
         if len(word) < vocabulary.SHORT or self.times[word] > 1:
             return False
-        full = {o.full_name for o in OPERATORS.values()}
-        swapped = any(sorted(word) == sorted(name) for name in OPERATORS)
+        full = {o.full_name for o in registry.OPERATORS.values()}
+        swapped = any(sorted(word) == sorted(name) for name in registry.OPERATORS)
         return swapped or bool(nearest(word, full, VERY_LIKE))
 
     def _near(
-        self, operator: Operator, word: str, item: tree.Quoted | tree.Name
+        self, operator: registry.Operator, word: str, item: tree.Quoted | tree.Name
     ) -> Iterator[SsiError]:
         near = _meant(operator.name, word, self.times[word] == 1)
         if near:
@@ -110,30 +101,30 @@ class _Words:
 @cache
 def _kinds(name: str) -> frozenset[str]:
     """Lists of the vocabulary that an operator takes words of."""
-    found = find_operator(name)
+    found = registry.find_operator(name)
     forms = found.forms if found is not None else ()
-    declared = {a.kind for form in forms for a in arguments_in(form.entries or ())}
+    declared = {a.kind for form in forms for a in registry.arguments_in(form.entries or ())}
     return frozenset({*declared, *vocabulary.WORDS_OF.get(name, ())} & {*vocabulary.KINDS})
 
 
 @cache
 def _keywords(name: str) -> tuple[str, ...]:
-    found = find_operator(name)
-    return tuple(w.rstrip() for w in keywords_of(found)) if found is not None else ()
+    found = registry.find_operator(name)
+    return tuple(w.rstrip() for w in registry.keywords_of(found)) if found is not None else ()
 
 
 @cache
 def _takes_words(name: str) -> bool:
     """Whether an operator takes all words behind it: names of parameters, words of a list."""
-    found = find_operator(name)
+    found = registry.find_operator(name)
     forms = found.forms if found is not None else ()
     lists = [
         entry
         for form in forms
         for entry in form.entries or ()
-        if isinstance(entry, Argument | Group) and entry.repeated
+        if isinstance(entry, registry.Argument | registry.Group) and entry.repeated
     ]
-    return any("MOT" in a.types for a in arguments_in(lists))
+    return any("MOT" in a.types for a in registry.arguments_in(lists))
 
 
 def _named_freely(name: str, items: tuple[tree.Item, ...]) -> bool:
@@ -148,12 +139,12 @@ def _named_freely(name: str, items: tuple[tree.Item, ...]) -> bool:
 @cache
 def _free_cases(name: str) -> tuple[tuple[int, frozenset[str]], ...]:
     """Words that choose within an operator, with the letters that count, before free names."""
-    found = find_operator(name)
+    found = registry.find_operator(name)
     selects = [
         entry
         for form in (found.forms if found is not None else ())
         for entry in form.entries or ()
-        if isinstance(entry, Select)
+        if isinstance(entry, registry.Select)
     ]
     return tuple(
         (s.length, frozenset(w[: s.length] for w, inner in s.cases.items() if _has_free(inner)))
@@ -161,9 +152,11 @@ def _free_cases(name: str) -> tuple[tuple[int, frozenset[str]], ...]:
     )
 
 
-def _has_free(entries: Iterable[Entry]) -> bool:
+def _has_free(entries: Iterable[registry.Entry]) -> bool:
     """Whether a word of no list of the vocabulary is read, besides the values of keywords."""
-    return any(isinstance(e, Argument) and e.types == ("MOT",) and not e.kind for e in entries)
+    return any(
+        isinstance(e, registry.Argument) and e.types == ("MOT",) and not e.kind for e in entries
+    )
 
 
 @cache

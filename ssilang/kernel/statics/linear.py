@@ -18,19 +18,7 @@ from ssilang.kernel.base.errors import (
 )
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import (
-    MULTIPLIER,
-    ConstraintRows,
-    Numbering,
-    assemble,
-    constraint_matrix,
-    field_to_vector,
-    imposed_values,
-    is_symmetric,
-    numbering_of,
-    outside,
-    vector_to_field,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection_pays, goes_to_petsc
@@ -77,9 +65,9 @@ class Solution:
 class LinearSystem:
     """A matrix with its conditions, factorised once."""
 
-    numbering: Numbering
+    numbering: assembly.Numbering
     K: sp.csr_array  # (n, n) stiffness
-    rows: ConstraintRows  # conditions
+    rows: assembly.ConstraintRows  # conditions
     elimination: Elimination  # of the equalities that are eliminated
     saddle: IntArray  # rows that stand in the saddle point
     contact: IntArray  # rows that may be active or not
@@ -217,7 +205,7 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
     """
     refuse_layer_at_rest(matrix)
     key = f"linear:{options}"
-    numbering = numbering_of(matrix)
+    numbering = assembly.numbering_of(matrix)
     kept = matrix.cache.get(key)
     if isinstance(kept, LinearSystem) and kept.numbering is numbering and not kept.lost:
         return kept
@@ -226,18 +214,18 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
     return system
 
 
-def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> LinearSystem:
+def _prepare(matrix: Matrix, numbering: assembly.Numbering, options: SolveOptions) -> LinearSystem:
     if numbering.size == 0:
         raise KernelError("kernel.statics.matrix-empty-nothing-solve")
-    K = assemble(matrix, numbering)
-    rows = constraint_matrix(matrix, numbering)
+    K = assembly.assemble(matrix, numbering)
+    rows = assembly.constraint_matrix(matrix, numbering)
     equality = (rows.sense == 0) | (not options.unilateral)
     lawful = equality & _associated_rows(rows)
     elimination = eliminate(rows.C, lawful & options.eliminate)
     left = ~elimination.eliminated & equality
     saddle, contact = np.flatnonzero(left), np.flatnonzero(~equality)
     reduced = _saddle_point(K, rows, elimination.T, saddle)
-    symmetric = is_symmetric(matrix)
+    symmetric = assembly.is_symmetric(matrix)
     if options.stabilise:
         reduced = stabilised(reduced, len(elimination.masters))
     order = None
@@ -248,7 +236,7 @@ def _prepare(matrix: Matrix, numbering: Numbering, options: SolveOptions) -> Lin
 
 
 def _ordering(
-    numbering: Numbering, elimination: Elimination, solver: Solver, once: bool
+    numbering: assembly.Numbering, elimination: Elimination, solver: Solver, once: bool
 ) -> Ordering | None:
     """Places of the unknowns left, where a solver that goes by them is the best there is."""
     n = len(elimination.masters)
@@ -260,7 +248,7 @@ def _ordering(
     return Ordering(points, np.zeros(0, np.int64), rigid, nodes, once)
 
 
-def _associated_rows(rows: ConstraintRows) -> BoolArray:
+def _associated_rows(rows: assembly.ConstraintRows) -> BoolArray:
     if rows.associated:
         return np.ones(len(rows.sense), bool)
     difference = abs(rows.C - rows.D).sum(axis=1)
@@ -269,7 +257,7 @@ def _associated_rows(rows: ConstraintRows) -> BoolArray:
 
 
 def _saddle_point(
-    K: sp.csr_array, rows: ConstraintRows, T: sp.csr_array, saddle: IntArray
+    K: sp.csr_array, rows: assembly.ConstraintRows, T: sp.csr_array, saddle: IntArray
 ) -> sp.csr_array:
     reduced = sp.csr_array(T.T @ K @ T)
     if len(saddle) == 0:
@@ -314,23 +302,23 @@ def solve(
     system = linear_system(matrix, options)
     solutions = []
     for load in loads:
-        f = field_to_vector(load, system.numbering)
+        f = assembly.field_to_vector(load, system.numbering)
         if not options.project:
             _taken(load, system.numbering)
-        d = imposed_values(load, system.rows.multipliers)
+        d = assembly.imposed_values(load, system.rows.multipliers)
         wrong = np.flatnonzero(~np.isfinite(f))
         if len(wrong) or not np.isfinite(d).all():
             at = [system.numbering.label(int(i)) for i in wrong[:1]]
             raise KernelError("kernel.statics.load-not-finite", at=at)
         found = system.solve(f, d, options.project)
         pair = (system.rows.multipliers, found.multipliers)
-        solutions.append(vector_to_field(found.u, system.numbering, multipliers=pair))
+        solutions.append(assembly.vector_to_field(found.u, system.numbering, multipliers=pair))
     return solutions
 
 
-def _taken(load: NodeField, numbering: Numbering) -> None:
+def _taken(load: NodeField, numbering: assembly.Numbering) -> None:
     """Refuse forces that no unknown of the matrix takes."""
-    lost = outside(load, numbering)
+    lost = assembly.outside(load, numbering)
     if lost:
         strange = np.setdiff1d(load.node_ids, numbering.nodes)
         above, below = lying_on(load.table, strange, np.unique(numbering.nodes))
@@ -350,13 +338,13 @@ def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
     KernelError
         If the solution lacks multipliers of the relations; a field without components is zero.
     """
-    numbering = numbering_of(matrix)
-    rows = constraint_matrix(matrix, numbering)
+    numbering = assembly.numbering_of(matrix)
+    rows = assembly.constraint_matrix(matrix, numbering)
     _require_multipliers(rows, numbering, solution)
-    multipliers = solution.values_at(MULTIPLIER, rows.multipliers)
+    multipliers = solution.values_at(assembly.MULTIPLIER, rows.multipliers)
     forces = -(rows.D.T @ multipliers)
     used = np.diff(sp.csc_array(rows.D).indptr) > 0
-    whole = vector_to_field(forces, numbering, dual=True)
+    whole = assembly.vector_to_field(forces, numbering, dual=True)
     keep = {}
     for code, name in enumerate(numbering.duals):
         on = used[numbering.codes == code]
@@ -366,8 +354,10 @@ def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
     return NodeField(matrix.table, keep, "DISCRET")
 
 
-def _require_multipliers(rows: ConstraintRows, numbering: Numbering, solution: NodeField) -> None:
-    part = solution.components.get(MULTIPLIER)
+def _require_multipliers(
+    rows: assembly.ConstraintRows, numbering: assembly.Numbering, solution: NodeField
+) -> None:
+    part = solution.components.get(assembly.MULTIPLIER)
     there = np.empty(0, dtype=np.int64) if part is None else part.nodes
     missing = np.flatnonzero(~np.isin(rows.multipliers, there))
     if not len(missing) or not solution.components:
@@ -380,9 +370,11 @@ def _require_multipliers(rows: ConstraintRows, numbering: Numbering, solution: N
 
 def product(matrix: Matrix, field_: NodeField) -> NodeField:
     """The field of forces `K u` (and C^T LX, C u at the multipliers), by dual names."""
-    numbering = numbering_of(matrix)
-    rows = constraint_matrix(matrix, numbering)
-    u = field_to_vector(field_, numbering, dual=False)
+    numbering = assembly.numbering_of(matrix)
+    rows = assembly.constraint_matrix(matrix, numbering)
+    u = assembly.field_to_vector(field_, numbering, dual=False)
     multipliers = field_.values_at("LX", rows.multipliers)
-    forces = assemble(matrix, numbering) @ u + rows.D.T @ multipliers
-    return vector_to_field(forces, numbering, dual=True, multipliers=(rows.multipliers, rows.C @ u))
+    forces = assembly.assemble(matrix, numbering) @ u + rows.D.T @ multipliers
+    return assembly.vector_to_field(
+        forces, numbering, dual=True, multipliers=(rows.multipliers, rows.C @ u)
+    )

@@ -10,6 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
+from ssilang.kernel.stepping import keeping
 from ssilang.kernel.stepping.choose import (
     Case,
     Choice,
@@ -19,19 +20,6 @@ from ssilang.kernel.stepping.choose import (
     rule_named,
 )
 from ssilang.kernel.stepping.extremes import Extremes
-from ssilang.kernel.stepping.keeping import (
-    Keeper,
-    State,
-    fitting,
-    leaves,
-    memory,
-    put_back,
-    recall,
-    steady,
-    stride_of,
-    take_over,
-    told_to_leave,
-)
 from ssilang.kernel.stepping.problem.bodies import full_uplift
 from ssilang.kernel.stepping.problem.equilibrium import react
 from ssilang.kernel.stepping.problem.initial import (
@@ -151,7 +139,7 @@ class Integration:
     full_newton: bool = False
     driver: "Driver | None" = None
     light: bool = True
-    keeper: Keeper | None = None
+    keeper: keeping.Keeper | None = None
     motion: Motion = field(init=False)
     taps: Taps = field(init=False)
     wanted: BoolArray = field(init=False)
@@ -203,7 +191,7 @@ class Integration:
             self.prepare(inside)
             kept = None if self.keeper is None else self.keeper.last()
             if kept is not None:
-                with fitting():
+                with keeping.fitting():
                     self._go_on(kept, history)
             else:
                 self.begin()
@@ -245,13 +233,13 @@ class Integration:
         if keeper is None:
             done = 0
             while done < total:
-                done = self._chunk(done, stride_of(done, unknowns), history).last
+                done = self._chunk(done, keeping.stride_of(done, unknowns), history).last
             return
 
-        def state() -> State:
+        def state() -> keeping.State:
             return self._state(history)
 
-        with told_to_leave(keeper, lambda: self._done, state):
+        with keeping.told_to_leave(keeper, lambda: self._done, state):
             while self._done < total:
                 self._chunk(self._done, keeper.stride(self._done, unknowns), history)
                 if self._done < total:
@@ -293,7 +281,7 @@ class Integration:
             recorder = recorder_of(
                 self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
             )
-            with steady(self.keeper, self._done, partial(self._state, history)):
+            with keeping.steady(self.keeper, self._done, partial(self._state, history)):
                 done, turns, residual = choice.loop.run(factors, recorder)
                 history.worst = float(self._balance[1])
                 history.seen = max(
@@ -314,14 +302,14 @@ class Integration:
 
     # ---- going on later
 
-    def _state(self, history: History) -> State:
+    def _state(self, history: History) -> keeping.State:
         """All that the steps to come depend on, and what is told of those that were done."""
         known = [
-            {"dt": dt, "begun": self._begun[dt], "remembers": memory(choice.loop)}
+            {"dt": dt, "begun": self._begun[dt], "remembers": keeping.memory(choice.loop)}
             for dt, choice in self._choices.items()
         ]
         return {
-            "motion": leaves(self.motion),
+            "motion": keeping.leaves(self.motion),
             "closed": self._closed.copy(),
             "balance": self._balance.copy(),
             "loops": known,
@@ -333,16 +321,16 @@ class Integration:
             },
         }  # fmt: skip
 
-    def _go_on(self, kept: State, history: History) -> None:
+    def _go_on(self, kept: keeping.State, history: History) -> None:
         """Take over the state in which an earlier run left."""
         self._done = len(kept["energies"]) - 1
         made, self._choices = self._choices, {}
         for known in kept["loops"] if self._done < len(self.problem.times) - 1 else ():
-            put_back((*self.motion, self._closed), known["begun"])
+            keeping.put_back((*self.motion, self._closed), known["begun"])
             if known["dt"] in made:
                 self._choices[known["dt"]] = made[known["dt"]]
-            recall(self._choice(known["dt"]).loop, known["remembers"])
-        take_over(self.motion, kept["motion"])
+            keeping.recall(self._choice(known["dt"]).loop, known["remembers"])
+        keeping.take_over(self.motion, kept["motion"])
         self._closed[:], self._balance[:] = kept["closed"], kept["balance"]
         history.kept[: self._done + 1] = kept["energies"]
         told = kept["told"]
@@ -375,7 +363,7 @@ class Integration:
                 del self._choices[oldest]
                 self._begun.pop(oldest, None)
             if self.keeper is not None:
-                self._begun[dt] = leaves((*self.motion, self._closed))
+                self._begun[dt] = keeping.leaves((*self.motion, self._closed))
             case = Case(self.problem, self.motion, dt, self.full_newton, self._closed)
             found = self._choices[dt] = choose(case)
         return found
@@ -425,7 +413,7 @@ def integrate(
     progress: Progress | None = None,
     full_newton: bool = False,
     driver: "Driver | None" = None,
-    keeper: Keeper | None = None,
+    keeper: keeping.Keeper | None = None,
 ) -> History:
     """Integrate a problem over its times.
 

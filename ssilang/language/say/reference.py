@@ -6,20 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from ssilang.language.registry import (
-    ANY,
-    OPERATORS,
-    Argument,
-    Either,
-    Entry,
-    Group,
-    Help,
-    Keyword,
-    Operator,
-    Select,
-    find_operator,
-    operators_by_family,
-)
+from ssilang.language import registry
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
@@ -43,11 +30,11 @@ class Page:
     kind: str  # 'operator' or 'procedure'
     family: str
     title: str
-    help: Help
-    forms: tuple[tuple[Entry, ...] | None, ...] = ()
+    help: registry.Help
+    forms: tuple[tuple[registry.Entry, ...] | None, ...] = ()
 
 
-def operator_page(found: Operator) -> Page:
+def operator_page(found: registry.Operator) -> Page:
     """The page of an operator, from the registry."""
     forms = tuple(form.entries for form in found.forms)
     return Page(found.name, found.full_name, "operator", found.family, "", found.help, forms)
@@ -70,7 +57,7 @@ def procedure_page(path: Path) -> Page:
     for line in head[1:]:
         current = _sort_line(line, current, parts)
     examples = _even("\n".join(parts["example"]))
-    help_ = Help(
+    help_ = registry.Help(
         " ".join(" ".join(parts["EN"]).split()),
         " ".join(" ".join(parts["FR"]).split()),
         _even("\n".join(line for line in parts["syntax"] if line.strip())),
@@ -124,7 +111,7 @@ def find_page(word: str, procedures: Mapping[str, Path]) -> Page | None:
     word = word.upper().strip()
     if word in procedures:
         return procedure_page(procedures[word])
-    found = find_operator(word)
+    found = registry.find_operator(word)
     return operator_page(found) if found is not None else None
 
 
@@ -183,30 +170,30 @@ def _arguments(page: Page, language: str) -> list[str]:
     return lines
 
 
-def describe(entry: Entry, language: str = "en") -> list[str]:
+def describe(entry: registry.Entry, language: str = "en") -> list[str]:
     """Lines about an entry of a form: name or words, types, meaning, unit, default, inner ones."""
     match entry:
-        case Argument():
+        case registry.Argument():
             note = _note(entry.optional and not entry.repeated, entry.repeated, language)
             return [f"{entry.name:<14} {_types(entry, language)}{_said(entry, language)}{note}"]
-        case Keyword():
+        case registry.Keyword():
             words = _or(language).join(f"'{w.strip()}'" for w in entry.words)
             values = "".join(
                 f" {a.name}: {_types(a, language)}{_said(a, language)}" for a in entry.arguments
             )
             note = _note(entry.optional, entry.repeated, language)
             return [f"{words}{values}{_meaning(entry, language)}{note}"]
-        case Select():
+        case registry.Select():
             lines = [_meaning(entry, language).lstrip(": ")] if entry.en else []
             for word, inner in entry.cases.items():
                 lines.append(f"'{word.strip()}'{_note(entry.optional, entry.repeated, language)}")
                 lines += _indented(inner, language)
             return lines
-        case Group():
+        case registry.Group():
             note = _note(entry.optional and not entry.repeated, entry.repeated, language)
             head = f"{entry.name}{_meaning(entry, language)}{note}"
             return [head, *_indented(entry.entries, language)]
-        case Either():
+        case registry.Either():
             lines = [
                 f"{entry.name}{_meaning(entry, language)}{_note(entry.optional, False, language)}"
             ]
@@ -216,16 +203,16 @@ def describe(entry: Entry, language: str = "en") -> list[str]:
             return lines
 
 
-def _indented(entries: Iterable[Entry], language: str) -> list[str]:
+def _indented(entries: Iterable[registry.Entry], language: str) -> list[str]:
     return [f"  {line}" for entry in entries for line in describe(entry, language)]
 
 
-def _meaning(entry: Entry, language: str) -> str:
+def _meaning(entry: registry.Entry, language: str) -> str:
     text = spoken(entry.en, entry.fr, language)
     return f": {text}" if text else ""
 
 
-def _said(a: Argument, language: str) -> str:
+def _said(a: registry.Argument, language: str) -> str:
     """Meaning, unit and default of an operand."""
     unit = f" [{a.unit}]" if a.unit else ""
     default = f" (= {a.default})" if a.optional and a.default not in (None, ()) else ""
@@ -238,8 +225,8 @@ def _said(a: Argument, language: str) -> str:
     return f"{_meaning(a, language)}{unit}{default}{''.join(told)}"
 
 
-def _types(a: Argument, language: str) -> str:
-    if a.types == (ANY,):
+def _types(a: registry.Argument, language: str) -> str:
+    if a.types == (registry.ANY,):
         return teller(language)("help.any-object")
     return _or(language).join(a.types)
 
@@ -262,7 +249,7 @@ def first_sentence(text: str) -> str:
 def overview(procedures: Iterable[Path], language: str) -> str:
     """All operators by family and all procedures, a line each."""
     lines: list[str] = []
-    for family, members in operators_by_family().items():
+    for family, members in registry.operators_by_family().items():
         lines += ["", family_text(family, language).upper()]
         for found in members:
             text = found.help.told(language)
@@ -282,5 +269,5 @@ def _entry_line(name: str, text: str) -> str:
 
 def page_names(procedures: Iterable[str]) -> set[str]:
     """All names that help knows."""
-    full = {o.full_name for o in OPERATORS.values()}
-    return {*OPERATORS, *full, *procedures}
+    full = {o.full_name for o in registry.OPERATORS.values()}
+    return {*registry.OPERATORS, *full, *procedures}

@@ -1,16 +1,6 @@
 """CHAN between supports of fields in cells, REDU and EXTR of models and fields in cells."""
 
-from ssilang.kernel.elements.results.supports import (
-    cells_of_mesh,
-    cells_of_nodal,
-    field_on_mesh,
-    field_on_model,
-    model_on_mesh,
-    moved,
-    nodal_of_cells,
-    point_coordinates,
-    values_at_points,
-)
+from ssilang.kernel.elements.results import supports
 from ssilang.kernel.fields.cell_algebra import united
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.prelude import *
@@ -36,8 +26,8 @@ def chan_support(
 ) -> CellField:
     """Another support."""
     if isinstance(field, NodeField):
-        return cells_of_nodal(model, field, cast(Support, word), _trimmed(title) or "")
-    return moved(model, field, cast(Support, word), _trimmed(title))
+        return supports.cells_of_nodal(model, field, cast(Support, word), _trimmed(title) or "")
+    return supports.moved(model, field, cast(Support, word), _trimmed(title))
 
 
 @CHAN.form(said("CHAM"))
@@ -52,10 +42,10 @@ def chan_cells(
     if isinstance(place, Mesh):
         if support != "NOEUD":
             call.warn("operators.fields.mesh-has-nodes-alone", support=support)
-        return cells_of_mesh(place, cast(NodeField, field), _trimmed(title) or "")
+        return supports.cells_of_mesh(place, cast(NodeField, field), _trimmed(title) or "")
     if isinstance(field, CellField):
-        return moved(place, field, cast(Support, support), _trimmed(title))
-    return cells_of_nodal(place, field, cast(Support, support), _trimmed(title) or "")
+        return supports.moved(place, field, cast(Support, support), _trimmed(title))
+    return supports.cells_of_nodal(place, field, cast(Support, support), _trimmed(title) or "")
 
 
 @CHAN.form(said("CHPO"))
@@ -73,10 +63,10 @@ def chan_nodal(
     if isinstance(field, NodeField):
         return field
     if rule == "SUPP":
-        return values_at_points(field)
+        return supports.values_at_points(field)
     if model is None:
         raise call.missing(("MMODEL",))
-    return nodal_of_cells(model, field, "SOMM" if rule == "SOMM" else "MOYE")
+    return supports.nodal_of_cells(model, field, "SOMM" if rule == "SOMM" else "MOYE")
 
 
 @REDU.form()
@@ -84,7 +74,7 @@ def redu_model(
     model: Model = Main("MMODEL", en="model"), mesh: Mesh = Arg("MAILLAGE", en="cells that stay")
 ) -> Model:
     """Model on a mesh."""
-    return model_on_mesh(model, mesh)
+    return supports.model_on_mesh(model, mesh)
 
 
 _STRICT = flag(
@@ -98,7 +88,7 @@ def redu_behind_model(
     strict: bool = _STRICT,
 ) -> CellField:
     """Field in cells, given behind the model that restricts it."""
-    return field_on_model(field, model)
+    return supports.field_on_model(field, model)
 
 
 @REDU.form(
@@ -109,8 +99,8 @@ def redu_behind_model(
 def redu_cells(field: CellField, support: Mesh | Model, strict: bool = False) -> CellField:
     """Field in cells on a mesh or model."""
     if isinstance(support, Mesh):
-        return field_on_mesh(field, support)
-    return field_on_model(field, support)
+        return supports.field_on_mesh(field, support)
+    return supports.field_on_model(field, support)
 
 
 @REDU.form(gives="TABLE")
@@ -138,7 +128,7 @@ def redu_table(
     fields = [v for k, v in table.items() if isinstance(k, int) and isinstance(v, CellField)]
     if not fields:
         raise call.error("operators.fields.table-of-fields", table)
-    return field_on_model(reduce(united, fields), model)
+    return supports.field_on_model(reduce(united, fields), model)
 
 
 _POINTS = main("field", "MCHAML", en="field in cells")
@@ -157,7 +147,7 @@ def coor_cells(
 
 
 def _coordinates(field: CellField, axes: Iterable[int]) -> tuple[CellField, ...]:
-    where = point_coordinates(field)
+    where = supports.point_coordinates(field)
     return tuple(
         CellField(
             tuple(replace(b, components={"SCAL": x[..., axis]}) for b, x in where), "SCALAIRE"

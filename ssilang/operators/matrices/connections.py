@@ -4,22 +4,12 @@ from itertools import product
 
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
+from ssilang.kernel.statics import doubled
 from ssilang.kernel.statics.cells_amiss import (
     bent_layer,
     bordered_solids,
     hanging_nodes,
     overlapping_cells,
-)
-from ssilang.kernel.statics.doubled import (
-    beside_joints,
-    bodies_apart,
-    clamped_alone,
-    doubled_supports,
-    ends_apart,
-    held_nowhere,
-    idle_nodes,
-    repeated_cells,
-    springs_apart,
 )
 from ssilang.kernel.statics.linear_motion import crossed_lines, wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
@@ -81,21 +71,21 @@ def warn_connections(
     found = {
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
-        "operators.matrices.springs-held": idle_nodes(springs, matrix),
-        "operators.matrices.clamped-alone": clamped_alone(matrix),
+        "operators.matrices.springs-held": doubled.idle_nodes(springs, matrix),
+        "operators.matrices.clamped-alone": doubled.clamped_alone(matrix),
         "operators.matrices.relation-sign": wrong_signs(matrix),
         "operators.matrices.lines-crossed": crossed_lines(matrix),
-        "operators.matrices.ends-apart": ends_apart(matrix),
+        "operators.matrices.ends-apart": doubled.ends_apart(matrix),
         "operators.matrices.joints-twice": repeated_joints(model, characteristics),
     }
     if operator == "VIBR":
         sides = [r.nodes[r.row_start[:-1]][r.sense != 0] for r in matrix.relations]
         found["operators.matrices.unilateral-held"] = np.concatenate([used[:0], *sides])
     else:  # modes DYNE may bring into contact
-        found["operators.matrices.springs-apart"] = springs_apart(matrix, used)
+        found["operators.matrices.springs-apart"] = doubled.springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
-            found["operators.matrices.beside-joints"] = beside_joints(matrix, joints)
-            found["operators.matrices.bodies-apart"] = bodies_apart(matrix, joints)
+            found["operators.matrices.beside-joints"] = doubled.beside_joints(matrix, joints)
+            found["operators.matrices.bodies-apart"] = doubled.bodies_apart(matrix, joints)
     for code, nodes in found.items():
         if len(nodes):
             tell(code, count=len(nodes), node=matrix.table.told(int(nodes[0])))
@@ -114,10 +104,10 @@ def _joints_in(matrix: Matrix) -> tuple[Zone, ...]:
 def _warn_doubled_supports(
     tell: Tell, matrix: Matrix, model: Model | None, known: set[str]
 ) -> None:
-    if model is None and (names := sorted(held_nowhere(matrix) - known)):
+    if model is None and (names := sorted(doubled.held_nowhere(matrix) - known)):
         tell("operators.matrices.unknown-of-nothing", names=names)
     used = None if model is None or not model.zones else model.mesh.node_ids
-    found = doubled_supports(matrix, used)
+    found = doubled.doubled_supports(matrix, used)
     if found is None:
         return
     x, y, z = matrix.table.coordinates[found.held[0]]
@@ -139,7 +129,7 @@ def warn_repeated(
     Layers, which the stiffness `beside` it knows by their constituents, may be of one mass.
     """
     layered = matrix is not beside and any(b.zone and b.zone.constituent for b in beside.blocks)
-    if not layered and len(found := repeated_cells(matrix)):
+    if not layered and len(found := doubled.repeated_cells(matrix)):
         told = {"kind": kind, "count": len(found), "node": matrix.table.told(int(found[0]))}
         session.warn("operators.matrices.cells-twice", span, operator=operator, **told)
 

@@ -4,22 +4,7 @@ import ssilang.kernel.interface.family  # noqa: F401  joints as a family of elem
 from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, default_element
 from ssilang.kernel.elements.springs import ELEMENT as IMPEDANCE_ELEMENTS
 from ssilang.kernel.interface.elements import JOINT_NAMES, is_joint, with_rule
-from ssilang.kernel.materials.behaviours import (
-    CHANGED_LAWS,
-    CREEP_WORDS,
-    ELASTICITIES,
-    FORMULATIONS,
-    IMPEDANCE_LAWS,
-    JOINT_WORDS,
-    OTHER_BEHAVIOURS,
-    OTHER_FORMULATIONS,
-    OTHER_LINKS,
-    PLASTIC_WORDS,
-    UNDESCRIBED_LAWS,
-    UNPUBLISHED,
-    full_word,
-    normalised,
-)
+from ssilang.kernel.materials import behaviours
 from ssilang.kernel.materials.parameters import LINKS
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.modal import shape_models
@@ -34,11 +19,11 @@ LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 """Elements that scripts also write in full."""
 
 LAW_WORDS = (
-    "ELASTIQUE", *ELASTICITIES, *JOINT_WORDS, *PLASTIC_WORDS, *CREEP_WORDS, "IMPEDANCE",
-    *IMPEDANCE_LAWS,
+    "ELASTIQUE", *behaviours.ELASTICITIES, *behaviours.JOINT_WORDS, *behaviours.PLASTIC_WORDS,
+    *behaviours.CREEP_WORDS, "IMPEDANCE", *behaviours.IMPEDANCE_LAWS,
 )  # fmt: skip
 
-OF_JOINTS = tuple(w for w in JOINT_WORDS if w != "PLASTIQUE")
+OF_JOINTS = tuple(w for w in behaviours.JOINT_WORDS if w != "PLASTIQUE")
 """Words that only joints have."""
 
 
@@ -268,13 +253,13 @@ def read_word(call: Call, word: str, wish: Wish) -> None:
     """
     said = LONG_NAMES.get(word.upper().rstrip(), word.upper().rstrip())
     element = said if said in GENERIC_ELEMENTS else said[:4]
-    if said in OTHER_BEHAVIOURS:  # some begin as an element does: TUYAU_FISSURE
+    if said in behaviours.OTHER_BEHAVIOURS:  # some begin as an element does: TUYAU_FISSURE
         raise _unknown(call, said)
     if (element in ELEMENTS and element != shape_models.LINK) or element in GENERIC_ELEMENTS:
         wish.elements.append(element)
-    elif (law := full_word(said, LAW_WORDS)) is not None:
+    elif (law := behaviours.full_word(said, LAW_WORDS)) is not None:
         wish.laws.append(law)
-    elif (formulation := full_word(said, FORMULATIONS)) is not None:
+    elif (formulation := behaviours.full_word(said, behaviours.FORMULATIONS)) is not None:
         wish.formulation = formulation
     elif said != "PRESSION" or wish.formulation != "CHARGEMENT":
         raise _unknown(call, said)
@@ -286,34 +271,34 @@ def _fitting(call: Call, kinds: Iterable[str]) -> list[str]:
 
 
 def _unknown(call: Call, said: str) -> Exception:
-    known = (*FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
-    if said in UNDESCRIBED_LAWS:
+    known = (*behaviours.FORMULATIONS, *LAW_WORDS, *ELEMENTS, *GENERIC_ELEMENTS)
+    if said in behaviours.UNDESCRIBED_LAWS:
         return call.error("operators.models.joint-law-not-built", said=said)
-    if said in CHANGED_LAWS:
+    if said in behaviours.CHANGED_LAWS:
         raise call.error("operators.models.footing-law-not-built", said, said=said)
-    if said in UNPUBLISHED:
-        names = UNPUBLISHED[said]
+    if said in behaviours.UNPUBLISHED:
+        names = behaviours.UNPUBLISHED[said]
         raise call.error("operators.models.law-without-equations", said, said=said, names=names)
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
-    laws = (*ELASTICITIES, *JOINT_WORDS)
-    if (other := full_word(said, OTHER_FORMULATIONS)) is not None:
-        subject = OTHER_FORMULATIONS[other]
+    laws = (*behaviours.ELASTICITIES, *behaviours.JOINT_WORDS)
+    if (other := behaviours.full_word(said, behaviours.OTHER_FORMULATIONS)) is not None:
+        subject = behaviours.OTHER_FORMULATIONS[other]
         code = "operators.models.formulation-not-available"
         return call.error(
-            code, written, said=other, known=FORMULATIONS,
+            code, written, said=other, known=behaviours.FORMULATIONS,
             outside="" if subject == IN_SCOPE else Sentence(f"help.subject-{subject}"),
         )  # fmt: skip
     if said[:4].rstrip() in OTHER_ELEMENTS:
         return call.error("operators.models.element-not-built", written, said=said)
-    if (link := full_word(said, OTHER_LINKS)) is not None:
+    if (link := behaviours.full_word(said, behaviours.OTHER_LINKS)) is not None:
         kinds = tuple(dict.fromkeys(k[0] for k in LINKS))
         return call.error("operators.models.link-not-available", written, said=link, kinds=kinds)
-    if full_word(said, OTHER_BEHAVIOURS):
+    if behaviours.full_word(said, behaviours.OTHER_BEHAVIOURS):
         code = "operators.models.behaviour-not-available"
         return call.error(code, written, said=said, words=laws)
     near = nearest(said, known, 0.5)
     mesh = next((o.value for o in call.used if isinstance(o.value, Mesh)), None)
-    element = mesh is not None and near not in (*FORMULATIONS, *LAW_WORDS)
+    element = mesh is not None and near not in (*behaviours.FORMULATIONS, *LAW_WORDS)
     kinds = sorted({b.cell_type for b in mesh.blocks}) if mesh is not None and element else []
     return call.error(
         "operators.models.word-unknown",
@@ -337,7 +322,7 @@ def _zone(block: CellBlock, wish: Wish, ws: Workspace) -> Zone:
     options = dict(wish.options)
     if ws.mode is Mode.FOURIER:
         options["harmonic"] = ws.fourier
-    behaviour = normalised(wish.laws, kind.family)
+    behaviour = behaviours.normalised(wish.laws, kind.family)
     if kind.family == "joint" and "ANISOTROPE" in behaviour and kind.name != "JOI1":
         raise MeshError("operators.models.anisotropy-of-two-points", name=name)
     if wish.rule and kind.family == "joint":

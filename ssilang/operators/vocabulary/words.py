@@ -14,16 +14,7 @@ from ssilang.kernel.elements.zone_fields import INSTEAD
 from ssilang.kernel.interface.laws.law import DEFAULTS
 from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.materials.behaviours import (
-    CREEP_FAMILIES,
-    ELASTICITIES,
-    FIBRE_LAWS,
-    PLASTIC_FAMILIES,
-    SECTION_FAMILIES,
-    SECTION_LAWS,
-    UNIAXIAL_FAMILIES,
-    UNIAXIAL_LAWS,
-)
+from ssilang.kernel.materials import behaviours
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
 from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
 from ssilang.language import vocabulary
@@ -79,7 +70,7 @@ def sample_of_law(law: Word) -> Zone | None:
         element = "JOI1" if own else "JOI2"
         return sample(element, plane, ("ELASTIQUE", name))
     if law.kind == "plastic" and name in PLASTIC_LAWS and name != "SECTION":
-        element = "POJS" if name in UNIAXIAL_LAWS else "QUA4"
+        element = "POJS" if name in behaviours.UNIAXIAL_LAWS else "QUA4"
         return sample(element, plane, ("ELASTIQUE", "ISOTROPE", "PLASTIQUE", name))
     if law.kind == "creep" and name in CREEP_LAWS:
         return sample("QUA4", plane, ("ELASTIQUE", "ISOTROPE", "FLUAGE", name))
@@ -87,7 +78,7 @@ def sample_of_law(law: Word) -> Zone | None:
         return sample("IMP1", space, ("ELASTIQUE", "IMPEDANCE", name))
     if law.kind == "contact" and name in _CONTACT:
         return sample("COS2", plane, _CONTACT[name])
-    if law.kind == "elasticity" and name in ELASTICITIES:
+    if law.kind == "elasticity" and name in behaviours.ELASTICITIES:
         element = _ELASTIC_SAMPLES.get(name, "CUB8")
         return sample(element, space, ("ELASTIQUE", name))
     return None
@@ -241,24 +232,24 @@ def cells_of(element: str) -> tuple[str, ...]:
 def laws_of(element: str) -> tuple[str, ...]:
     """Laws that an element has, as they follow ELASTIQUE in MODE."""
     family = ELEMENTS[element].family
-    laws = [name for name, families in ELASTICITIES.items() if family in families]
+    laws = [name for name, families in behaviours.ELASTICITIES.items() if family in families]
     if family == "joint":
         points = [n for n, law in JOINT_LAWS.items() if law.macro or law.two_points]
         faces = element != "JOI1"
         laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and not (faces and n in points)]
     laws += [f"PLASTIQUE {n}" for n in _plastic(family)]
-    laws += [f"FLUAGE {n}" for n in CREEP_LAWS if family in CREEP_FAMILIES]
+    laws += [f"FLUAGE {n}" for n in CREEP_LAWS if family in behaviours.CREEP_FAMILIES]
     return tuple(laws)
 
 
 def _plastic(family: str) -> tuple[str, ...]:
-    if family not in PLASTIC_FAMILIES:
+    if family not in behaviours.PLASTIC_FAMILIES:
         return ()
-    if family in SECTION_FAMILIES:
-        return (*SECTION_LAWS, *(("SECTION",) if family == "timoshenko" else ()))
-    bodies = tuple(n for n in PLASTIC_LAWS if n not in (*UNIAXIAL_LAWS, "SECTION"))
-    bodies += UNIAXIAL_LAWS if family in UNIAXIAL_FAMILIES else ()
-    return FIBRE_LAWS if family == "fibre" else bodies
+    if family in behaviours.SECTION_FAMILIES:
+        return (*behaviours.SECTION_LAWS, *(("SECTION",) if family == "timoshenko" else ()))
+    bodies = tuple(n for n in PLASTIC_LAWS if n not in (*behaviours.UNIAXIAL_LAWS, "SECTION"))
+    bodies += behaviours.UNIAXIAL_LAWS if family in behaviours.UNIAXIAL_FAMILIES else ()
+    return behaviours.FIBRE_LAWS if family == "fibre" else bodies
 
 
 def elements_of_law(law: Word) -> list[str]:

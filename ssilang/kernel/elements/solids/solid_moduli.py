@@ -8,17 +8,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import CellFieldBlock, Support
-from ssilang.kernel.materials.elasticity import (
-    check_isotropic,
-    isotropic_compliance,
-    isotropic_moduli,
-    orthotropic_compliance,
-    reduced_compliance,
-    reduced_moduli,
-    rotated_moduli,
-    strain_rotation,
-    two_axes,
-)
+from ssilang.kernel.materials import elasticity
 from ssilang.kernel.materials.model import Mode, Zone
 
 
@@ -40,7 +30,7 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
         second = np.stack(
             np.broadcast_arrays(*(parameters.at(f"V2{a}", support, 0.0) for a in "XYZ")), axis=-1
         )
-    v1, v2 = two_axes(first, second)
+    v1, v2 = elasticity.two_axes(first, second)
     return np.stack([v1, v2, np.cross(v1, v2)], axis=-2)
 
 
@@ -51,8 +41,10 @@ def _isotropic_pair(
     zone: Zone, parameters: ZoneField, support: Support
 ) -> tuple[FloatArray, FloatArray]:
     young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
-    check_isotropic(young, poisson)
-    return isotropic_moduli(young, poisson), isotropic_compliance(young, poisson)
+    elasticity.check_isotropic(young, poisson)
+    return elasticity.isotropic_moduli(young, poisson), elasticity.isotropic_compliance(
+        young, poisson
+    )
 
 
 def _orthotropic_pair(
@@ -70,10 +62,10 @@ def _orthotropic_pair(
     for name, default_name in _PLANE_DEFAULTS.items():
         given = name in parameters or needs_shear
         constants[name] = parameters.at(name, support) if given else constants[default_name]
-    local = orthotropic_compliance(constants)
+    local = elasticity.orthotropic_compliance(constants)
     axes = material_axes(parameters, support)
-    moduli = rotated_moduli(np.linalg.inv(local).astype(np.float64), axes)
-    T = strain_rotation(axes)
+    moduli = elasticity.rotated_moduli(np.linalg.inv(local).astype(np.float64), axes)
+    T = elasticity.strain_rotation(axes)
     back = np.linalg.inv(T)
     return moduli, back @ local @ np.swapaxes(back, -1, -2)
 
@@ -99,7 +91,7 @@ def _anisotropic_pair(
     D = np.zeros((*shape, 6, 6))
     for (i, j), value in terms.items():
         D[..., i, j] = D[..., j, i] = value
-    return _with_compliance(rotated_moduli(D, _axes_or_global(parameters, support)))
+    return _with_compliance(elasticity.rotated_moduli(D, _axes_or_global(parameters, support)))
 
 
 def _unidirectional_pair(
@@ -109,7 +101,7 @@ def _unidirectional_pair(
     young = parameters.at("YOUN", support)
     D = np.zeros((*young.shape, 6, 6))
     D[..., 0, 0] = young
-    return _with_compliance(rotated_moduli(D, material_axes(parameters, support)))
+    return _with_compliance(elasticity.rotated_moduli(D, material_axes(parameters, support)))
 
 
 Pair = Callable[[Zone, ZoneField, Support], tuple[FloatArray, FloatArray]]
@@ -138,12 +130,12 @@ def _law(zone: Zone) -> Pair:
 
 def solid_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Moduli (n_cells or 1, n_points or 1, n_strains, n_strains) of a zone's hypothesis."""
-    return reduced_moduli(_law(zone)(zone, parameters, support)[0], zone.mode)
+    return elasticity.reduced_moduli(_law(zone)(zone, parameters, support)[0], zone.mode)
 
 
 def solid_compliance(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Compliance with the same shape; in plane stress EPZZ follows from the stresses."""
-    return reduced_compliance(_law(zone)(zone, parameters, support)[1], zone.mode)
+    return elasticity.reduced_compliance(_law(zone)(zone, parameters, support)[1], zone.mode)
 
 
 HOOKE_COMPONENT = "MAHO"

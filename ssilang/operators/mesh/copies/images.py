@@ -2,17 +2,7 @@
 
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.matrix import Relations
-from ssilang.kernel.mesh.changes.transform import (
-    NodeCopier,
-    PointMap,
-    affinity,
-    mirror_line,
-    mirror_plane,
-    mirror_point,
-    scaling,
-    shift,
-    turn,
-)
+from ssilang.kernel.mesh.changes import transform
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
 from ssilang.kernel.mesh.surfaces.surface import facet_shape
 from ssilang.operators.fields.turning import turned_cell_field, turned_node_field
@@ -33,7 +23,7 @@ def displacement_names(ws: Workspace) -> tuple[str, ...]:
 class Copier:
     """Copies of objects of any kind whose nodes go through one `NodeCopier`."""
 
-    def __init__(self, nodes: NodeCopier, rotation: FloatArray | None = None) -> None:
+    def __init__(self, nodes: transform.NodeCopier, rotation: FloatArray | None = None) -> None:
         self.nodes = nodes
         self.rotation = rotation
         self._blocks: dict[int, tuple[CellBlock, CellBlock]] = {}
@@ -124,12 +114,15 @@ _COPIES: dict[type, Any] = {
 
 
 def copies(
-    call: Call, objects: Sequence[Any], image: PointMap, rotation: FloatArray | None = None
+    call: Call,
+    objects: Sequence[Any],
+    image: transform.PointMap,
+    rotation: FloatArray | None = None,
 ) -> tuple[Any, ...]:
     """Copies of all objects through one map."""
     if not objects:
         raise call.missing(GEOMETRIC)
-    copier = Copier(NodeCopier(workspace(call.session).nodes, image), rotation)
+    copier = Copier(transform.NodeCopier(workspace(call.session).nodes, image), rotation)
     return tuple(copier(v) for v in objects)
 
 
@@ -140,7 +133,7 @@ def _shifted(
     if not objects:
         raise call.missing(("POINT", "CHPOINT"))
     if isinstance(by, Point):
-        made = copies(call, objects, shift(sign * by.coordinates.copy()))
+        made = copies(call, objects, transform.shift(sign * by.coordinates.copy()))
         ws = workspace(call.session)
         for value in made:
             if isinstance(value, Point):  # a point that is made has the density in force
@@ -154,7 +147,7 @@ def _shifted(
     def moved(ids: IntArray) -> FloatArray:
         return nodes.coordinates[ids] + sign * displacements(field, ids)
 
-    copier = Copier(NodeCopier(nodes, by_node=moved))
+    copier = Copier(transform.NodeCopier(nodes, by_node=moved))
     return tuple(copier(v) for v in objects)
 
 
@@ -232,7 +225,7 @@ def turned_about_axis(
 def _turned(
     call: Call, objects: Sequence[Any], angle: float, origin: FloatArray, axis: FloatArray
 ) -> tuple[Any, ...]:
-    return copies(call, objects, turn(angle, origin, axis), rotation_matrix(angle, axis))
+    return copies(call, objects, transform.turn(angle, origin, axis), rotation_matrix(angle, axis))
 
 
 @operator(
@@ -246,7 +239,7 @@ def _turned(
 )
 def syme(call: Call, objects: Sequence[Any], centre: Point) -> tuple[Any, ...]:
     """Copy and mirror about a point."""
-    return copies(call, objects, mirror_point(*positions((centre,))))
+    return copies(call, objects, transform.mirror_point(*positions((centre,))))
 
 
 @syme.form(said("DROIT"), _objects(2, "POINT"), *MIRRORS["DROIT"], gives=Like("objects"))
@@ -254,7 +247,7 @@ def mirrored_about_line(
     call: Call, objects: Sequence[Any], point: Point, second: Point
 ) -> tuple[Any, ...]:
     """Copy and mirror about a line."""
-    return copies(call, objects, mirror_line(*positions((point, second))))
+    return copies(call, objects, transform.mirror_line(*positions((point, second))))
 
 
 @syme.form(said("PLAN"), _objects(3, "POINT"), *MIRRORS["PLAN"], gives=Like("objects"))
@@ -262,7 +255,7 @@ def mirrored_about_plane(
     call: Call, objects: Sequence[Any], point: Point, second: Point, third: Point
 ) -> tuple[Any, ...]:
     """Copy and mirror about a plane."""
-    return copies(call, objects, mirror_plane(*positions((point, second, third))))
+    return copies(call, objects, transform.mirror_plane(*positions((point, second, third))))
 
 
 @operator("HOMO", gives=Like("objects"), family="mesh", full_name="HOMOTHETIE")
@@ -273,7 +266,7 @@ def homo(
     fixed: Point = FIXED,
 ) -> tuple[Any, ...]:
     """Copy and scale."""
-    return copies(call, objects, scaling(ratio, fixed.coordinates.copy()))
+    return copies(call, objects, transform.scaling(ratio, fixed.coordinates.copy()))
 
 
 @operator("AFFI", gives=Like("objects"), family="mesh", full_name="AFFINITE")
@@ -285,7 +278,7 @@ def affi(
     towards: Point = DIRECTION,
 ) -> tuple[Any, ...]:
     """Copy and stretch."""
-    return copies(call, objects, affinity(ratio, *positions((fixed, towards))))
+    return copies(call, objects, transform.affinity(ratio, *positions((fixed, towards))))
 
 
 @operator("PROJ", *RAYS, _objects(0), gives=Like("objects"), family="mesh", full_name="PROJETER")

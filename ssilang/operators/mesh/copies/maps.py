@@ -1,16 +1,7 @@
 """Geometric maps as operators read them: rotation, symmetry, scaling, affinity, projection."""
 
 from ssilang.kernel.mesh.changes.transform import PointMap, turn
-from ssilang.kernel.mesh.surfaces.analytic import (
-    Shape,
-    cone_shape,
-    cylinder_shape,
-    line_shape,
-    plane_shape,
-    project,
-    sphere_shape,
-    torus_shape,
-)
+from ssilang.kernel.mesh.surfaces import analytic
 from ssilang.operators.prelude import *
 
 __all__ = [
@@ -32,16 +23,16 @@ _OTHER = arg("other", "POINT", en="other point of the axis")
 _APEX = arg("apex", "POINT", en="apex")
 _SMALL = arg("small", "POINT", en="centre of a small circle")
 
-_SHAPES: Mapping[str, tuple[Callable[..., Shape], tuple[Argument, ...]]] = {
-    "DROIT": (line_shape, (_POINT, _SECOND)),
-    "PLAN": (plane_shape, (_POINT, _SECOND, _THIRD)),
-    "SPHERE": (sphere_shape, (_CENTRE, _POINT)),
-    "CYLINDRE": (cylinder_shape, (_AXIS, _OTHER, _POINT)),
-    "CONE": (cone_shape, (_APEX, _AXIS, _POINT)),
-    "CONI": (cone_shape, (_APEX, _AXIS, _POINT)),
-    "TORE": (torus_shape, (_CENTRE, _AXIS, _SMALL, _POINT)),
-    "TORI": (torus_shape, (_CENTRE, _AXIS, _SMALL, _POINT)),
-    "CERC": (sphere_shape, (_CENTRE, _POINT)),
+_SHAPES: Mapping[str, tuple[Callable[..., analytic.Shape], tuple[Argument, ...]]] = {
+    "DROIT": (analytic.line_shape, (_POINT, _SECOND)),
+    "PLAN": (analytic.plane_shape, (_POINT, _SECOND, _THIRD)),
+    "SPHERE": (analytic.sphere_shape, (_CENTRE, _POINT)),
+    "CYLINDRE": (analytic.cylinder_shape, (_AXIS, _OTHER, _POINT)),
+    "CONE": (analytic.cone_shape, (_APEX, _AXIS, _POINT)),
+    "CONI": (analytic.cone_shape, (_APEX, _AXIS, _POINT)),
+    "TORE": (analytic.torus_shape, (_CENTRE, _AXIS, _SMALL, _POINT)),
+    "TORI": (analytic.torus_shape, (_CENTRE, _AXIS, _SMALL, _POINT)),
+    "CERC": (analytic.sphere_shape, (_CENTRE, _POINT)),
 }
 SHAPES = {word: points for word, (_, points) in _SHAPES.items()}
 """Lines and surfaces by word, with the points behind it."""
@@ -75,7 +66,7 @@ def positions(points: Sequence[Point]) -> list[FloatArray]:
     return [p.coordinates.copy() for p in points]
 
 
-def shape_of(chosen: Chosen) -> Shape:
+def shape_of(chosen: Chosen) -> analytic.Shape:
     """The line or the surface of `SHAPES` that was read."""
     return _SHAPES[chosen.word][0](*positions(list(chosen.values.values())))
 
@@ -85,12 +76,12 @@ def projection_of(way: str, point: Point, surface: Chosen) -> PointMap:
     return projection_on(way, point, shape_of(surface))
 
 
-def projection_on(way: str, point: Point, shape: Shape) -> PointMap:
+def projection_on(way: str, point: Point, shape: analytic.Shape) -> PointMap:
     """The projection along a vector ('CYLI') or from a point ('CONI') on a shape."""
     at = point.coordinates.copy()
     if way == "CONI":
-        return lambda x: project(shape, x, None, at)
-    return lambda x: project(shape, x, at, None)
+        return lambda x: analytic.project(shape, x, None, at)
+    return lambda x: analytic.project(shape, x, at, None)
 
 
 def rotation_matrix(angle: float, axis: FloatArray) -> FloatArray:

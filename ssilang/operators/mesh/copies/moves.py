@@ -1,31 +1,16 @@
 """Nodes moved in place: DEPL."""
 
 from ssilang.kernel.fields.deformed import displacements
-from ssilang.kernel.mesh.changes.transform import (
-    PointMap,
-    affine_through,
-    affinity,
-    from_cylindrical,
-    mirror_line,
-    mirror_plane,
-    mirror_point,
-    move,
-    quarter_middles,
-    scaling,
-    shift,
-    straighten_middles,
-    to_cylindrical,
-    turn,
-)
+from ssilang.kernel.mesh.changes import transform
 from ssilang.kernel.mesh.generators.sweep import rotate
 from ssilang.operators.mesh.copies.maps import *
 from ssilang.operators.mesh.lines.ends import AXIS, axis_of
 from ssilang.operators.prelude import *
 
-_MIRRORS: Mapping[str, Callable[..., PointMap]] = {
-    "POINT": mirror_point,
-    "DROIT": mirror_line,
-    "PLAN": mirror_plane,
+_MIRRORS: Mapping[str, Callable[..., transform.PointMap]] = {
+    "POINT": transform.mirror_point,
+    "DROIT": transform.mirror_line,
+    "PLAN": transform.mirror_plane,
 }
 _MOVED_MESH = arg("moved", "MAILLAGE", en="what is moved")
 _MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved")
@@ -35,8 +20,8 @@ def _ids(moved: Mesh | Point) -> IntArray:
     return np.array([moved.node]) if isinstance(moved, Point) else moved.node_ids
 
 
-def _move(moved: Mesh | Point, image: PointMap) -> None:
-    move(moved.nodes, _ids(moved), image)
+def _move(moved: Mesh | Point, image: transform.PointMap) -> None:
+    transform.move(moved.nodes, _ids(moved), image)
 
 
 @operator("DEPL", said("PLUS", "MOINS"), family="mesh", full_name="DEPLACER")
@@ -48,7 +33,7 @@ def depl(
     """Move nodes by a vector or by displacements."""
     sign = 1.0 if word == "PLUS" else -1.0
     if isinstance(by, Point):
-        _move(moved, shift(sign * by.coordinates.copy()))
+        _move(moved, transform.shift(sign * by.coordinates.copy()))
         return
     ids = np.unique(_ids(moved))
     moved.nodes.coordinates[ids] += sign * displacements(by, ids)
@@ -66,7 +51,7 @@ def turned(
     """Turn nodes."""
     origin, direction = axis_of(call, axis)
     if not isinstance(angle, NodeField):
-        _move(moved, turn(angle, origin, direction))
+        _move(moved, transform.turn(angle, origin, direction))
         return
     size = float(np.linalg.norm(direction))
     if size == 0.0:
@@ -82,7 +67,7 @@ def turned(
 @depl.form(said("HOMO"))
 def scaled(moved: Mesh | Point = _MOVED, ratio: float = RATIO, fixed: Point = FIXED) -> None:
     """Scale about a point."""
-    _move(moved, scaling(ratio, fixed.coordinates.copy()))
+    _move(moved, transform.scaling(ratio, fixed.coordinates.copy()))
 
 
 @depl.form(said("AFFI"))
@@ -93,7 +78,7 @@ def stretched(
     towards: Point = DIRECTION,
 ) -> None:
     """Stretch along a direction."""
-    _move(moved, affinity(ratio, *positions((fixed, towards))))
+    _move(moved, transform.affinity(ratio, *positions((fixed, towards))))
 
 
 @depl.form(said("SYME"))
@@ -145,7 +130,7 @@ def changed_coordinates(
     """Take cylindrical coordinates for cartesian ones, or the reverse."""
     if coordinates == "CART":
         _exactly(call, points, 0)
-        _move(moved, from_cylindrical)
+        _move(moved, transform.from_cylindrical)
         return
     if workspace(call.session).dimension < 3:
         origin, second = _exactly(call, points, 2)
@@ -153,14 +138,14 @@ def changed_coordinates(
     else:
         origin, second, third = _exactly(call, points, 3)
         axis, zero = second - origin, third - origin
-    _move(moved, to_cylindrical(origin, axis, zero))
+    _move(moved, transform.to_cylindrical(origin, axis, zero))
 
 
 @depl.form(said("MILI"))
 def straightened(moved: Mesh | Point = _MOVED) -> None:
     """Put middle nodes onto the mediator planes of their edges."""
     if isinstance(moved, Mesh):
-        straighten_middles(moved)
+        transform.straighten_middles(moved)
 
 
 @depl.form(said("BARS"))
@@ -175,7 +160,7 @@ def quartered(
     ),
 ) -> None:
     """Put middle nodes of cells at a crack near the quarter of their sides."""
-    quarter_middles(moved, _ids(tip), at)
+    transform.quarter_middles(moved, _ids(tip), at)
 
 
 @depl.form(said("DEDU"))
@@ -196,4 +181,4 @@ def deduced(
         if goal is None:
             raise call.missing(("MAILLAGE", "POINT"))
         old, new = (m.nodes.coordinates[_ids(m)].copy() for m in (by, goal))
-    _move(moved, affine_through(old, new, workspace(call.session).dimension))
+    _move(moved, transform.affine_through(old, new, workspace(call.session).dimension))
