@@ -11,14 +11,7 @@ from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import MULTIPLIER
-from ssilang.language.values import (
-    PENDING,
-    ListEnti,
-    ListMots,
-    ListReel,
-    Table,
-    type_of,
-)
+from ssilang.language import values
 
 AXES = ("x", "y", "z")
 ENDS = 8
@@ -28,7 +21,7 @@ ENDS = 8
 def html_of(value: Any) -> str:
     """A value as an HTML table, '' for what has none."""
     make = _MADE.get(type(value))
-    if make is None and isinstance(value, Table):
+    if make is None and isinstance(value, values.Table):
         make = _table
     return "" if make is None else make(value)
 
@@ -52,7 +45,7 @@ def _cell(value: object) -> str:
     return str(value).rstrip()
 
 
-def _table(table: Table) -> str:
+def _table(table: values.Table) -> str:
     """Indices with what stands there; what is not made yet stays so."""
     rows = []
     indices = table.indices()
@@ -66,23 +59,23 @@ def _table(table: Table) -> str:
 def _index(index: object) -> str:
     if isinstance(index, str):
         return f"'{index.rstrip()}'"
-    return str(index) if isinstance(index, bool | int | float) else type_of(index)
+    return str(index) if isinstance(index, bool | int | float) else values.type_of(index)
 
 
-def _brief(table: Table, index: object) -> str:
+def _brief(table: values.Table, index: object) -> str:
     """What a value of a table is, in a few words."""
     value = table.waiting(index)
-    if value is PENDING:
+    if value is values.PENDING:
         return "..."
-    kind = type_of(value)
+    kind = values.type_of(value)
     if isinstance(value, bool | int | float | str):
         return f"{_cell(value)}"
     size = f" ({len(value)})" if isinstance(value, Sized) else ""
     return f"{kind}{size}"
 
 
-def _list(value: ListReel | ListEnti | ListMots) -> str:
-    return rows_html(("", type_of(value)), list(enumerate(value.values, 1)))
+def _list(value: values.ListReel | values.ListEnti | values.ListMots) -> str:
+    return rows_html(("", values.type_of(value)), list(enumerate(value.values, 1)))
 
 
 def _curve(value: Curve) -> str:
@@ -128,9 +121,9 @@ def _field(value: NodeField) -> str:
 
 
 _MADE: dict[type, Callable[[Any], str]] = {
-    ListReel: _list,
-    ListEnti: _list,
-    ListMots: _list,
+    values.ListReel: _list,
+    values.ListEnti: _list,
+    values.ListMots: _list,
     Curve: _curve,
     NodeField: _field,
 }

@@ -8,14 +8,7 @@ from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
-    assemble,
-    constraint_matrix,
-    field_to_vector,
-    is_symmetric,
-    numbering_of,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.build import matrix_from_sparse
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.submatrices import together
@@ -37,11 +30,11 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
     FieldError
         Without relations, or if a term of a relation has no value.
     """
-    numbering = numbering_of(relations)
-    rows = constraint_matrix(relations, numbering)
+    numbering = assembly.numbering_of(relations)
+    rows = assembly.constraint_matrix(relations, numbering)
     if not rows.C.shape[0]:
         raise FieldError("kernel.matrices.matrix-no-relation")
-    given = [field_to_vector(inverse_mass, numbering, dual) for dual in (False, True)]
+    given = [assembly.field_to_vector(inverse_mass, numbering, dual) for dual in (False, True)]
     weights = np.where(given[0] != 0.0, given[0], given[1])
     used = np.unique(rows.C.indices)
     if (weights[used] == 0.0).any():
@@ -76,19 +69,19 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     body = Matrix(matrix.table, matrix.blocks, (), matrix.kind)
     rows_only = Matrix(relations.table, (), relations.relations, relations.kind)
     given = relations.kind == DEPENDENCE
-    numbering = numbering_of(body if given else together(body, rows_only))
-    K = assemble(body, numbering)
+    numbering = assembly.numbering_of(body if given else together(body, rows_only))
+    K = assembly.assemble(body, numbering)
     T, kept = _given(relations, numbering) if given else _eliminated(rows_only, numbering)
     A = sp.csr_array(T.T @ K @ T)
     masters = replace(numbering, nodes=numbering.nodes[kept], codes=numbering.codes[kept])
-    return matrix_from_sparse(A, masters, matrix.kind, is_symmetric(matrix))
+    return matrix_from_sparse(A, masters, matrix.kind, assembly.is_symmetric(matrix))
 
 
-def _eliminated(relations: Matrix, numbering: Numbering) -> tuple[sp.csr_array, IntArray]:
+def _eliminated(relations: Matrix, numbering: assembly.Numbering) -> tuple[sp.csr_array, IntArray]:
     """T (n, r) and the r unknowns that stay."""
     from ssilang.kernel.solvers.cholesky.elimination import eliminate
 
-    rows = constraint_matrix(relations, numbering)
+    rows = assembly.constraint_matrix(relations, numbering)
     if not rows.C.shape[0]:
         raise FieldError("kernel.matrices.matrix-no-relation")
     found = eliminate(rows.C)
@@ -97,7 +90,7 @@ def _eliminated(relations: Matrix, numbering: Numbering) -> tuple[sp.csr_array, 
     return found.T, found.masters
 
 
-def _given(matrix: Matrix, numbering: Numbering) -> tuple[sp.csr_array, IntArray]:
+def _given(matrix: Matrix, numbering: assembly.Numbering) -> tuple[sp.csr_array, IntArray]:
     """The same from the matrix of `dependence`; unknowns that it does not know stay."""
     parts = []
     known = np.zeros(numbering.size, dtype=bool)
@@ -131,7 +124,7 @@ def dependence(matrix: Matrix) -> tuple[Matrix, Matrix]:
     FieldError
         Without relations, or if they cannot be eliminated.
     """
-    numbering = numbering_of(matrix)
+    numbering = assembly.numbering_of(matrix)
     found, masters = _eliminated(matrix, numbering)
     order = np.arange(len(masters))
     shape = len(order), numbering.size

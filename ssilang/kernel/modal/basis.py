@@ -12,15 +12,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
-    assemble,
-    constraint_matrix,
-    field_to_vector,
-    is_symmetric,
-    numbering_of,
-    refuse_negative_mass,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
@@ -65,9 +57,9 @@ def projected_matrix(
     duals: Sequence[str],
 ) -> Matrix:
     """`X^T K X` as one element matrix on the points that mark the shapes (n,)."""
-    numbering = numbering_of(matrix)
-    X = np.stack([field_to_vector(s, numbering, dual=False) for s in shapes], axis=1)
-    values: FloatArray = X.T @ (assemble(matrix, numbering) @ X)
+    numbering = assembly.numbering_of(matrix)
+    X = np.stack([assembly.field_to_vector(s, numbering, dual=False) for s in shapes], axis=1)
+    values: FloatArray = X.T @ (assembly.assemble(matrix, numbering) @ X)
     symmetric = all(b.symmetric for b in matrix.blocks)
     return on_marks(matrix.table, values, marks, unknowns, duals, matrix.kind, symmetric)
 
@@ -104,9 +96,9 @@ def projected_relations(
 
     Rows that no shape touches are left out; multipliers stay those of the body's conditions.
     """
-    rows = constraint_matrix(matrix)
-    numbering = numbering_of(matrix)
-    X = np.stack([field_to_vector(s, numbering, dual=False) for s in shapes], axis=1)
+    rows = assembly.constraint_matrix(matrix)
+    numbering = assembly.numbering_of(matrix)
+    X = np.stack([assembly.field_to_vector(s, numbering, dual=False) for s in shapes], axis=1)
     values = rows.C @ X
     small = 1e-12 * np.abs(values).max(initial=0.0)
     kept = np.flatnonzero((np.abs(values) > small).any(axis=1))
@@ -140,7 +132,7 @@ def static_complement(
 class ReducedProblem:
     """Matrices on the unknowns q that stay, `u = T q`, with the conditions `S q = 0` left over."""
 
-    numbering: Numbering
+    numbering: assembly.Numbering
     stiffness: sp.csr_array  # (n, n) on `numbering`, for reactions
     mass: sp.csr_array  # (n, n) on `numbering`, for generalised masses
     K: sp.csr_array  # (r, r)
@@ -208,16 +200,16 @@ def reduced_problem(
     if any(r.dual is not None for r in held.values()):
         raise KernelError("kernel.modal.modes-non-associated-relations")
     all_rows = Matrix(stiffness.table, (), tuple(held.values()))
-    numbering = numbering_of(*parts)
+    numbering = assembly.numbering_of(*parts)
     if numbering.size == 0:
         raise KernelError("kernel.modal.matrix-empty-nothing-solve")
-    rows = constraint_matrix(all_rows, numbering)
+    rows = assembly.constraint_matrix(all_rows, numbering)
     elimination = eliminate(rows.C)
     T = elimination.T
-    K, M = assemble(stiffness, numbering), assemble(mass, numbering)
-    C = None if damping is None else sp.csr_array(T.T @ assemble(damping, numbering) @ T)
+    K, M = assembly.assemble(stiffness, numbering), assembly.assemble(mass, numbering)
+    C = None if damping is None else sp.csr_array(T.T @ assembly.assemble(damping, numbering) @ T)
     if mass.inertial and not (M.diagonal() > 0.0).any():
-        refuse_negative_mass(M, numbering)  # a buckling load in its place has both signs
+        assembly.refuse_negative_mass(M, numbering)  # a buckling load in its place has both signs
     left = np.flatnonzero(~elimination.eliminated)
     return ReducedProblem(
         numbering,
@@ -228,7 +220,7 @@ def reduced_problem(
         C,
         sp.csr_array(rows.C[left] @ T),
         T,
-        is_symmetric(stiffness) and is_symmetric(mass),
+        assembly.is_symmetric(stiffness) and assembly.is_symmetric(mass),
         elimination,
         rows.multipliers,
         solver,

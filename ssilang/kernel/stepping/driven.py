@@ -16,15 +16,7 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import BoolArray
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import (
-    ConstraintRows,
-    assemble,
-    constraint_matrix,
-    field_to_vector,
-    imposed_values,
-    numbering_of,
-    outside,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.stepping.choose import Case, Choice, RenewableLoop, choose, refuse_combinations
 from ssilang.kernel.stepping.problem.constraints import constraints_of
@@ -142,7 +134,7 @@ def _plus(problem: Problem, own: sp.csr_array, *more: Matrix | None) -> sp.csr_a
 
 def _added(problem: Problem, matrix: Matrix) -> sp.csr_array:
     bare = replace(matrix, relations=(), cache={})
-    own = numbering_of(bare)
+    own = assembly.numbering_of(bare)
     keys = set(zip(problem.numbering.nodes.tolist(), _names(problem.numbering), strict=True))
     lost = [k for k in zip(own.nodes.tolist(), _names(own), strict=True) if k not in keys]
     if lost:
@@ -151,7 +143,7 @@ def _added(problem: Problem, matrix: Matrix) -> sp.csr_array:
             lost=lost[0][1],
             lost_2=matrix.table.told(lost[0][0]),
         )
-    return assemble(bare, problem.numbering)
+    return assembly.assemble(bare, problem.numbering)
 
 
 def _names(numbering: object) -> list[str]:
@@ -162,7 +154,7 @@ def _with_relations(problem: Problem, operator: Matrix | None) -> Problem:
     """The problem with the relations of a matrix among its conditions."""
     if operator is None or not operator.relations:
         return problem
-    rows = constraint_matrix(replace(operator, blocks=(), cache={}), problem.numbering)
+    rows = assembly.constraint_matrix(replace(operator, blocks=(), cache={}), problem.numbering)
     if rows.sense.any():
         raise KernelError("kernel.stepping.unilateral-relations-mini-maxi")
     held = problem.constraints
@@ -174,7 +166,7 @@ def _with_relations(problem: Problem, operator: Matrix | None) -> Problem:
     sense = np.zeros(len(multipliers), np.int8)
     extra = np.zeros((len(rows.multipliers), problem.loading.imposed.shape[1]))
     loading = replace(problem.loading, imposed=np.vstack([problem.loading.imposed, extra]))
-    constraints = constraints_of(ConstraintRows(C, multipliers, sense, D), problem.small)
+    constraints = constraints_of(assembly.ConstraintRows(C, multipliers, sense, D), problem.small)
     return replace(problem, constraints=constraints, multipliers=multipliers, loading=loading)
 
 
@@ -183,10 +175,10 @@ def _force(problem: Problem, additions: Additions) -> FloatArray:
     for given in (additions.force, additions.imposed):
         if given is None:
             continue
-        lost = outside(given, problem.numbering)
+        lost = assembly.outside(given, problem.numbering)
         if lost:
             raise KernelError("kernel.stepping.force-added-on-missing-unknowns", lost=lost[0])
-        found += field_to_vector(given, problem.numbering)
+        found += assembly.field_to_vector(given, problem.numbering)
     if not np.isfinite(found).all():
         raise KernelError("kernel.stepping.force-added-during-calculation")
     return found
@@ -196,5 +188,5 @@ def _imposed(additions: Additions, multipliers: IntArray) -> FloatArray:
     found = np.zeros(len(multipliers))
     for given in (additions.force, additions.imposed):
         if given is not None:
-            found += imposed_values(given, multipliers)
+            found += assembly.imposed_values(given, multipliers)
     return found

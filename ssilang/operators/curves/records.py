@@ -1,17 +1,9 @@
 """FILT of a record, TOUR of two components, ZOND for a spectrum, ONDE: its wavelets."""
 
 from ssilang.kernel.base.arrays import ComplexArray
+from ssilang.kernel.records import signals
 from ssilang.kernel.records.filters import butterworth
 from ssilang.kernel.records.matching import matched
-from ssilang.kernel.records.signals import (
-    constant_step,
-    modulus_ridge,
-    phase_ridge,
-    scales,
-    settled,
-    transform,
-    turned,
-)
 from ssilang.operators.curves.signals import filt
 from ssilang.operators.curves.words import *
 from ssilang.operators.mesh.copies.images import tour
@@ -38,7 +30,7 @@ def filtered_records(
         replace(
             p,
             ordinates=butterworth(
-                p.ordinates, constant_step(p.abscissas), order, low, high, causal=causal
+                p.ordinates, signals.constant_step(p.abscissas), order, low, high, causal=causal
             ),
         )
         for p in curve.parts
@@ -56,7 +48,7 @@ def turned_components(
     """Turn two components."""
     x, y = one_part(call, first), one_part(call, second)
     check_together(call, first, second)
-    a, b = turned(x.ordinates, y.ordinates, angle)
+    a, b = signals.turned(x.ordinates, y.ordinates, angle)
     return (
         Curve((replace(x, ordinates=a),), first.title),
         Curve((replace(y, ordinates=b),), second.title),
@@ -133,20 +125,20 @@ def onde(
     part, rows = one_part(call, curve), int(count[1])
     if not 0.0 < lowest < highest or rows < 1 or pulsation <= 0.0:
         raise call.error("operators.curves.frequencies-must-increase", fmin=lowest, fmax=highest)
-    step, n = constant_step(part.abscissas), 2**power
+    step, n = signals.constant_step(part.abscissas), 2**power
     if n * (rows + 1) > 20_000_000:
         raise call.error("operators.curves.transform-too-large")
     warn_of_points(call, part, n)
     warn_of_sampling(call, step, highest)
-    scale = scales(lowest, highest, rows, pulsation)
-    found = transform(part.ordinates, step, n, scale, pulsation)
+    scale = signals.scales(lowest, highest, rows, pulsation)
+    found = signals.transform(part.ordinates, step, n, scale, pulsation)
     times = part.abscissas[0] + step * np.arange(n)
     if form in ("REIM", "MOPH"):
         return _square(call, times, found, scale, form)
     if form == "CRMO":
-        t, f, size = modulus_ridge(times, found, scale, pulsation)
+        t, f, size = signals.modulus_ridge(times, found, scale, pulsation)
     else:
-        t, f, size = phase_ridge(times, found, scale, pulsation, turn)
+        t, f, size = signals.phase_ridge(times, found, scale, pulsation, turn)
     index = shade(colour, 0)
     parts = (
         CurvePart(t, f, "TEMPS", "FREQ (HZ)", "FREQUENCE", index),
@@ -170,7 +162,7 @@ def _square(
     corners = (grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:], grid[:-1, :-1])
     cells = np.stack([c.ravel() for c in corners], axis=1)
     mesh = Mesh.of(ws.nodes, "QUA4", cells, ws.colour)
-    inside = np.array([settled(times, float(a)) for a in scale])
+    inside = np.array([signals.settled(times, float(a)) for a in scale])
     values = np.where(inside, found, 0.0).ravel()
     if form == "REIM":
         pair = {"PREE": values.real.copy(), "PIMA": values.imag.copy()}

@@ -2,14 +2,7 @@
 
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import complex_values, is_complex
-from ssilang.kernel.records.signals import (
-    constant_step,
-    fourier,
-    inverse_fourier,
-    shocks,
-    smoothed,
-    time_above,
-)
+from ssilang.kernel.records import signals
 from ssilang.operators.curves.words import *
 from ssilang.operators.prelude import *
 
@@ -60,10 +53,10 @@ def tfr(
     """Transform signals."""
     _check_power(call, power)
     part = one_part(call, signal)
-    step = constant_step(part.abscissas)
+    step = signals.constant_step(part.abscissas)
     warn_of_points(call, part, 2**power)
     warn_of_sampling(call, step, highest)
-    f, values = fourier(part.ordinates, step, 2**power)
+    f, values = signals.fourier(part.ordinates, step, 2**power)
     kept = (f >= lowest) & (f <= highest)
     shades = (shade(colour, 0), shade(second_colour, 0))
     return spectrum(f[kept], values[kept], form, shades, signal.title)
@@ -96,12 +89,12 @@ def tfr_of_fields(
     if len(held) != len(times):
         told = {"n_fields": len(held), "n_times": len(times)}
         raise call.error("operators.curves.fields-and-times-differ", fields, **told)
-    step, n = constant_step(times.values), 2**power
+    step, n = signals.constant_step(times.values), 2**power
     real: dict[str, Any] = {}
     f = np.empty(0)
     for name, first in held[0].components.items():
         rows = np.asarray([h.values_at(name, first.nodes) for h in held])
-        f, real[name] = fourier(rows, step, n)
+        f, real[name] = signals.fourier(rows, step, n)
     kept = np.flatnonzero((f >= lowest) & (f <= highest))
     like: NodeField = held[0]
 
@@ -124,7 +117,7 @@ def tfri(call: Call, curve: Curve = Arg("EVOLUTIO", en="complex curve")) -> Curv
     f = curve.parts[0].abscissas
     if len(f) and abs(f[0]) > 1e-9 * max(abs(f[-1]), 1e-300):
         raise call.error("operators.curves.frequencies-from-zero", curve, f=f[0])
-    t, values = inverse_fourier(f, complex_values(*curve.parts))
+    t, values = signals.inverse_fourier(f, complex_values(*curve.parts))
     part = CurvePart(t, values, "TEMPS", "SIGNAL", "", curve.parts[0].colour)
     return Curve((part,), curve.title)
 
@@ -188,7 +181,7 @@ def hann(
     """Smooth a spectrum."""
     part = one_part(call, curve)
     made = replace(
-        part, ordinates=smoothed(part.ordinates, passes), colour=shade(colour, part.colour)
+        part, ordinates=signals.smoothed(part.ordinates, passes), colour=shade(colour, part.colour)
     )
     return Curve((made,), f"HANNING({passes}) {curve.title}".rstrip(), curve.kind)
 
@@ -213,7 +206,7 @@ def comt(
     ends: bool = Flag("FIN", en="places where they end too"),
 ) -> Any:
     """Count shocks."""
-    found = [shocks(p.ordinates, percent) for p in curve.parts]
+    found = [signals.shocks(p.ordinates, percent) for p in curve.parts]
     if not (peaks or begins or ends):
         return ListEnti([len(f[1]) for f in found])
     if len(found) != 1:
@@ -230,7 +223,7 @@ def tote(curve: Curve = RECORD, percent: float = _PERCENT) -> ListReel:
     """Measure durations."""
     levels = [percent / 100.0 * float(np.abs(p.ordinates).max()) for p in curve.parts]
     pairs = zip(curve.parts, levels, strict=True)
-    return ListReel([time_above(p.abscissas, p.ordinates, v) for p, v in pairs])
+    return ListReel([signals.time_above(p.abscissas, p.ordinates, v) for p, v in pairs])
 
 
 _AXIS = arg("name", "MOT", en="name of the ordinates")

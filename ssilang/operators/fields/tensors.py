@@ -4,15 +4,9 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.results import skin
 from ssilang.kernel.elements.results.equivalent_section import section_equivalent
 from ssilang.kernel.elements.results.integrals import integrals
-from ssilang.kernel.elements.results.skin import (
-    in_global_axes,
-    is_shell,
-    is_thick_shell,
-    shell_tensor,
-    thick_tensor,
-)
 from ssilang.kernel.elements.results.structural_gradients import (
     is_structural,
     structural_gradient,
@@ -67,9 +61,9 @@ def _equivalent(
     field, material = state_and_rest(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
-        if what == "VMIS" and is_shell(zone) and material is not None:
+        if what == "VMIS" and skin.is_shell(zone) and material is not None:
             return _scalar(zone, *section_equivalent(zone, field, material))
-        if is_solid(zone) or is_shell(zone) or is_thick_shell(zone):
+        if is_solid(zone) or skin.is_shell(zone) or skin.is_thick_shell(zone):
             T, support = _tensor(zone, field, material, side)
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
@@ -87,13 +81,13 @@ def _tensor(
     """Tensors of a continuous zone, or of a shell at one side."""
     if is_solid(zone):
         return tensor(zone, field)[:2]
-    if is_thick_shell(zone):
+    if skin.is_thick_shell(zone):
         if side != "MOYE":
             raise FieldError("operators.fields.no-side-of-thick-shell", element=zone.element)
-        return thick_tensor(zone, field)
-    if not is_shell(zone) or material is None:
+        return skin.thick_tensor(zone, field)
+    if not skin.is_shell(zone) or material is None:
         raise FieldError("operators.fields.no-stress-tensor", element=zone.element)
-    return shell_tensor(zone, field, material, side)
+    return skin.shell_tensor(zone, field, material, side)
 
 
 @operator("VMIS", family="stress")
@@ -125,11 +119,11 @@ def prin(
     field, material = state_and_rest(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
-        if is_thick_shell(zone):  # its frames turn from point to point
+        if skin.is_thick_shell(zone):  # its frames turn from point to point
             raise FieldError("operators.fields.no-directions-of-thick-shell", element=zone.element)
         T, support = _tensor(zone, field, material, side)
-        if is_shell(zone):
-            T = in_global_axes(zone, T)
+        if skin.is_shell(zone):
+            T = skin.in_global_axes(zone, T)
         values = principal(zone, T, ordered and is_solid(zone))
         return cell_block(zone, PRINCIPAL, values, support)
 
@@ -254,7 +248,7 @@ def jaco(model: Model = MODEL) -> CellField:
             geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
             weights = support_rule(zone.element, "RIGIDITE").weights
             return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
-        if not (is_shell(zone) or is_structural(zone)):
+        if not (skin.is_shell(zone) or is_structural(zone)):
             raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         points = support_rule(zone.element, "RIGIDITE").points
         slopes = shape_gradients(zone.cells.cell_type, points)

@@ -5,14 +5,7 @@ from ssilang.kernel.continuation.arc import Point as Solution
 from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 from ssilang.kernel.continuation.floquet import exponents, unstable
 from ssilang.kernel.continuation.harmonics import basis_of
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
-    assemble,
-    constraint_matrix,
-    field_to_vector,
-    numbering_of,
-    vector_to_field,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
 from ssilang.operators.modal.hbm import known_names
@@ -172,8 +165,8 @@ def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     K, C, M = (entries.needed(w) for w in words)
     supports = entries.get("BLOCAGES_HBM") or Matrix(K.table)
     whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
-    numbering = numbering_of(whole, C, M)
-    rows = constraint_matrix(whole, numbering)
+    numbering = assembly.numbering_of(whole, C, M)
+    rows = assembly.constraint_matrix(whole, numbering)
     load: Load | None = entries.get("CHARGEMENT")
     loading = loading_of(load, numbering, rows.multipliers)
     if loading.imposed.any():
@@ -197,14 +190,15 @@ def _problem(entries: Entries, names: Names) -> FrequencyProblem:
         samples = Sampled(entries, *found)
         places = _places(entries, numbering, names, *found)
     return FrequencyProblem(
-        numbering, assemble(whole, numbering), assemble(C, numbering), assemble(M, numbering),
+        numbering, assembly.assemble(whole, numbering),
+        assembly.assemble(C, numbering), assembly.assemble(M, numbering),
         constraints.T, loading, float if law is None else law.at,
         basis_of(names.harmonics, count), places, samples,
     )  # fmt: skip
 
 
 def _places(
-    entries: Entries, numbering: Numbering, names: Names, point: Point, unknowns: list[str]
+    entries: Entries, numbering: assembly.Numbering, names: Names, point: Point, unknowns: list[str]
 ) -> IntArray:
     wrong = [u for u in unknowns if u not in names.unknowns]
     if wrong:
@@ -243,7 +237,7 @@ def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
 
 def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:
     """What is left of a field of coefficients by the supports, (r,)."""
-    u = field_to_vector(field, problem.numbering, dual=False)
+    u = assembly.field_to_vector(field, problem.numbering, dual=False)
     T = problem.T
     gram = sp.csr_array(T.T @ T).toarray()
     return np.asarray(np.linalg.solve(gram, T.T @ u))
@@ -277,7 +271,7 @@ def _fill(
 
 
 def _field(problem: FrequencyProblem, u: FloatArray) -> NodeField:
-    return vector_to_field(problem.T @ u, problem.numbering)
+    return assembly.vector_to_field(problem.T @ u, problem.numbering)
 
 
 def _say_way(table: Table, problem: FrequencyProblem, branch: Branch) -> None:
@@ -394,10 +388,10 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
     C = Matrix(K.table) if C is None else C
     supports = entries.get("BLOCAGES_MECANIQUES") or Matrix(K.table)
     whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
-    numbering = numbering_of(whole, C, M)
-    rows = constraint_matrix(whole, numbering)
+    numbering = assembly.numbering_of(whole, C, M)
+    rows = assembly.constraint_matrix(whole, numbering)
     T = constraints_of(rows, numbering.size <= 160).T.toarray()
-    k, c, m = (T.T @ assemble(x, numbering).toarray() @ T for x in (whole, C, M))
+    k, c, m = (T.T @ assembly.assemble(x, numbering).toarray() @ T for x in (whole, C, M))
     if np.linalg.matrix_rank(m) < len(m):
         raise entries.error("operators.modal.masse-constante-not-regular")
     found = nonlinear_unknowns(entries)

@@ -22,14 +22,7 @@ from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *
-from ssilang.operators.statics.stresses import (
-    MODEL,
-    Fields,
-    displacement_of,
-    joined_cells,
-    nodal_of,
-    on_zones,
-)
+from ssilang.operators.statics import stresses
 
 
 def _solid(zone: Zone, name: str) -> None:
@@ -47,7 +40,7 @@ def _stands(zone: Zone, field: CellField, names: tuple[str, ...]) -> bool:
 @operator("POLA", family="stress", full_name="POLAIRE")
 def pola(
     call: Call,
-    model: Model = MODEL,
+    model: Model = stresses.MODEL,
     fields: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="gradients"),
     what: str = Choice(
         ("GEOM", "DEPL"),
@@ -71,7 +64,7 @@ def pola(
 
 
 _CARRIED = (
-    MODEL,
+    stresses.MODEL,
     many("fields", "CHPOINT", "MCHAML", at_least=1, en="stresses or strains, and displacements"),
     choice(
         "frame", ("JAUM", "UTIL"), en="from or to the frame that turns with the matter; unchanged"
@@ -80,10 +73,10 @@ _CARRIED = (
 
 
 def _carried(
-    call: Call, model: Model, fields: Fields, frame: str | None, forward: bool
+    call: Call, model: Model, fields: stresses.Fields, frame: str | None, forward: bool
 ) -> CellField:
-    field, u = joined_cells(call, fields), displacement_of(call, fields, model)
-    if len(nodal_of(fields)) > 1:
+    field, u = stresses.joined_cells(call, fields), stresses.displacement_of(call, fields, model)
+    if len(stresses.nodal_of(fields)) > 1:
         raise call.error("operators.statics.no-cracks", name=call.name)
     if frame == "UTIL":
         return field
@@ -93,17 +86,17 @@ def _carried(
         names, values, support = carried(zone, field, u, forward, frame == "JAUM")
         return cell_block(zone, names, values, support)
 
-    return on_zones(present(call, model), field.title, make)
+    return stresses.on_zones(present(call, model), field.title, make)
 
 
 @operator("PICA", *_CARRIED, family="stress")
-def pica(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
+def pica(call: Call, model: Model, fields: stresses.Fields, frame: str | None) -> CellField:
     """From the reference to the present configuration."""
     return _carried(call, model, fields, frame, True)
 
 
 @operator("CAPI", *_CARRIED, family="stress")
-def capi(call: Call, model: Model, fields: Fields, frame: str | None) -> CellField:
+def capi(call: Call, model: Model, fields: stresses.Fields, frame: str | None) -> CellField:
     """From the present to the reference configuration."""
     return _carried(call, model, fields, frame, False)
 
@@ -115,7 +108,7 @@ _STRESS_AND_GRADIENT = many(
 
 @operator("WORK", family="stress")
 def work_of(
-    call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = _STRESS_AND_GRADIENT
+    call: Call, model: Model = stresses.MODEL, fields: tuple[CellField, ...] = _STRESS_AND_GRADIENT
 ) -> CellField:
     """Work of stresses on gradients."""
     zones = present(call, model)
@@ -128,7 +121,7 @@ def work_of(
         values, support = work(zone, stress, gradient)
         return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
 
-    return on_zones(zones, "SCALAIRE", make)
+    return stresses.on_zones(zones, "SCALAIRE", make)
 
 
 def _stress_and_gradient(
@@ -147,7 +140,7 @@ def _stress_and_gradient(
 
 @operator("FOFI", family="stress", full_name="FOFISS")
 def fofi(
-    call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = _STRESS_AND_GRADIENT
+    call: Call, model: Model = stresses.MODEL, fields: tuple[CellField, ...] = _STRESS_AND_GRADIENT
 ) -> NodeField:
     """Forces of stresses on gradients."""
     zones = present(call, model)

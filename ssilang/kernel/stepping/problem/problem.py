@@ -32,14 +32,7 @@ from ssilang.kernel.interface.interface import (
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
-    assemble,
-    constraint_matrix,
-    field_to_vector,
-    numbering_of,
-    refuse_negative_mass,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.stepping.newmark import Scheme
@@ -57,7 +50,7 @@ MOST_SMALL = 1000
 class Problem:
     """What a time integration needs, all on one numbering."""
 
-    numbering: Numbering
+    numbering: assembly.Numbering
     K: sp.csr_array  # (n, n) stiffness without the joints that a law replaces
     M: sp.csr_array  # (n, n) mass
     C: sp.csr_array  # (n, n) damping
@@ -131,9 +124,9 @@ def make_problem(inputs: Inputs) -> Problem:
     stiffness = matrices["K"]
     given = tuple(m for m in matrices.values() if m is not None)
     assert stiffness is not None
-    numbering = numbering_of(*given)
+    numbering = assembly.numbering_of(*given)
     relations = tuple(r for m in given for r in m.relations)
-    rows = constraint_matrix(Matrix(stiffness.table, (), relations), numbering)
+    rows = assembly.constraint_matrix(Matrix(stiffness.table, (), relations), numbering)
     loading = loading_of(inputs.load, numbering, rows.multipliers)
     rows, imposed, contact = split_rows(rows, loading.imposed)
     loading = replace(loading, imposed=imposed)
@@ -151,7 +144,7 @@ def make_problem(inputs: Inputs) -> Problem:
     for _, ordinates in loading.curves:
         if not np.isfinite(ordinates).all():
             raise FieldError("kernel.stepping.load-curve-values-not")
-    refuse_negative_mass(assembled["M"], numbering, HISTORIES)
+    assembly.refuse_negative_mass(assembled["M"], numbering, HISTORIES)
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     u, v = (_start(field, numbering) for field in (inputs.displacement, inputs.velocity))
@@ -217,15 +210,15 @@ def _unknowns_of(zones: tuple[Zone, ...], like: Matrix) -> Matrix:
     return Matrix(like.table, tuple(blocks))
 
 
-def _assembled(matrix: Matrix | None, numbering: Numbering) -> sp.csr_array:
+def _assembled(matrix: Matrix | None, numbering: assembly.Numbering) -> sp.csr_array:
     n = numbering.size
-    return sp.csr_array((n, n)) if matrix is None else assemble(matrix, numbering)
+    return sp.csr_array((n, n)) if matrix is None else assembly.assemble(matrix, numbering)
 
 
-def _start(given: NodeField | None, numbering: Numbering) -> FloatArray:
+def _start(given: NodeField | None, numbering: assembly.Numbering) -> FloatArray:
     if given is None:
         return np.zeros(numbering.size)
-    values = field_to_vector(given, numbering, dual=False)
+    values = assembly.field_to_vector(given, numbering, dual=False)
     if not np.isfinite(values).all():
         raise FieldError("kernel.stepping.initial-field-values-not")
     return values

@@ -5,14 +5,7 @@ from ssilang.io.plots.palette import index_of
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.boundary import edges, faces
-from ssilang.kernel.mesh.changes.degree import (
-    COMPLETE,
-    LINEAR,
-    complete,
-    linear,
-    quadratic,
-    taken_apart,
-)
+from ssilang.kernel.mesh.changes import degree
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, parted
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.combine import poi1, recolour, union
@@ -45,18 +38,18 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
     kind = CELL_TYPES[target]
     if block.cell_type == target:
         return alone
-    whole = block.cell_type in COMPLETE.values() and kind.degree == 1
+    whole = block.cell_type in degree.COMPLETE.values() and kind.degree == 1
     if whole and kind.dimension >= block.kind.dimension:
-        return taken_apart(block, target)
-    if target in COMPLETE.values():
-        return complete(alone)
+        return degree.taken_apart(block, target)
+    if target in degree.COMPLETE.values():
+        return degree.complete(alone)
     if kind.degree == 2 and block.kind.degree == 1:
-        return quadratic(_changed_block(block, LINEAR[target]))
+        return degree.quadratic(_changed_block(block, degree.LINEAR[target]))
     if (block.cell_type, target) == ("SEG3", "SEG2"):
         halves = block.connectivity[:, [0, 1, 1, 2]].reshape(-1, 2)
         return Mesh.of(block.nodes, "SEG2", halves, np.repeat(block.colours, 2))
     if kind.degree == 1 and block.kind.degree == 2 and not whole:
-        return _changed_block(linear(alone).single_block(), target)
+        return _changed_block(degree.linear(alone).single_block(), target)
     if kind.dimension == 1 and block.kind.dimension > 1:
         return edges(alone)
     if target in _SIMPLEX and block.cell_type == _SIMPLEX[target]:
@@ -64,7 +57,7 @@ def _changed_block(block: CellBlock, target: str) -> Mesh:
     if target == "TET4" and block.kind.dimension == 3:
         return Mesh(block.nodes, (tetrahedra(block),))
     if target == "TE10" and block.kind.dimension == 3:
-        return quadratic(Mesh(block.nodes, (tetrahedra(block),)))
+        return degree.quadratic(Mesh(block.nodes, (tetrahedra(block),)))
     if kind.dimension == 2 and block.kind.dimension == 3:
         return changed(faces(alone), target)
     if (target, block.cell_type) in (("QUA4", "TRI3"), ("QUA8", "TRI6")):
@@ -113,9 +106,9 @@ def change_to_current(
 _WHOLE = {
     "LIGNE": edges,
     "SURFACE": faces,
-    "LINEAIRE": linear,
-    "QUADRATIQUE": quadratic,
-    "QUAF": complete,
+    "LINEAIRE": degree.linear,
+    "QUADRATIQUE": degree.quadratic,
+    "QUAF": degree.complete,
 }
 
 

@@ -1,12 +1,6 @@
 """Nodes that stand at one place: ELIM merges them, REGE clears cells of them, DEDO makes them."""
 
-from ssilang.kernel.mesh.changes.merge import (
-    cut_open,
-    merge_between,
-    merge_close,
-    regenerate,
-    repeated_nodes,
-)
+from ssilang.kernel.mesh.changes import merge
 from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.prelude import *
 
@@ -29,16 +23,16 @@ def elim(
     ids = _ids(first)
     near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
     meshes = [m for m in (first, second) if isinstance(m, Mesh)]
-    before = sum(map(repeated_nodes, meshes))
+    before = sum(map(merge.repeated_nodes, meshes))
     if second is None:
-        merge_close(ws.nodes, ids, near)
+        merge.merge_close(ws.nodes, ids, near)
     else:
         others = _ids(second)
         apart = not np.isin(ids, others).any()
-        merge_between(ws.nodes, ids, others, near)
+        merge.merge_between(ws.nodes, ids, others, near)
         if apart and not np.isin(_ids(first), _ids(second)).any():
             call.warn("operators.mesh.nothing-merged", distance=near)
-    if (count := sum(map(repeated_nodes, meshes)) - before) > 0:
+    if (count := sum(map(merge.repeated_nodes, meshes)) - before) > 0:
         call.warn("operators.mesh.cells-closed", distance=near, count=count)
     return first
 
@@ -50,8 +44,8 @@ def rege(
     check: bool = Flag("VERI", en="warn of what is left"),
 ) -> Mesh:
     """Replace degenerate cells."""
-    made = regenerate(mesh)
-    left = repeated_nodes(made) if check else 0
+    made = merge.regenerate(mesh)
+    left = merge.repeated_nodes(made) if check else 0
     if left:
         session.print(session.told("operators.mesh.doubles-left", count=left))
     return made
@@ -63,4 +57,4 @@ def dedo(
     line: Mesh = Arg("MAILLAGE", en="line of its edges"),
 ) -> tuple[Mesh, Mesh]:
     """Double the nodes of a line."""
-    return cut_open(surface, line)
+    return merge.cut_open(surface, line)

@@ -1,14 +1,8 @@
 """How cells are described: INVE ORIE VERS ORDO."""
 
+from ssilang.kernel.mesh import orientation
 from ssilang.kernel.mesh.boundary import (
     chained,
-)
-from ssilang.kernel.mesh.orientation import (
-    check_consistent,
-    flip,
-    orient,
-    orient_towards,
-    reversed_line,
 )
 from ssilang.kernel.mesh.queries.partition import by_neighbours
 from ssilang.operators.dispatch import INVE, ORDO
@@ -18,7 +12,7 @@ from ssilang.operators.prelude import *
 @INVE.form()
 def inverted(mesh: Mesh = Main("MAILLAGE", en="mesh")) -> Mesh:
     """Mesh turned inside out."""
-    return reversed_line(mesh)
+    return orientation.reversed_line(mesh)
 
 
 @operator("ORIE", family="mesh", full_name="ORIENTER")
@@ -32,16 +26,16 @@ def orie(
 ) -> Mesh:
     """Orient cells."""
     if target is not None:
-        return orient_towards(mesh, target.coordinates.copy(), towards == "POINT")
+        return orientation.orient_towards(mesh, target.coordinates.copy(), towards == "POINT")
     if towards is not None:
         raise call.missing(("POINT",))
-    return orient(mesh, max(workspace(call.session).dimension, 1))
+    return orientation.orient(mesh, max(workspace(call.session).dimension, 1))
 
 
 @operator("VERS", family="mesh", full_name="VERSENS")
 def vers(mesh: Mesh = Arg("MAILLAGE", en="lines or surfaces")) -> Mesh:
     """Check the sense of description."""
-    return check_consistent(mesh)
+    return orientation.check_consistent(mesh)
 
 
 @ORDO.form()
@@ -84,4 +78,4 @@ def _in_one_sense(block: CellBlock) -> CellBlock:
                         starts_here = int(table[other, 0]) == node
                         turned[other] = starts_here != at_start
                         todo.append(other)
-    return flip(block, turned)
+    return orientation.flip(block, turned)

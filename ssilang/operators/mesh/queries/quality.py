@@ -1,21 +1,13 @@
 """Shape of cells (INDI) and what is wrong with a mesh (VERM)."""
 
 from ssilang.kernel.mesh.combine import without_duplicates
-from ssilang.kernel.mesh.queries.quality import (
-    aspect_ratio,
-    flatness,
-    quality_in_metric,
-    repeated_cells,
-    skewness,
-    unfit_faces,
-    unmatched_middles,
-)
+from ssilang.kernel.mesh.queries import quality
 from ssilang.operators.prelude import *
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
-    "PLAN": (("QUA4",), flatness),
-    "ASPE": (("TRI3", "TET4"), aspect_ratio),
-    "SKEW": (("TRI3", "TET4"), skewness),
+    "PLAN": (("QUA4",), quality.flatness),
+    "ASPE": (("TRI3", "TET4"), quality.aspect_ratio),
+    "SKEW": (("TRI3", "TET4"), quality.skewness),
 }
 
 
@@ -57,7 +49,7 @@ def topological(
         wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
     elif metric is not None:
         wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
-    values = quality_in_metric(cells.coordinates, wanted)
+    values = quality.quality_in_metric(cells.coordinates, wanted)
     if listed:
         return ListReel(values)
     block = CellFieldBlock(cells, {"SCAL": values[:, None]}, "GRAVITE")
@@ -92,9 +84,9 @@ def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:
 
 
 _CHECKS = (
-    ("MESH", repeated_cells, "operators.mesh.repeated-cells"),
-    ("NODE", unmatched_middles, "operators.mesh.unmatched-middles"),
-    ("MESH", unfit_faces, "operators.mesh.unfit-faces"),
+    ("MESH", quality.repeated_cells, "operators.mesh.repeated-cells"),
+    ("NODE", quality.unmatched_middles, "operators.mesh.unmatched-middles"),
+    ("MESH", quality.unfit_faces, "operators.mesh.unfit-faces"),
 )
 
 

@@ -1,13 +1,6 @@
 """Boundaries of meshes: CONT ENVE ARET, and the sides kept from their making: COTE FACE."""
 
-from ssilang.kernel.mesh.boundary import (
-    chained,
-    contour,
-    envelope,
-    inner_contour,
-    lone_surfaces,
-    sharp_edges,
-)
+from ssilang.kernel.mesh import boundary
 from ssilang.kernel.mesh.combine import join_blocks
 from ssilang.kernel.mesh.orientation import (
     flip,
@@ -21,7 +14,7 @@ def _whole_lines(mesh: Mesh) -> Mesh:
     groups: dict[str, list[CellBlock]] = {}
     for block in mesh.blocks:
         groups.setdefault(block.cell_type, []).append(block)
-    return chained(Mesh(mesh.nodes, tuple(join_blocks(b) for b in groups.values())))
+    return boundary.chained(Mesh(mesh.nodes, tuple(join_blocks(b) for b in groups.values())))
 
 
 @operator("CONT", family="mesh", full_name="CONTOUR")
@@ -35,9 +28,9 @@ def cont(
     """Contour of a surface."""
     parts: list[CellBlock] = []
     if which in ("EXTE", "TOUT"):
-        parts += contour(mesh).blocks
+        parts += boundary.contour(mesh).blocks
     if which in ("INTE", "TOUT"):
-        parts += inner_contour(mesh).blocks
+        parts += boundary.inner_contour(mesh).blocks
     if not parts and not allowed:
         raise MeshError("operators.mesh.no-contour")
     return _whole_lines(Mesh(mesh.nodes, tuple(parts)))
@@ -51,9 +44,9 @@ def enve(
 ) -> Mesh:
     """Skin of a volume."""
     if mesh.dimension == 2:
-        skin = lone_surfaces(mesh)
+        skin = boundary.lone_surfaces(mesh)
     else:
-        faces = envelope(orient(mesh, 3) if inwards else mesh)
+        faces = boundary.envelope(orient(mesh, 3) if inwards else mesh)
         skin = Mesh(faces.nodes, tuple(flip(b) for b in faces.blocks))
     if not skin.blocks and not allowed:
         raise MeshError("operators.mesh.no-envelope")
@@ -72,7 +65,7 @@ def aret(
     ),
 ) -> Mesh:
     """Sharp edges."""
-    return sharp_edges(mesh, angle)
+    return boundary.sharp_edges(mesh, angle)
 
 
 @operator("COTE", family="mesh")
