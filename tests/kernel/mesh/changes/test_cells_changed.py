@@ -21,7 +21,7 @@ from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import check_consistent, flip, orient, signed_volumes
 from ssilang.kernel.mesh.queries.measure import enclosed_area, enclosed_volume, total_measure
@@ -125,13 +125,27 @@ def test_counts_of_edges_and_faces_of_a_grid_of_bricks() -> None:
     assert {b.cell_type for b in faces(union(plane, joint)).blocks} == {"QUA4"}
 
 
-def test_contour_is_put_end_to_end() -> None:
-    base = line_between(NodeTable(), [0, 0], [1, 0], 3)
-    plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
-    chain = line_chain(chained(contour(plate)))
-    assert chain[0] == chain[-1]
-    assert len(chain) == 2 * (3 + 4) + 1
-    assert enclosed_area(contour(plate)) == pytest.approx(2.0)
+@pytest.mark.parametrize(("sizes", "closed"), [((5,), True), ((4, 6), True), ((7, 3), False)])
+def test_cells_in_any_order_are_put_end_to_end(sizes: tuple[int, ...], closed: bool) -> None:
+    ways, nodes = [], NodeTable()
+    for size in sizes:  # nodes of a way are as they lie
+        ids = nodes.add(np.random.default_rng(size).uniform(size=(size + (not closed), 2)))
+        way = [*ids.tolist(), *ids[:closed].tolist()]
+        ways.append(list(zip(way, way[1:], strict=False)))
+    given = np.random.default_rng(3).permutation(np.concatenate(ways))
+    block = CellBlock.make(nodes, "SEG2", given, given[:, 0])
+    (found,) = chained(Mesh(nodes, (block,))).blocks
+    cells = list(map(tuple, found.connectivity.tolist()))
+    begins = [next(way for way in ways if cell in way) for cell in map(tuple, given.tolist())]
+    wanted = []
+    for way, first in zip(begins, given.tolist(), strict=True):
+        at = way.index(tuple(first)) if closed else 0
+        wanted += [] if way[0] in wanted else [*way[at:], *way[:at]]
+    if not closed:  # those that begin come first, in the order given
+        heads = [cell for cell in map(tuple, given.tolist()) if cell in [w[0] for w in ways]]
+        wanted = [cell for head in heads for way in ways if way[0] == head for cell in way]
+    assert cells == wanted
+    assert found.colours.tolist() == [a for a, _ in wanted]
 
 
 def test_part_of_a_closed_line_follows_its_sense() -> None:
