@@ -12,7 +12,14 @@ from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.orientation import flip, orient, orient_towards, reversed_line
+from ssilang.kernel.mesh.orientation import (
+    flip,
+    orient,
+    orient_towards,
+    reversed_line,
+    signed_volumes,
+    surface_normals,
+)
 
 CORNERS = {
     "POI1": "000", "SEG2": "000 100", "TRI3": "000 100 010", "QUA4": "000 100 110 010",
@@ -74,3 +81,16 @@ def test_each_part_is_changed_as_if_it_were_alone(change, meant, backwards) -> N
         if meant is not None:
             stays = part.single_block().cell_type not in meant
             assert (found == cells_of(part)) == stays, part.single_block().cell_type
+
+
+def test_cells_are_turned_to_be_positive_and_by_turning_alone() -> None:
+    parts = parts_of(NodeTable())
+    mixed = union(*parts, as_given=True)
+    ways = (lambda b: b.coordinates[:, -1, 0] - b.coordinates[:, 0, 0],
+            lambda b: surface_normals(b)[:, 2], signed_volumes)  # fmt: skip
+    for dimension, measure in enumerate(ways, 1):
+        made = orient(mixed, dimension)
+        sizes = [measure(b) for b in made.blocks if b.kind.dimension == dimension]
+        assert len(sizes) >= 2
+        assert all((size > 0).all() for size in sizes)
+        assert cells_of(made, sense=False) == cells_of(mixed, sense=False)
