@@ -26,7 +26,7 @@ from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import check_consistent, flip, signed_volumes
-from ssilang.kernel.mesh.queries.measure import enclosed_area, enclosed_volume, total_measure
+from ssilang.kernel.mesh.queries.measure import enclosed_volume, total_measure
 from ssilang.kernel.mesh.queries.select import containing, inside_contour, inside_volume, stretch
 
 
