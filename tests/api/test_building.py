@@ -47,6 +47,7 @@ def test_a_shaken_block_on_soil_moves_as_in_the_deck():
     soil = b.block((-2, -1), (2, 0), size=1.0, YOUN=5e8, NU=0.3, RHO=2000.0)
     foot = b.block((-1, 0), (1, 1), size=1.0, **STONE)
     b.joint(foot, soil, KN=1e9, KS=1e9, FROT=0.7)
+    assert repr(b.mesh()) == "<MAILLAGE 6 QUA4, 16 nodes>"  # 5 x 2 and 3 x 2
     b.fix(soil)
     b.damp(mass=0.5)
     b.shake(times, 6.0 * record)

@@ -1,5 +1,6 @@
 """Runs from Python: parameters, what comes back, what stays on the disk, what goes wrong."""
 
+import json
 import os
 import signal
 import subprocess
@@ -127,6 +128,17 @@ def test_checks_warnings_and_time(swing):
         swing.checks["pek"]
     assert swing.output.strip() == "done"
     assert 0.0 < swing.seconds < 600.0
+
+
+def test_what_calculations_took_is_that_of_the_summary(oscillator, tmp_path):
+    r = ssilang.run(oscillator.replace("T2 = DYNAMIC T1 ;", 2 * "T2 = DYNAMIC T1 ;"), out=tmp_path)
+    (summary,) = tmp_path.glob("summary.json")
+    took = json.loads(summary.read_text())["statistics"]["calculations"]
+    assert r.calculations == took
+    assert [c["steps"] for c in took] == [500, 500]
+    assert all(abs(c["energy_imbalance"]) < 1e-9 for c in took)
+    r.calculations[0].clear()  # a copy
+    assert r.calculations == took
 
 
 def test_check_says_what_the_command_says():

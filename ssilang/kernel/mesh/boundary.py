@@ -158,7 +158,7 @@ def edges(mesh: Mesh) -> Mesh:
         mesh.nodes, tuple(CellBlock.make(mesh.nodes, k, t) for k, (t, _) in skin.items())
     )
     flat += [(k, t) for k, (t, _) in faces_of(surfaces, 2).items()]
-    flat += [(b.cell_type, b.connectivity) for b in mesh.blocks if b.kind.dimension == 1]
+    flat += [(b.cell_type, b.connectivity) for b in mesh.blocks if b.cell_type[:3] == "SEG"]
     for name, table in flat:
         tables.setdefault(name, []).append(table)
     return _each_once(mesh.nodes, tables)

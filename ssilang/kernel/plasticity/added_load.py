@@ -73,11 +73,6 @@ class LoadedBulk(Bulk):
     seen: set[int] = field(default_factory=set)
 
     @property
-    def symmetric(self) -> bool:
-        """Tangents of such loads are not."""
-        return False
-
-    @property
     def words(self) -> str:
         """What is said of them."""
         return ", ".join(w for w in (self.bodies.words, self.said) if w)

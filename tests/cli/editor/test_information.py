@@ -12,6 +12,7 @@ from ssilang.cli.editor.information import Reader, markdown, signatures
 from ssilang.cli.editor.problems import find_problems
 from ssilang.language.registry import find_operator
 from ssilang.language.run.library import Library
+from ssilang.language.say.reference import find_page, page_text
 from ssilang.operators.loader import load_operators
 
 DECK = """OPTI DIME 2 ELEM SEG2 MODE PLAN DEFO ;
@@ -98,6 +99,17 @@ def test_entries_have_units_defaults_in_their_language_and_values():
             told = own.hover(text.index(word) + 1)[0].split("\n")
             assert len(told) == 5
             assert told[-1].startswith(facts), told
+
+
+@pytest.mark.parametrize("language", ["en", "fr"])
+def test_a_page_beside_the_text_leaves_the_tables_of_all_laws_to_the_help(language):
+    whole = page_text(find_page("MATE", {}), language)
+    shown = reader(language).page("MATE")
+    for parameter in ("NU ", "KN ", "RHO "):  # a line of a table for each law that has it
+        lines = [line for line in whole.split("\n") if line.strip().startswith(parameter)]
+        assert len(lines) > 1
+        assert not any(line.strip() in shown for line in lines)
+    assert "MATE" in shown.split("\n")[0]
 
 
 def test_a_page_is_title_paragraph_and_the_rest_as_it_is():

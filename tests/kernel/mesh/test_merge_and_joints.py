@@ -22,7 +22,9 @@ UP, DOWN = np.array([0.0, 1, 0]), np.array([0.0, -1, 0])
 def test_oldest_node_of_a_group_stays() -> None:
     nodes = NodeTable()
     ids = nodes.add(np.array([[0.0, 0], [1, 0], [1.001, 0], [0.999, 0]]))
-    assert merge_close(nodes, ids, 0.01) == 2
+    merge_close(nodes, ids[:1], 0.01)
+    assert nodes.resolve(ids).tolist() == [0, 1, 2, 3]
+    merge_close(nodes, ids, 0.01)
     assert nodes.resolve(ids).tolist() == [0, 1, 1, 1]
 
 
@@ -30,7 +32,10 @@ def test_merging_between_two_sets_leaves_each_as_it_is() -> None:
     nodes = NodeTable()
     first = nodes.add(np.array([[0.0, 0], [0.001, 0]]))
     second = nodes.add(np.array([[0.0, 0], [5.0, 0]]))
-    assert merge_between(nodes, first, second, 0.01) == 1
+    for near in (first, first[:0]):
+        merge_between(nodes, first, near, 0.01)
+        assert nodes.resolve(first).tolist() == first.tolist()
+    merge_between(nodes, first, second, 0.01)
     assert nodes.resolve(second).tolist() == [0, 3]
     assert len(np.unique(nodes.resolve(first))) == 2
 
@@ -39,7 +44,8 @@ def test_merging_a_hundred_thousand_nodes_finds_all_pairs() -> None:
     nodes = NodeTable()
     grid = np.stack(np.meshgrid(np.arange(250.0), np.arange(200.0)), axis=-1).reshape(-1, 2)
     ids = nodes.add(np.vstack([grid, grid + 1e-6]))
-    assert merge_close(nodes, ids, 1e-3) == len(grid)
+    merge_close(nodes, ids, 1e-3)
+    assert nodes.resolve(ids).tolist() == 2 * ids[: len(grid)].tolist()
 
 
 def test_merging_needs_a_distance() -> None:

@@ -35,9 +35,9 @@ def run(text, tmp_path, **words):
     return ran(text.format(**words), output_directory=tmp_path).session.root.find
 
 
-@pytest.mark.parametrize("age", [0.5, 1.2])
-def test_a_constant_stress_creeps_by_the_law_whatever_the_steps(age, tmp_path):
-    find = run(SQUARE + PULLED, tmp_path, m=age)
+@pytest.mark.parametrize(("power", "age"), [(2.0, 0.5), (2.0, 1.2), (1.0, 1.0), (1.5, 0.8)])
+def test_a_constant_stress_creeps_by_the_law_whatever_the_steps(power, age, tmp_path):
+    find = run(SQUARE + PULLED, tmp_path, a=1e-7 * 50.0 ** (2.0 - power), n=power, m=age)
     for number, time in ((2, 1.0), (4, 10.0)):
         found = find("T").get("VARIABLES_INTERNES").get(number).blocks[0].components["EPSE"]
         assert found == pytest.approx(1e-7 * 50.0**2 * time**age, rel=1e-3)

@@ -294,10 +294,6 @@ def _end_forces(section: Section, frame: BeamFrame, zone: Zone) -> FloatArray:
 class FibreBeam(Timoshenko):
     """Timoshenko beam whose rigidities are those of its fibres, about its line."""
 
-    def section(self, zone: Zone, parameters: ZoneField) -> Section:
-        """Rigidities of the section without what couples forces and moments."""
-        return Section(np.diag(section_of_beam(parameters).rigidity)[None])
-
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Full matrix (1, 1, s, s)."""
         rows = np.array(kept_rows(zone))

@@ -15,42 +15,28 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
-def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> int:
-    """Merge the nodes (m,) that are less than `tolerance` apart; the oldest of each group stays.
-
-    Returns
-    -------
-    int
-        Number of nodes that vanished.
-    """
+def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> None:
+    """Merge the nodes (m,) that are less than `tolerance` apart; the oldest of each group stays."""
     from scipy.spatial import cKDTree
 
     ids = np.unique(nodes.resolve(ids))
     _check(tolerance)
-    if len(ids) < 2:
-        return 0
     pairs = cKDTree(nodes.coordinates[ids]).query_pairs(tolerance, output_type="ndarray")
     if not len(pairs):
-        return 0
+        return
     label = parts_of(len(ids), pairs.T)
     oldest = np.full(label.max() + 1, np.iinfo(np.int64).max)
     np.minimum.at(oldest, label, ids)
     kept = oldest[label]
     gone = kept != ids
     nodes.merge(kept[gone], ids[gone])
-    return int(gone.sum())
 
 
-def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance: float) -> int:
+def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance: float) -> None:
     """Merge nodes of one set with nodes of another, less than `tolerance` apart; nodes of the
     same set stay distinct.
 
     Each node goes with the nearest free one of the other set.
-
-    Returns
-    -------
-    int
-        Number of nodes that vanished.
     """
     from scipy.spatial import cKDTree
 
@@ -58,8 +44,6 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
     a, b = np.unique(nodes.resolve(first)), np.unique(nodes.resolve(second))
     common = np.intersect1d(a, b)
     a, b = np.setdiff1d(a, common), np.setdiff1d(b, common)
-    if not len(a) or not len(b):
-        return 0
     tree = cKDTree(nodes.coordinates[b])
     near = cKDTree(nodes.coordinates[a]).sparse_distance_matrix(
         tree, tolerance, output_type="coo_matrix"
@@ -72,11 +56,8 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
         if free_a[i] and free_b[j]:
             free_a[i] = free_b[j] = False
             pairs.append((a[i], b[j]))
-    if not pairs:
-        return 0
-    table = np.sort(np.array(pairs, dtype=np.int64), axis=1)
+    table = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
     nodes.merge(table[:, 0], table[:, 1])
-    return len(table)
 
 
 def _check(tolerance: float) -> None:

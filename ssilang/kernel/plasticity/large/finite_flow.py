@@ -88,11 +88,6 @@ class FlowingSolid(YieldingSolid):
 
     halfway: bool = True
 
-    @property
-    def symmetric(self) -> bool:
-        """Tangents are not: the rate of Cauchy's stress, and volumes that change, have none."""
-        return False
-
     def respond(
         self, before: FloatArray, u: FloatArray, last: PointState, time: float
     ) -> tuple[PointState, FiniteSolid]:

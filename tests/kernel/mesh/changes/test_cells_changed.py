@@ -1,5 +1,7 @@
 """Degrees, splitting, copies, selections, boundaries."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from references.straight_line import line_between, straight_line
@@ -21,10 +23,10 @@ from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import subdivide
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.orientation import check_consistent, flip, orient, signed_volumes
-from ssilang.kernel.mesh.queries.measure import enclosed_area, enclosed_volume, total_measure
+from ssilang.kernel.mesh.orientation import check_consistent, flip, signed_volumes
+from ssilang.kernel.mesh.queries.measure import enclosed_volume, total_measure
 from ssilang.kernel.mesh.queries.select import containing, inside_contour, inside_volume, stretch
 
 
@@ -125,13 +127,22 @@ def test_counts_of_edges_and_faces_of_a_grid_of_bricks() -> None:
     assert {b.cell_type for b in faces(union(plane, joint)).blocks} == {"QUA4"}
 
 
-def test_contour_is_put_end_to_end() -> None:
-    base = line_between(NodeTable(), [0, 0], [1, 0], 3)
-    plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
-    chain = line_chain(chained(contour(plate)))
-    assert chain[0] == chain[-1]
-    assert len(chain) == 2 * (3 + 4) + 1
-    assert enclosed_area(contour(plate)) == pytest.approx(2.0)
+@pytest.mark.parametrize(("sizes", "closed"), [((5,), True), ((4, 6), True), ((7, 3), False)])
+def test_cells_in_any_order_are_put_end_to_end(sizes: tuple[int, ...], closed: bool) -> None:
+    ways, nodes, wanted = [], NodeTable(), []
+    for size in sizes:
+        ids = nodes.add(np.random.default_rng(size).uniform(size=(size, 2))).tolist()
+        ways.append(list(pairwise([*ids, *ids[:closed]])))
+    given = np.random.default_rng(3).permutation(np.concatenate(ways))
+    for cell in map(tuple, given.tolist()):
+        (way,) = (way for way in ways if cell in way)
+        at = way.index(cell)
+        if cell not in wanted and (closed or at == 0):
+            wanted += [*way[at:], *way[:at]]
+    block = CellBlock.make(nodes, "SEG2", given, given[:, 0])
+    (found,) = chained(Mesh(nodes, (block,))).blocks
+    assert list(map(tuple, found.connectivity.tolist())) == wanted
+    assert found.colours.tolist() == [a for a, _ in wanted]
 
 
 def test_part_of_a_closed_line_follows_its_sense() -> None:
@@ -141,33 +152,6 @@ def test_part_of_a_closed_line_follows_its_sense() -> None:
     chain = line_chain(loop)
     part = line_chain(stretch(loop, int(chain[5]), int(chain[1])))
     assert part.tolist() == [*chain[5:].tolist(), int(chain[1])]
-
-
-def test_orientation_repairs_cells_turned_inside_out() -> None:
-    volume = box()
-    block = volume.single_block()
-    some = np.arange(len(block)) % 3 == 0
-    spoilt = Mesh(volume.nodes, (flip(block, some),))
-    assert ((signed_volumes(spoilt.single_block()) < 0) == some).all()
-    assert (signed_volumes(orient(spoilt, 3).single_block()) > 0).all()
-
-
-def test_orientation_leaves_cells_of_less_than_the_space() -> None:
-    nodes = NodeTable()
-    nodes.add(np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]]))
-    cells = {"TRI3": [[0, 2, 1], [0, 2, 3]], "SEG2": [[1, 0], [2, 3]]}
-    parts = [Mesh.of(nodes, kind, np.array(ids)) for kind, ids in cells.items()]
-    mixed = union(*parts, as_given=True)
-    for dimension, turned in ((1, "SEG2"), (2, "TRI3"), (3, "")):
-        found = {b.cell_type: b.connectivity.tolist() for b in orient(mixed, dimension).blocks}
-        wanted = {"TRI3": [[0, 1, 2], [0, 2, 3]], "SEG2": [[0, 1], [3, 2]]}
-        for kind, given in cells.items():
-            same = sorted(map(sorted, found[kind])) == sorted(map(sorted, given))
-            assert same
-            if kind != turned:
-                assert found[kind] == given
-        if turned == "SEG2":
-            assert found[turned] == wanted[turned]
 
 
 def test_opposed_neighbours_are_found() -> None:

@@ -1,0 +1,103 @@
+"""Each part of a mesh of many kinds is changed as if it were alone; what is not meant stays."""
+
+from collections import Counter
+from functools import partial
+
+import numpy as np
+import pytest
+
+from ssilang.kernel.mesh import boundary
+from ssilang.kernel.mesh.changes.degree import complete, linear, quadratic
+from ssilang.kernel.mesh.changes.split import split_quadrangles
+from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import (
+    flip,
+    orient,
+    orient_towards,
+    reversed_line,
+    signed_volumes,
+    surface_normals,
+)
+
+CORNERS = {
+    "POI1": "000", "SEG2": "000 100", "TRI3": "000 100 010", "QUA4": "000 100 110 010",
+    "TET4": "000 100 010 001", "PYR5": "000 100 110 010 001", "PRI6": "000 100 010 001 101 011",
+    "CUB8": "000 100 110 010 001 101 111 011", "RAC2": "000 100 000 100",
+    "LIA3": "000 100 010 000 100 010", "LIA4": "000 100 110 010 000 100 110 010",
+}  # fmt: skip
+LINES, FLAT, SOLID = ("SEG2", "SEG3"), ("TRI3", "QUA4", "TRI6", "QUA8"), ("TET4", "PYR5", "PRI6")
+CURVED = ("SEG3", "TRI6", "QUA8", "TE10", "PY13", "PR15", "CU20")
+DOWNWARDS, APEX = np.array([0.3, 0.5, -2.0]), np.array([1.0, -4.0, -30.0])
+FULL = (*SOLID, "CUB8", *CURVED[3:])
+JOINTS = ("RAC2", "LIA3", "LIA4")
+ALL = {*CORNERS, *CURVED} - {"POI1", *JOINTS}
+
+
+def parts_of(nodes: NodeTable) -> list[Mesh]:
+    """Meshes of one kind each, far from each other; the second of three cells is turned over."""
+    random, parts = np.random.default_rng(5), []
+    for k, (kind, corners) in enumerate([*CORNERS.items(), *list(CORNERS.items())[1:8]]):
+        x = np.array([list(map(float, at)) for at in corners.split()])
+        x = x + 0.1 * random.uniform(-1, 1, (3, *x.shape)) * (x.shape[-1] == 3)
+        x = x + 3.0 * np.arange(3)[:, None, None] + np.array([0.0, 20.0 * k, 0.0])
+        x[..., 2] *= kind not in FLAT  # in the plane
+        block = CellBlock.make(nodes, kind, nodes.add(x.reshape(-1, 3)).reshape(3, -1), [k, 0, 3])
+        part = Mesh(nodes, (flip(block, np.array([False, True, False])),))
+        parts.append(part if k < len(CORNERS) else quadratic(part))
+    return parts
+
+
+def cells_of(mesh: Mesh, sense: bool = True) -> Counter:
+    """Each cell by its kind, colour and where its nodes are, in their order if `sense`."""
+    order = list if sense else sorted
+    return Counter(
+        (block.cell_type, colour, tuple(map(tuple, order(np.round(x, 9).tolist()))))
+        for block in mesh.blocks
+        for colour, x in zip(block.colours.tolist(), block.coordinates, strict=True)
+    )
+
+
+def rows_of(mesh: Mesh) -> list:
+    return [(block.cell_type, block.connectivity.tolist()) for block in mesh.blocks]
+
+
+@pytest.mark.parametrize(
+    ("change", "meant"),
+    [(linear, CURVED), (quadratic, ALL - {*CURVED}), (complete, ALL - {"SEG3"}),
+     (split_quadrangles, ("QUA4", "QUA8")), (partial(orient, space_dimension=1), LINES),
+     (partial(orient, space_dimension=2), FLAT),
+     (partial(orient, space_dimension=3), FULL),
+     (partial(orient_towards, target=DOWNWARDS, is_point=False), (*FLAT, "CUB8")),
+     (partial(orient_towards, target=APEX, is_point=True), (*FLAT, "CUB8")),
+     (reversed_line, ALL),
+     (boundary.contour, FLAT), (boundary.envelope, FULL), (boundary.lone_surfaces, FLAT),
+     (boundary.edges, ALL), (boundary.faces, (*FLAT, *FULL))],
+)  # fmt: skip
+@pytest.mark.parametrize("backwards", [False, True])
+def test_each_part_is_changed_as_if_it_were_alone(change, meant, backwards) -> None:
+    nodes = NodeTable()
+    parts = parts_of(nodes)[:: -1 if backwards else 1]
+    if change in (quadratic, complete):  # joints are refused
+        parts = [part for part in parts if part.single_block().cell_type not in JOINTS]
+    of_sides = change in vars(boundary).values()  # an edge has the sense of the first face met
+    made = [change(part) for part in parts]
+    whole = cells_of(change(union(*parts, as_given=True)), not of_sides)
+    assert whole == sum((cells_of(one, not of_sides) for one in made), Counter())
+    for part, one in zip(parts, made, strict=True):  # what is not meant stays, or has no sides
+        rest = [] if of_sides else rows_of(part)
+        assert (rows_of(one) == rest) == (part.single_block().cell_type not in meant)
+
+
+def test_cells_are_turned_to_be_positive_and_by_turning_alone() -> None:
+    parts = parts_of(NodeTable())
+    mixed = union(*parts, as_given=True)
+    ways = (lambda b: b.coordinates[:, -1, 0] - b.coordinates[:, 0, 0],
+            lambda b: surface_normals(b)[:, 2], signed_volumes)  # fmt: skip
+    for dimension, measure in enumerate(ways, 1):
+        made = orient(mixed, dimension)
+        sizes = [measure(b) for b in made.blocks if b.kind.dimension == dimension]
+        assert len(sizes) >= 2
+        assert all((size > 0).all() for size in sizes)
+        assert cells_of(made, sense=False) == cells_of(mixed, sense=False)
