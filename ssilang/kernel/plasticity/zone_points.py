@@ -29,8 +29,14 @@ from ssilang.kernel.materials.plastic import section_flow
 from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
-from ssilang.kernel.plasticity.layered_points import is_layered, layered_points
-from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, PointState, law_parameters
+from ssilang.kernel.plasticity.layered_points import is_layered, layered_points, thick_points
+from ssilang.kernel.plasticity.points import (
+    COMPONENTS,
+    PlasticPoints,
+    PointState,
+    law_parameters,
+    law_support,
+)
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
@@ -86,23 +92,24 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         raise MaterialError("kernel.plasticity.moments-without-distances", element=zone.element)
     if kind == "beam" and ("SECY" in given or "SECZ" in given):
         raise MaterialError("kernel.plasticity.sheared-beam-is-elastic").about("SECY", "SECZ")
-    operator = family.strain_operator(zone, given, "STRESSES", slice(None))
+    at = law_support(zone)
+    operator = family.strain_operator(zone, given, at, slice(None))
     n, s, p, _ = operator.matrix.shape
     slots = kept_rows(zone) if kind not in SHELLS else {4: (0, 1, 3, 4)}.get(s, tuple(range(s)))
     sized = pipe_parameters(zone, given) if kind == "pipe" else given
-    size = sized.at("EPAI" if kind in SHELLS else "SECT", "STRESSES")
+    size = sized.at("EPAI" if kind in SHELLS else "SECT", at)
 
     def placed(matrix: FloatArray) -> FloatArray:
         full = np.zeros((n, p, 6, 6))
         full[..., np.array(slots)[:, None], np.array(slots)] = matrix
         return full.reshape(-1, 6, 6)
 
-    D = placed(family.moduli(zone, given, "STRESSES"))
+    D = placed(family.moduli(zone, given, at))
     own = law_parameters(zone, law, given)
     kind_of = section_flow.CreepingSections if law.timed else section_flow.SectionParameters
     parameters = kind_of(
         own.values, own.curves, D, np.asarray(np.linalg.pinv(D, hermitian=True), dtype=np.float64),
-        placed(section_form(zone, given, "STRESSES")), np.broadcast_to(size, (n, p)).ravel(),
+        placed(section_form(zone, given, at)), np.broadcast_to(size, (n, p)).ravel(),
     )  # fmt: skip
     flowing: PlasticLaw = replace(
         law, respond=section_flow.respond, columns=None, symmetric=kind not in BENT
@@ -128,6 +135,8 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         return fibre_points(zone, characteristics)
     if is_layered(zone):
         return layered_points(zone, characteristics)
+    if ELEMENTS[zone.element].family == "thick":
+        return thick_points(zone, characteristics)
     if ELEMENTS[zone.element].family in SECTION_FAMILIES:
         return section_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
