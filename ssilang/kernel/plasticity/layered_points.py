@@ -1,7 +1,8 @@
 """Plastic shells with points across: thin ones DKT (INTEGRE) and thick ones COQ6 and COQ8.
 
-Across thin ones stand points of Gauss at each surface point: strains follow the membrane strain and the curvature; each layer is in plane stress. Results
-are the section's forces and moments, the layers' stresses stand among the internal variables.
+Across thin ones stand points of Gauss at each surface point: strains follow the membrane strain and
+the curvature; each layer is in plane stress. Results are the section's forces and moments, the
+layers' stresses stand among the internal variables.
 """
 
 from dataclasses import dataclass, replace
@@ -24,7 +25,7 @@ from ssilang.kernel.elements.shells.thick_shell import fibres
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.materials.plastic.laws import law_at, plastic_law
+from ssilang.kernel.materials.plastic.laws import plastic_law
 from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState, law_parameters
 
@@ -118,26 +119,6 @@ class ThickPoints(PlasticPoints):
         scaled = replace(blank, stress=blank.stress * ROOTS, plastic=blank.plastic / ROOTS)
         found, known = super().restored(scaled, given)
         return replace(found, stress=found.stress / ROOTS, plastic=found.plastic * ROOTS), known
-
-
-def thick_points(zone: Zone, characteristics: CellField) -> ThickPoints:
-    """Points of COQ6 and COQ8.
-
-    Raises
-    ------
-    MaterialError
-        For missing or inadmissible parameters.
-    """
-    law, family = plastic_law(zone.behaviour), family_of(zone)
-    assert law is not None
-    given = zone_field(zone, characteristics)
-    operator = family.strain_operator(zone, given, "STRESSES", slice(None))
-    B = operator.matrix * ROOTS[np.array(THICK)][:, None, None]
-    parameters = law_parameters(zone, law, given)
-    return ThickPoints(
-        zone, law_at(law, parameters), family.layout(zone), B, operator.weights, None, THICK, (2,),
-        parameters,
-    )  # fmt: skip
 
 
 def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:

@@ -172,7 +172,9 @@ class PlasticPoints:
         """Stresses (forces in bars)."""
         values = self.gathered(state.stress)
         values = values if self.section is None else values * self.section[:, None]
-        return cell_block(self.zone, family_of(self.zone).stress_names(self.zone), values, law_support(self.zone))
+        return cell_block(
+            self.zone, family_of(self.zone).stress_names(self.zone), values, law_support(self.zone)
+        )
 
     def variable_block(self, state: PointState) -> CellFieldBlock:
         """Internal variables."""

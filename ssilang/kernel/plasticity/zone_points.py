@@ -29,7 +29,13 @@ from ssilang.kernel.materials.plastic import section_flow
 from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
-from ssilang.kernel.plasticity.layered_points import is_layered, layered_points, thick_points
+from ssilang.kernel.plasticity.layered_points import (
+    ROOTS,
+    THICK,
+    ThickPoints,
+    is_layered,
+    layered_points,
+)
 from ssilang.kernel.plasticity.points import (
     COMPONENTS,
     PlasticPoints,
@@ -135,20 +141,19 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         return fibre_points(zone, characteristics)
     if is_layered(zone):
         return layered_points(zone, characteristics)
-    if ELEMENTS[zone.element].family == "thick":
-        return thick_points(zone, characteristics)
     if ELEMENTS[zone.element].family in SECTION_FAMILIES:
         return section_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_field(zone, characteristics)
-    bar = ELEMENTS[zone.element].family in ("bar", "hoop")
+    bar, thick = (ELEMENTS[zone.element].family in n for n in (("bar", "hoop"), ("thick",)))
     if not bar and zone.mode not in COMPONENTS:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     parts = [
         family.strain_operator(zone, given, "STRESSES", cells) for cells in chunks(len(zone.cells))
     ]
     B = np.concatenate([part.matrix for part in parts])
+    B = B * ROOTS[np.array(THICK)][:, None, None] if thick else B
     weights = np.concatenate([np.broadcast_to(p.weights, (len(p.matrix), p.matrix.shape[2]))
                               for p in parts])  # fmt: skip
     section: FloatArray | None = None
@@ -157,10 +162,10 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         weights = weights * section
     parameters = law_parameters(zone, law, given)
     held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar and not law.uniaxial else ()
-    if zone.mode is Mode.PLANE_STRESS and not bar:
+    if thick or (zone.mode is Mode.PLANE_STRESS and not bar):
         held = (2,)
-    components = (0,) if bar else COMPONENTS[zone.mode]
-    return PlasticPoints(
+    components = (0,) if bar else THICK if thick else COMPONENTS[zone.mode]
+    return (ThickPoints if thick else PlasticPoints)(
         zone, law_at(law, parameters), family.layout(zone), B, weights, section, components, held,
         parameters,
     )  # fmt: skip

@@ -82,7 +82,7 @@ def _no_fibres(zone: Zone) -> None:
         raise FieldError("kernel.statics.beams-sections-fibres-no")
     if "FLUAGE" in zone.behaviour:
         raise FieldError("kernel.statics.answer-law-creep-depends")
-    if (is_layered(zone) or zone.element == "COQ3") and is_plastic(zone):
+    if is_plastic(zone) and (is_layered(zone) or zone.element in ("COQ3", "COQ6", "COQ8")):
         raise FieldError("kernel.statics.plastic-shells-no-law", element=zone.element)
 
 

@@ -36,7 +36,9 @@ def stepped_links(
     for number, step in enumerate(np.flatnonzero(saved), start=first):
         entry = results.get(int(step) + 1)
         assert isinstance(entry, Table)
-        of_links = {id(z): _at_step(results.get(k), int(step), begun=number == 1) for z, _, k in named}
+        of_links = {
+            id(z): _at_step(results.get(k), int(step), begun=number == 1) for z, _, k in named
+        }
         blocks = tuple(_block(z, of_links.get(id(z))) for z in model.zones)
         values = {
             "TEMPS": float(times[step]),

@@ -160,17 +160,19 @@ def test_a_plate_yields_as_a_whole(tmp_path, element, what, dual, size, more_of,
 @pytest.mark.parametrize("law", ["'PLASTIQUE' 'PARFAIT'", "'FLUAGE' 'NORTON'"])
 @pytest.mark.parametrize("element", ["DKT", "COQ3"])
 def test_below_yield_and_before_it_creeps_a_bent_plate_is_the_elastic_one(tmp_path, element, law):
-    """Clamped and lifted at a corner, it bends otherwise at each point of its cells; and resumed."""
+    """Clamped, lifted at a corner: it bends otherwise at each point of a cell; and resumed."""
     find = ran(
         f"""
         OPTI DIME 3 ELEM TRI3 ; L = DROI 6 (0. 0. 0.) (10. 0. 0.) ; S = L TRAN 2 (0. 3. 0.) ;
-        MO = MODE S 'MECANIQUE' 'ELASTIQUE' {law} {element} ; ME = MODE S MECANIQUE ELASTIQUE {element} ;
+        MO = MODE S 'MECANIQUE' 'ELASTIQUE' {law} {element} ;
+        ME = MODE S 'MECANIQUE' 'ELASTIQUE' {element} ;
         AE = MATE ME 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.5 'ALPH' 1.E-5 ; T = TABL ;
         MA = MATE MO 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.5 'ALPH' 1.E-5
           'SIGY' 1.E12 'AF1' 1.E-60 'AF2' 3. 'AF3' 1. ;
         C1 = BLOQ 'DEPL' 'ROTA' (COTE S 4) ; C2 = BLOQ 'UZ' ((COTE S 2) POIN 'INIT') ;
         T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; T . 'BLOCAGES_MECANIQUES' = C1 ET C2 ;
-        TE = MANU 'CHPO' S 3 'TINF' 1. 'T' 3. 'TSUP' 8. ; EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;
+        TE = MANU 'CHPO' S 3 'TINF' 1. 'T' 3. 'TSUP' 8. ;
+        EV = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;
         T . 'CHARGEMENT' = (CHAR 'DIMP' (DEPI C2 1.E-3) EV) ET (CHAR 'T' TE EV) ;
         T . 'TEMPS_CALCULES' = PROG 0. 0.5 1. ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 2 ;
         H = THET ME AE TE ; K = (RIGI ME AE) ET C1 ET C2 ;

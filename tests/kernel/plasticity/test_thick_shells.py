@@ -1,4 +1,4 @@
-"""Curved shells COQ6 and COQ8 that yield and creep: plane stress with shear across at both points."""
+"""Curved shells COQ6 and COQ8 that yield and creep at their two points across."""
 
 import numpy as np
 import pytest
@@ -35,7 +35,8 @@ def run(tmp_path, cell, element, more="", **words):
 def test_below_the_limit_the_shell_is_the_elastic_one(tmp_path, cell, element):
     """Bent by a force across, with its shear stresses; and again from the state it kept."""
     elastic = f"""
-        ME = MODE S 'MECANIQUE' 'ELASTIQUE' {element} ; AE = MATE ME 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.5 ;
+        ME = MODE S 'MECANIQUE' 'ELASTIQUE' {element} ;
+        AE = MATE ME 'YOUN' 2.E11 'NU' 0.3 'EPAI' 0.5 ;
         U = RESO ((RIGI ME AE) ET B1 ET B2 ET B3) (DEPI B2 1.E-3) ; V = T . 'DEPLACEMENTS' . 10 ;
         A = (MAXI 'ABS' (V - U)) / (MAXI 'ABS' U) ; SE = SIGM ME AE U ;
         SP = T . 'CONTRAINTES' . 10 ; C = MAXI 'ABS' (EXCO 'SMSN' SE) ;
@@ -72,7 +73,7 @@ def test_the_moment_of_two_points_across(tmp_path, cell, element):
 
 
 def test_shear_across_counts_in_the_criterion(tmp_path):
-    """All rotations and lengths held: force G gamma up to S / sqrt(3), each times 5/6 or its root."""
+    """All rotations held: the shear of the law, up to S / sqrt(3), times the root of 5/6."""
     more = "B1 = BLOQ 'UX' 'UY' 'ROTA' S ; B3 = BLOQ 'UZ' L1 ; "
     text = STRIP.format(
         cell="QUA8", element="COQ8", what="UZ", dual="FZ", size="0.1", **YIELDS
@@ -119,7 +120,8 @@ def test_stresses_turn_about_the_normal(tmp_path):
         SI = T . 'CONTRAINTES' . 10 ; V = (COS 30.) (SIN 30.) 0. ; X = RTEN SI MO V MA ;
         A = EXTR X 'SMSS' 1 1 1 ; B = EXTR X 'SMTT' 1 1 1 ; C = EXTR X 'SMST' 1 1 1 ;
         D = T . 'DEFORMATIONS_INELASTIQUES' . 10 ;
-        E = EXTR (RTEN D MO (0. 1. 0.) MA) 'EISS' 1 1 1 ; G = EXTR (RTEN D MO (1. 0. 0.) MA) 'EISS' 1 1 1 ;
+        E = EXTR (RTEN D MO (0. 1. 0.) MA) 'EISS' 1 1 1 ;
+        G = EXTR (RTEN D MO (1. 0. 0.) MA) 'EISS' 1 1 1 ;
         """,
         what="UX", dual="FX", size="0.01", **HARDENS,
     )  # fmt: skip

@@ -63,7 +63,11 @@ def test_a_dot_behind_a_number_separates_nothing(run, number, script):
 
 @pytest.mark.parametrize(
     ("phrase", "value"),
-    [("n = 3 ; x = n. EGA 3", True), ("n = 3 ; x = n. ega 4", False), ("n = 3. ; x = n . NEG 3.", False)],
+    [
+        ("n = 3 ; x = n. EGA 3", True),
+        ("n = 3 ; x = n. ega 4", False),
+        ("n = 3. ; x = n . NEG 3.", False),
+    ],
 )
 def test_an_operator_behind_the_dot_of_a_number_is_one(run, phrase, value):
     from ssilang.cli.check import check_source
