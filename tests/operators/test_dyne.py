@@ -484,9 +484,16 @@ def test_pasapas_steps_models_of_links(tmp_path):
         X = EXTR (S . 'FORCE_DE_CHOC_NORMALE') 1 ;
         Y = EXTR (S . 'CHPOINT_FORCE_DE_CHOC' . 1) P 'NORM' ;
         E = MAXI ((T . 'VITESSES' . 25) - V) 'ABS' ;
+        L0 = R . L1 . 'FORCE_DE_CHOC_NORMALE' ; LF = PROG ;
+        REPE b ((DIME (T . 'TEMPS')) - 1) ;
+          S = EXTR (T . 'VARIABLES_INTERNES' . &b) 'SLIA' 3 1 1 ;
+          LF = LF ET (S . 'FORCE_DE_CHOC_NORMALE') ;
+        FIN b ;
+        LW = EXTR L0 (LECT 1 'PAS' 60 1501) ; D = MAXI (LF - LW) 'ABS' ;
         """,
         tmp_path,
     )
+    assert root.find("D") < 1e-9
     assert root.find("X") < -50.0
     assert root.find("X") == pytest.approx(root.find("W"))
     assert root.find("Y") == pytest.approx(root.find("W"))

@@ -45,3 +45,23 @@ def test_a_model_on_an_empty_mesh_is_empty_and_its_integral_zero(found, refused)
     table = "T = TABL ; T . 'MODELE' = E ; T . 'CARACTERISTIQUES' = C ; "
     times = "T . 'TEMPS_CALCULES' = PROG 1. ; PASAPAS T ;"
     assert "no mechanical zone" in refused(MODELS + field + table + times)
+
+
+def test_an_elastic_body_has_none_of_the_internal_variables(found, refused):
+    """REDU gives what is there of them, nothing, and ET counts on; other fields are refused."""
+    script = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = ((0. 0.) D 2 (1. 0.)) TRAN 1 (0. 1.) ; "
+        "G = S ELEM 1 ; H = S ELEM 2 ; A = MODE G MECANIQUE ELASTIQUE ; "
+        "B = MODE H MECANIQUE ELASTIQUE PLASTIQUE PARFAIT ; M = A ET B ; "
+        "C = (MATE A YOUN 1. NU 0.) ET (MATE B YOUN 1. NU 0. SIGY 0.1) ; "
+        "D = BLOQ UX UY S ; T = TABL ; T . MODELE = M ; T . CARACTERISTIQUES = C ; "
+        "X = COOR 1 S ; T . BLOCAGES_MECANIQUES = D ; "
+        "T . CHARGEMENT = CHAR DIMP (DEPI D (NOMC UX X)) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "T . TEMPS_CALCULES = PROG 1. ; PASAPAS T ; V = T . VARIABLES_INTERNES . 1 ; "
+    )
+    of_elastic = "E = REDU V G ; F = REDU V A ; "
+    both = "N = EXTR (E ET F) NBZO ; P = MAXI (E ET (REDU V H)) ; Q = MAXI V ; "
+    n, p, q = found(script + of_elastic + both, "N", "P", "Q")
+    assert (n, p) == (0, q)
+    assert q > 0.5
+    assert "no cell" in refused(script + "E = REDU (REDU (T . CONTRAINTES . 1) H) G ;")

@@ -28,7 +28,7 @@ from ssilang.language.registry import (
 )
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
-from ssilang.language.run.leftovers import is_call
+from ssilang.language.run.leftovers import is_call, is_operator
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.results import Results, annotated, results_of
 from ssilang.language.run.session import Session
@@ -428,7 +428,8 @@ class PhraseReader:
                 refused = SsiError("not-a-table", base.span, found=known, name=base.span.text)
                 behind = self._operand(item.indices[0], scope)
                 if known not in ("ENTIER", "FLOTTANT") or any(
-                    isinstance(o.value, Mot) for o in behind
+                    isinstance(o.value, Mot) and not is_operator(item.indices[0], o.value)
+                    for o in behind
                 ):
                     raise refused
                 self.report(SsiError("dot-of-number", base.span, **refused.data))

@@ -244,6 +244,12 @@ def integration_weights(
     return family_of(zone).weights(zone, zone_field(zone, material), support)
 
 
+def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
+    """EIXX EIYY EIZZ GIXY ..., EISS in bars, GIXY CIX ... of beams."""
+    names = family_of(zone).strain_names(zone)
+    return tuple(n[0] + "I" + n[2 - (n[1] in "XYZ") :] for n in names)
+
+
 def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:
     """Components (n_cells, n_names, n_points) at 'STRESSES', zero where absent."""
     seen = zone_field(zone, field)

@@ -44,8 +44,10 @@ _LINEAR_OF = {
 def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> list[FloatArray]:
     """Richest basis that the source points determine, at source and target points."""
     for name in (cell_type, _LINEAR_OF.get(cell_type, cell_type)):
-        if len(REFERENCE_CELLS[name].nodes) <= len(source):
-            return [shape_functions(name, points) for points in (source, target)]
+        at_source = shape_functions(name, source)
+        # points above one another, as those across thick shells, determine no more than one does
+        if np.linalg.matrix_rank(at_source) == len(REFERENCE_CELLS[name].nodes):
+            return [at_source, shape_functions(name, target)]
     if cell_type == "CUB8" and len(source) == 5:  # solid shells: the line between two faces
         return [np.column_stack([np.ones(len(x)), x[:, 2]]) for x in (source, target)]
     return [np.ones((len(points), 1)) for points in (source, target)]
@@ -55,8 +57,9 @@ def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> li
 def transfer_matrix(element: str, source: Support, target: Support) -> FloatArray:
     """Matrix (n_target, n_source) that carries values from one support to another.
 
-    Least squares on the element's shape functions; on those of the linear cell, or a constant,
-    where the source points are too few to determine them.
+    Least squares on the element's shape functions, over the reference cell where its points have
+    weights; on those of the linear cell, or a constant, where the points are too few to determine
+    them.
     """
     kind = ELEMENTS[element]
     cell_type = kind.reference or kind.cell_type
@@ -64,7 +67,9 @@ def transfer_matrix(element: str, source: Support, target: Support) -> FloatArra
     if source == "NOEUD":
         return shape_functions(cell_type, rules[1].points)
     old, new = _fitting_basis(cell_type, rules[0].points, rules[1].points)
-    matrix: FloatArray = new @ np.linalg.pinv(old)
+    weights = rules[0].weights if (rules[0].weights > 0).all() else np.ones(len(old))
+    roots = np.sqrt(weights)
+    matrix: FloatArray = new @ np.linalg.pinv(roots[:, None] * old) * roots
     return np.where(np.abs(matrix) < 1e-14, 0.0, matrix)
 
 

@@ -45,7 +45,9 @@ PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 
 SECTION_FAMILIES = ("plate", "meridian", "beam", "timoshenko", "pipe")
 """Families whose sections yield as a whole; DKT also at points across the thickness."""
-PLASTIC_FAMILIES = ("solid", "incompressible", "bar", "hoop", "fibre", *SECTION_FAMILIES)
+PLASTIC_FAMILIES = (
+    "solid", "incompressible", "bar", "hoop", "fibre", "thick", *SECTION_FAMILIES
+)  # fmt: skip
 """Families of elements that have plastic laws."""
 
 UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
@@ -53,7 +55,7 @@ UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
 UNIAXIAL_FAMILIES = ("fibre", "bar")
 """Families of elements that have them."""
 
-CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "plate", "meridian")
+CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "thick", "plate", "meridian")
 """Families of elements that creep, thin shells by the forces of their sections."""
 
 CREEP_WORDS = ("FLUAGE", *CREEP_LAWS)

@@ -333,7 +333,7 @@ def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
     from ssilang.kernel.plasticity.layered_points import drilling_stiffness
 
-    drilled = ELEMENTS[zone.element].family == "plate"
+    drilled = ELEMENTS[zone.element].family in ("plate", "thick")
     return drilling_stiffness(zone, characteristics) if drilled else without_stiffness(zone)
 
 

@@ -1,7 +1,8 @@
-"""Plastic thin shells DKT: points of Gauss across the thickness (INTEGRE) at each surface point.
+"""Plastic shells with points across: thin ones DKT (INTEGRE) and thick ones COQ6 and COQ8.
 
-Strains across follow the membrane strain and the curvature; each layer is in plane stress. Results
-are the section's forces and moments, the layers' stresses stand among the internal variables.
+Across thin ones stand points of Gauss at each surface point: strains follow the membrane strain and
+the curvature; each layer is in plane stress. Results are the section's forces and moments, the
+layers' stresses stand among the internal variables.
 """
 
 from dataclasses import dataclass, replace
@@ -10,10 +11,17 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, element_matrices
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
-from ssilang.kernel.elements.shells.shell_section import drilled, section_moduli
+from ssilang.kernel.elements.shells.shell_section import (
+    SHEAR_FACTOR,
+    drilled,
+    material_moduli,
+    section_moduli,
+)
+from ssilang.kernel.elements.shells.thick_shell import fibres
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
@@ -26,6 +34,9 @@ COMPONENTS = (0, 1, 3)
 """XX YY XY of the tensor, in the shell's own frame."""
 HELD = (2, 4, 5)
 STRESSES = ("SMSS", "SMTT", "SMST")
+THICK = (0, 1, 3, 4, 5)
+"""SS TT ST SN TN of thick shells in the tensor."""
+ROOTS = np.sqrt(np.where(np.arange(6) < 4, 1.0, SHEAR_FACTOR))
 
 
 def is_layered(zone: Zone) -> bool:
@@ -88,6 +99,28 @@ class LayeredPoints(PlasticPoints):
         return replace(blank, stress=stress_now, variables=kept.reshape(self.count, -1)), True
 
 
+class ThickPoints(PlasticPoints):
+    """Both points across of COQ6 and COQ8: no stress across, shear as that of the elastic element.
+
+    B has the root of the shear's factor: force and stiffness have the factor then, as the stresses
+    of fields; the law sees the root of it.
+    """
+
+    def stress_block(self, state: PointState) -> CellFieldBlock:
+        """Stresses, those of shear with the factor."""
+        return super().stress_block(replace(state, stress=state.stress * ROOTS))
+
+    def plastic_block(self, state: PointState) -> CellFieldBlock | None:
+        """Plastic strains, those of shear as the element's strains are."""
+        return super().plastic_block(replace(state, plastic=state.plastic / ROOTS))
+
+    def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
+        """The state that fields hold."""
+        scaled = replace(blank, stress=blank.stress * ROOTS, plastic=blank.plastic / ROOTS)
+        found, known = super().restored(scaled, given)
+        return replace(found, stress=found.stress / ROOTS, plastic=found.plastic * ROOTS), known
+
+
 def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:
     """The layers of all cells of a zone.
 
@@ -122,7 +155,12 @@ def drilling_stiffness(zone: Zone, characteristics: CellField) -> ElementMatrice
     """The small stiffness about the normals that the layers lack, as that of elastic shells."""
     parameters, layout = zone_field(zone, characteristics), family_of(zone).layout(zone)
     rows = len(layout.unknowns)
-    bending = section_moduli(zone, parameters, "RIGIDITE")[:, :, 3, 3].mean(axis=1)
-    normals = np.repeat(flat_frames(zone)[0][:, None, 2], 3, axis=1)
+    if ELEMENTS[zone.element].family == "thick":
+        h = parameters.at("EPAI", "GRAVITE")[:, 0]
+        bending = material_moduli(zone, parameters, "RIGIDITE")[:, :, 0, 0].mean(axis=1) * h**3 / 12
+        normals = fibres(zone)
+    else:
+        bending = section_moduli(zone, parameters, "RIGIDITE")[:, :, 3, 3].mean(axis=1)
+        normals = np.repeat(flat_frames(zone)[0][:, None, 2], 3, axis=1)
     values = drilled(zone, np.zeros((len(zone.cells), rows, rows)), bending, normals)
     return element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)

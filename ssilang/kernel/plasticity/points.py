@@ -8,7 +8,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.families import family_of, plastic_strain_names
 from ssilang.kernel.elements.family import Layout, cell_block
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.zone_fields import (
@@ -17,7 +17,7 @@ from ssilang.kernel.elements.zone_fields import (
     n_points,
     zone_field,
 )
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.materials.plastic.creep import DURATION
@@ -61,6 +61,14 @@ class PointState:
     time: float = 0.0
 
 
+def law_support(zone: Zone) -> Support:
+    """The points at which a zone's law is asked: those of its stresses.
+
+    COQ3 shows stresses at its middle alone: a law there leaves it motions without stiffness.
+    """
+    return "RIGIDITE" if zone.element == "COQ3" else "STRESSES"
+
+
 Fields = tuple[CellField | None, CellField | None, CellField | None]
 """Stresses, internal variables, plastic strains; None: none."""
 
@@ -72,7 +80,7 @@ class PlasticPoints:
     Attributes
     ----------
     B : array (n_cells, n_strains, n_points, n_rows)
-        Strain operator at the points of 'STRESSES'.
+        Strain operator at the points of the law.
     weights : array (n_cells, n_points)
         With the section of bars.
     section : array (n_cells, n_points) or None
@@ -108,7 +116,7 @@ class PlasticPoints:
         """Components of the hypothesis (n_cells, n_strains, n_points) as tensors (m, 6)."""
         full = np.zeros((self.count, 6))
         for i, c in enumerate(self.components):
-            full[:, c] = own[:, i].ravel()
+            full[:, c] = np.broadcast_to(own[:, i], self.weights.shape).ravel()
         return full
 
     def gathered(self, full: FloatArray) -> FloatArray:
@@ -163,42 +171,39 @@ class PlasticPoints:
         """Stresses (forces in bars)."""
         values = self.gathered(state.stress)
         values = values if self.section is None else values * self.section[:, None]
-        return cell_block(self.zone, family_of(self.zone).stress_names(self.zone), values)
+        return cell_block(
+            self.zone, family_of(self.zone).stress_names(self.zone), values, law_support(self.zone)
+        )
 
     def variable_block(self, state: PointState) -> CellFieldBlock:
         """Internal variables."""
         n, p = self.weights.shape
         values = state.variables.reshape(n, p, -1).transpose(0, 2, 1)
-        return cell_block(self.zone, self.law.variables, values)
+        return cell_block(self.zone, self.law.variables, values, law_support(self.zone))
 
     def plastic_block(self, state: PointState) -> CellFieldBlock | None:
         """Plastic strains."""
-        return cell_block(self.zone, plastic_strain_names(self.zone), self.gathered(state.plastic))
+        names, values = plastic_strain_names(self.zone), self.gathered(state.plastic)
+        return cell_block(self.zone, names, values, law_support(self.zone))
 
     def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
         """The state that fields hold (what they lack as in `blank`), and if stresses are known."""
-        names = family_of(self.zone).stress_names(self.zone)
+        names, at = family_of(self.zone).stress_names(self.zone), law_support(self.zone)
         seen, inner, strains = (zone_field(self.zone, f) for f in given)
         state, known = blank, False
         if any(n in seen for n in names):
             known = True
-            values = seen.matrix(names, "STRESSES")
+            values = seen.matrix(names, at)
             if self.section is not None:
                 values = values / self.section[:, None]
             state = replace(state, stress=self.spread(values))
         if any(n in inner for n in self.law.variables):
-            kept = inner.matrix(self.law.variables, "STRESSES").transpose(0, 2, 1)
+            kept = inner.matrix(self.law.variables, at).transpose(0, 2, 1)
             state = replace(state, variables=kept.reshape(self.count, -1))
         names = plastic_strain_names(self.zone)
         if any(n in strains for n in names):
-            state = replace(state, plastic=self.spread(strains.matrix(names, "STRESSES")))
+            state = replace(state, plastic=self.spread(strains.matrix(names, at)))
         return state, known
-
-
-def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
-    """EIXX EIYY EIZZ GIXY ..., EISS in bars, GIXY CIX ... of beams."""
-    names = family_of(zone).strain_names(zone)
-    return tuple(n[0] + "I" + n[2 - (n[1] in "XYZ") :] for n in names)
 
 
 def is_plastic(zone: Zone) -> bool:
@@ -220,17 +225,18 @@ def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
 
 
 def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
-    """Parameters of a law at the points of 'STRESSES'.
+    """Parameters of a law at its points.
 
     Raises
     ------
     MaterialError
         For missing or inadmissible ones.
     """
-    shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
+    at = law_support(zone)
+    shape = (len(zone.cells), n_points(zone.element, at))
 
     def at_points(name: str, default: float | None = None) -> FloatArray:
-        return np.broadcast_to(given.at(name, "STRESSES", default), shape).ravel()
+        return np.broadcast_to(given.at(name, at, default), shape).ravel()
 
     names = [n for n in ("YOUN", "NU", *law.required) if n not in law.curves]
     values = {name: at_points(name) for name in names}

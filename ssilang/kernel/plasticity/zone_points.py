@@ -29,8 +29,20 @@ from ssilang.kernel.materials.plastic import section_flow
 from ssilang.kernel.materials.plastic.cone_rows import cone_rows
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
-from ssilang.kernel.plasticity.layered_points import is_layered, layered_points
-from ssilang.kernel.plasticity.points import COMPONENTS, PlasticPoints, PointState, law_parameters
+from ssilang.kernel.plasticity.layered_points import (
+    ROOTS,
+    THICK,
+    ThickPoints,
+    is_layered,
+    layered_points,
+)
+from ssilang.kernel.plasticity.points import (
+    COMPONENTS,
+    PlasticPoints,
+    PointState,
+    law_parameters,
+    law_support,
+)
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
@@ -86,23 +98,24 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         raise MaterialError("kernel.plasticity.moments-without-distances", element=zone.element)
     if kind == "beam" and ("SECY" in given or "SECZ" in given):
         raise MaterialError("kernel.plasticity.sheared-beam-is-elastic").about("SECY", "SECZ")
-    operator = family.strain_operator(zone, given, "STRESSES", slice(None))
+    at = law_support(zone)
+    operator = family.strain_operator(zone, given, at, slice(None))
     n, s, p, _ = operator.matrix.shape
     slots = kept_rows(zone) if kind not in SHELLS else {4: (0, 1, 3, 4)}.get(s, tuple(range(s)))
     sized = pipe_parameters(zone, given) if kind == "pipe" else given
-    size = sized.at("EPAI" if kind in SHELLS else "SECT", "STRESSES")
+    size = sized.at("EPAI" if kind in SHELLS else "SECT", at)
 
     def placed(matrix: FloatArray) -> FloatArray:
         full = np.zeros((n, p, 6, 6))
         full[..., np.array(slots)[:, None], np.array(slots)] = matrix
         return full.reshape(-1, 6, 6)
 
-    D = placed(family.moduli(zone, given, "STRESSES"))
+    D = placed(family.moduli(zone, given, at))
     own = law_parameters(zone, law, given)
     kind_of = section_flow.CreepingSections if law.timed else section_flow.SectionParameters
     parameters = kind_of(
         own.values, own.curves, D, np.asarray(np.linalg.pinv(D, hermitian=True), dtype=np.float64),
-        placed(section_form(zone, given, "STRESSES")), np.broadcast_to(size, (n, p)).ravel(),
+        placed(section_form(zone, given, at)), np.broadcast_to(size, (n, p)).ravel(),
     )  # fmt: skip
     flowing: PlasticLaw = replace(
         law, respond=section_flow.respond, columns=None, symmetric=kind not in BENT
@@ -133,13 +146,14 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_field(zone, characteristics)
-    bar = ELEMENTS[zone.element].family in ("bar", "hoop")
+    bar, thick = (ELEMENTS[zone.element].family in n for n in (("bar", "hoop"), ("thick",)))
     if not bar and zone.mode not in COMPONENTS:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     parts = [
         family.strain_operator(zone, given, "STRESSES", cells) for cells in chunks(len(zone.cells))
     ]
     B = np.concatenate([part.matrix for part in parts])
+    B = B * ROOTS[np.array(THICK)][:, None, None] if thick else B
     weights = np.concatenate([np.broadcast_to(p.weights, (len(p.matrix), p.matrix.shape[2]))
                               for p in parts])  # fmt: skip
     section: FloatArray | None = None
@@ -148,10 +162,10 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         weights = weights * section
     parameters = law_parameters(zone, law, given)
     held: tuple[int, ...] = (1, 2, 3, 4, 5) if bar and not law.uniaxial else ()
-    if zone.mode is Mode.PLANE_STRESS and not bar:
+    if thick or (zone.mode is Mode.PLANE_STRESS and not bar):
         held = (2,)
-    components = (0,) if bar else COMPONENTS[zone.mode]
-    return PlasticPoints(
+    components = (0,) if bar else THICK if thick else COMPONENTS[zone.mode]
+    return (ThickPoints if thick else PlasticPoints)(
         zone, law_at(law, parameters), family.layout(zone), B, weights, section, components, held,
         parameters,
     )  # fmt: skip

@@ -11,7 +11,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
-from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.families import family_of, plastic_strain_names
 from ssilang.kernel.elements.family import apply_moduli
 from ssilang.kernel.elements.solids.solid_moduli import moduli_from_field
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
@@ -25,7 +25,7 @@ from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.plasticity.layered_points import is_layered
-from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic, plastic_strain_names
+from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
 Variables = Mapping[str, FloatArray]
@@ -82,8 +82,8 @@ def _no_fibres(zone: Zone) -> None:
         raise FieldError("kernel.statics.beams-sections-fibres-no")
     if "FLUAGE" in zone.behaviour:
         raise FieldError("kernel.statics.answer-law-creep-depends")
-    if is_layered(zone) and is_plastic(zone):
-        raise FieldError("kernel.statics.plastic-shells-no-law")
+    if is_plastic(zone) and (is_layered(zone) or zone.element in ("COQ3", "COQ6", "COQ8")):
+        raise FieldError("kernel.statics.plastic-shells-no-law", element=zone.element)
 
 
 def probing_step(

@@ -116,7 +116,7 @@ def criterion(
         return _of_joint(zone, material, stress, variables)
     words = zone.behaviour
     name = _law(zone) if is_plastic(zone) else ""
-    if name not in CRITERIA or ELEMENTS[zone.element].family in SECTION_FAMILIES:
+    if name not in CRITERIA or ELEMENTS[zone.element].family in (*SECTION_FAMILIES, "thick"):
         told = {"words": words, "element": zone.element, "criteria": CRITERIA}
         raise FieldError("kernel.statics.law-element-no-criterion", **told)
     points = plastic_points(zone, material)

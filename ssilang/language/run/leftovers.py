@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from ssilang.language.registry import find_operator
 from ssilang.language.run.call import Operand
 from ssilang.language.say.errors import SsiError
+from ssilang.language.text import tree
 from ssilang.language.text.source import Span
 from ssilang.language.values import ANNULE, Mot, type_of
 
@@ -24,6 +25,11 @@ def is_call(left: Sequence[Operand]) -> bool:
 def is_named_object(operand: Operand) -> bool:
     """Whether an operand is an object that a name holds, neither a scalar nor a word."""
     return bool(operand.name) and not isinstance(operand.value, bool | int | float | Mot)
+
+
+def is_operator(item: tree.Item, word: object) -> bool:
+    """Whether an item is the bare word of an operator: `&i. EGA 1`."""
+    return isinstance(item, tree.Name) and find_operator(str(word)) is not None
 
 
 def leftover_error(

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ssilang.language.run.call import Operand
-from ssilang.language.run.leftovers import is_call, is_named_object
+from ssilang.language.run.leftovers import is_call, is_named_object, is_operator
 from ssilang.language.run.not_built import read
 from ssilang.language.run.procedures import method_of
 from ssilang.language.run.session import Session
@@ -113,9 +113,10 @@ class OperandReader(ABC):
             if type(value) not in (int, float):
                 value = self.element(value, index, item)
                 continue
-            # the dot of a number, `a0. 0.`, separates nothing, unless a word is an index
+            # the dot of a number, `a0. 0.`, separates nothing, unless a word that is no operator's
+            # is an index
             refused, following = self.no_table(value, item, index), self.single(index)
-            if isinstance(following, Mot):
+            if isinstance(following, Mot) and not is_operator(index, following):
                 raise refused
             self.session.warn("dot-of-number", refused.span, **refused.data)
             apart.append(Operand(value, refused.span or item.span, refusal=refusal))

@@ -15,7 +15,8 @@ def stepped_links(
     """Step and fill the tables of results where MODELE has links; else nothing, and False.
 
     `first` is the number of the result that it goes on from, which stays. The results of a link
-    asked for (SORT) stand in VARIABLES_INTERNES, a table at SLIA.
+    asked for (SORT) stand in VARIABLES_INTERNES, a table at SLIA: their value at the instant, in
+    the first result also that of the start before it, which fields of an initial state have not.
     """
     model: Model | None = entries.get("MODELE")
     if model is None or not any(is_link(z) for z in model.zones):
@@ -35,7 +36,9 @@ def stepped_links(
     for number, step in enumerate(np.flatnonzero(saved), start=first):
         entry = results.get(int(step) + 1)
         assert isinstance(entry, Table)
-        of_links = {id(z): _at_step(results.get(k), int(step)) for z, _, k in named}
+        of_links = {
+            id(z): _at_step(results.get(k), int(step), begun=number == 1) for z, _, k in named
+        }
         blocks = tuple(_block(z, of_links.get(id(z))) for z in model.zones)
         values = {
             "TEMPS": float(times[step]),
@@ -54,17 +57,18 @@ def _stands_at(reached: Table | None, time: float) -> bool:
     return isinstance(kept, float) and abs(kept - time) <= 1e-9 * max(abs(time), 1e-9)
 
 
-def _at_step(lists: object, step: int) -> Table | None:
-    """Results of a link at one step: lists of one value, tables of one field."""
+def _at_step(lists: object, step: int, begun: bool) -> Table | None:
+    """Results of a link at one step, and at the start where it has begun: lists, tables."""
     if not isinstance(lists, Table):
         return None
-    made = Table()
+    made, rows = Table(), [0, step] if begun else [step]
     for index, values in lists.items():
         one: object = Table()
         if isinstance(values, ListReel):
-            one = ListReel(values.values[step : step + 1])
+            one = ListReel(values.values[rows])
         else:
-            one.set(1, values.get(step + 1))  # type: ignore[attr-defined]
+            for place, row in enumerate(rows, 1):
+                one.set(place, values.get(row + 1))  # type: ignore[attr-defined]
         made.set(index, one)
     return made
 

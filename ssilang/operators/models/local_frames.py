@@ -103,9 +103,10 @@ def rten(
         surface = _surface_of_material(material)
 
     def make(zone: Zone) -> CellFieldBlock:
-        if surface is not None and is_flat_shell(zone):
+        thick = ELEMENTS[zone.element].family == "thick" and material is not None
+        if surface is not None and (thick or is_flat_shell(zone)):
             axes = surface(zone, shell_support(zone, field))
-            return shell_in_axes(zone, field, axes)
+            return shell_in_axes(zone, field, axes, material)
         if not is_solid(zone):
             raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
         support = tensor(zone, field)[1]

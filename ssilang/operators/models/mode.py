@@ -227,8 +227,6 @@ def _check_elements(call: Call, wish: Wish, mesh: Mesh) -> None:
 def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
     """Plastic thin shells have 2 to 15 points across the thickness, or yield as a whole."""
     plastic = [z.element for z in zones if "PLASTIQUE" in z.behaviour]
-    if "COQ3" in plastic:
-        raise call.error("operators.models.coq3-is-elastic")
     count = wish.options.get("INTEGRE", 2)
     if "DKT" in plastic and isinstance(count, int) and not 2 <= count <= 15:
         raise call.error("operators.models.points-across", count=count)

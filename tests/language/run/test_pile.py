@@ -61,6 +61,31 @@ def test_a_dot_behind_a_number_separates_nothing(run, number, script):
     assert (warning.code, warning.span.text) == ("dot-of-number", number)
 
 
+@pytest.mark.parametrize(
+    ("phrase", "value"),
+    [
+        ("n = 3 ; x = n. EGA 3", True),
+        ("n = 3 ; x = n. ega 4", False),
+        ("n = 3. ; x = n . NEG 3.", False),
+    ],
+)
+def test_an_operator_behind_the_dot_of_a_number_is_one(run, phrase, value):
+    from ssilang.cli.check import check_source
+    from ssilang.language.text.source import Source
+
+    made = run(f"{phrase} ;")
+    assert made["x"] == value
+    assert [w.code for w in made.result.session.warnings] == ["dot-of-number"]
+    assert [p.code for p in check_source(Source("test", f"{phrase} ; MESS x ;"))[0]] == [
+        "dot-of-number"
+    ]
+
+
+def test_a_counter_with_a_dot_is_compared(run):
+    made = run("n = 0 ; REPE b 3 ; SI (&b. EGA 2) ; n = n + 10 ; SINO ; n = n + 1 ; FINS ; FIN b ;")
+    assert made["n"] == 12
+
+
 def test_a_dot_between_two_operands_of_an_operator_is_none_of_a_table(run):
     made = run("n = 3 ; l = PROG 4. 5. 6. ; t = TABL ; t . 1 = l ; x = EXTR n . t . 1 ;")
     assert made["x"] == 6.0

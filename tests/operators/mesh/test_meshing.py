@@ -149,3 +149,29 @@ def test_an_arc_of_two_radii_goes_about_a_centre_beside_the_given_one(end, told)
     assert radii[0] == pytest.approx(np.linalg.norm(a - centre))
     codes = [w.code for w in result.session.warnings]
     assert codes == ["operators.mesh.arc-about-moved-centre"] * told
+
+
+@pytest.mark.parametrize(
+    ("across", "up", "inner"),
+    [
+        (4, 3, [(1, 1), (2, 1), (3, 1), (3, 2), (2, 2), (1, 2)]),
+        (4, 4, [(1, 1), (2, 1), (3, 1), (3, 2), (3, 3), (2, 3), (1, 3), (1, 2), (2, 2)]),
+        (2, 4, [(1, 1), (1, 2), (1, 3)]),
+    ],
+)
+def test_a_filled_contour_numbers_its_nodes_ring_after_ring(across, up, inner) -> None:
+    """By hand; nodes of the contour come first, DALL goes row after row."""
+    sides = (
+        f"OPTI DIME 2 ELEM QUA4 ; A = 0. 0. ; B = {across}. 0. ; C = {across}. {up}. ; "
+        f"D0 = 0. {up}. ; L1 = D {across} A B ; L2 = D {up} B C ; L3 = D {across} C D0 ; "
+        f"L4 = D {up} D0 A ; N = NBNO (L1 ET L2 ET L3 ET L4) ; "
+    )
+    listed = "X = PROG ; Y = PROG ; REPE I ((NBNO S) - N) ; P = NOEU (N + &I) ; "
+    listed += "X = X ET (COOR 1 P) ; Y = Y ET (COOR 2 P) ; FIN I ; "
+    for word, expected in (
+        ("SURF (L1 ET L2 ET L3 ET L4) PLAN", inner),
+        ("DALL L1 L2 L3 L4 PLAN", sorted(inner, key=lambda p: p[::-1])),
+    ):
+        root = ran(f"{sides}S = {word} ; {listed}").session.root
+        made = np.transpose([root.find("X").values, root.find("Y").values])
+        np.testing.assert_allclose(made, expected, atol=1e-9)

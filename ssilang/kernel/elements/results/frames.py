@@ -23,9 +23,15 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.tensors import as_components, components_at_home, tensor
+from ssilang.kernel.elements.results.tensors import (
+    as_components,
+    components_at_home,
+    names_seen,
+    tensor,
+)
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
+from ssilang.kernel.elements.shells.thick_shell import ThickShell
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.solids.solid_moduli import material_axes
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -161,8 +167,7 @@ def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:
     """Stresses or strains of a continuous zone in frames (..., 3, 3), rows being the axes."""
     T, support, strains = tensor(zone, field)
     turned = frames @ T @ np.swapaxes(frames, -1, -2)
-    table = kinematics(zone)
-    names = table.strains if strains else table.stresses
+    names = names_seen(zone, field)[0]
     values = as_components(turned, len(names), strains)
     components = {n: np.ascontiguousarray(values[:, i]) for i, n in enumerate(names)}
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
@@ -195,22 +200,31 @@ def shell_support(zone: Zone, field: CellField) -> Support:
     return strains_or_stresses(zone, field)[2]
 
 
-def shell_in_axes(zone: Zone, field: CellField, axes: SurfaceAxes) -> CellFieldBlock:
-    """Forces or strains of a zone of flat shells in other axes."""
+def shell_in_axes(
+    zone: Zone, field: CellField, axes: SurfaceAxes, material: CellField | None = None
+) -> CellFieldBlock:
+    """Forces or strains of a zone of flat shells, stresses of thick ones, in other axes.
+
+    The own axes of thick ones depend on the thickness: `material` has it.
+    """
     names, values, support, strains = strains_or_stresses(zone, field)
-    own = flat_frames(zone)[0][:, None]
+    thick = family_of(zone)
+    if isinstance(thick, ThickShell):
+        own = thick.frames(zone, zone_field(zone, material), support)
+    else:
+        own = flat_frames(zone)[0][:, None]
     Q = _turn(own, axes)
     made = np.empty(np.broadcast_shapes(values.shape, (len(own), 1, Q.shape[1])))
     half = 0.5 if strains else 1.0
-    for start in (0, 3):
+    blocks = range(0, len(names) // 3 * 3, 3)
+    for start in blocks:
         a, b, c = (values[:, start + i] for i in range(3))
         T = np.stack([np.stack([a, half * c], -1), np.stack([half * c, b], -1)], -2)
         seen = Q @ T @ np.swapaxes(Q, -1, -2)
         made[:, start], made[:, start + 1] = seen[..., 0, 0], seen[..., 1, 1]
         made[:, start + 2] = seen[..., 0, 1] / half
-    if len(names) > 6:
-        across = np.einsum("cpij,cjp->cip", Q, values[:, 6:8])
-        made[:, 6:8] = across
+    if len(names) > blocks.stop:
+        made[:, blocks.stop :] = np.einsum("cpij,cjp->cip", Q, values[:, blocks.stop :])
     components = {n: np.ascontiguousarray(made[:, i]) for i, n in enumerate(names)}
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
 
@@ -222,10 +236,7 @@ def strains_or_stresses(
 
     Last comes whether these are strains.
     """
-    family = family_of(zone)
-    seen = zone_field(zone, field)
-    strains = any(n in seen for n in family.strain_names(zone))
-    names = family.strain_names(zone) if strains else family.stress_names(zone)
+    names, strains = names_seen(zone, field)
     values, support = components_at_home(zone, field, names)
     return names, values, support, strains
 

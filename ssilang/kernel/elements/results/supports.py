@@ -17,11 +17,14 @@ from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
+NONE_IF_ELASTIC = ("VARIABLES INTERNES", "DEFORMATIONS INELASTIQUES")
+"""Titles of fields that elastic bodies have none of."""
+
 
 def moved(model: Model, field: CellField, target: Support, title: str | None = None) -> CellField:
     """The field at the points of another support, on the zones of a model where it stands."""
     blocks = [b for z in model.zones for b in _moved_zone(z, field, target)]
-    if not blocks:
+    if not blocks and field.title not in NONE_IF_ELASTIC:
         raise FieldError("kernel.elements.field-no-value-cells")
     return CellField(tuple(blocks), field.title if title is None else title)
 
@@ -201,7 +204,15 @@ def _picked(cells: CellBlock, rows: np.ndarray) -> CellBlock:
 
 
 def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
-    """Blocks of a field in cells restricted to the cells of a mesh."""
+    """Blocks of a field in cells restricted to the cells of a mesh.
+
+    None where all its cells are elastic, of a field that elastic bodies have none of.
+
+    Raises
+    ------
+    FieldError
+        If no cell of another field is the mesh's.
+    """
     blocks = []
     for block in field.blocks:
         for kept in _rows_in(mesh, block.cells):
@@ -213,7 +224,7 @@ def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
             blocks.append(
                 CellFieldBlock(cells, full, block.support, block.element, block.constituent)
             )
-    if not blocks:
+    if not blocks and field.title not in NONE_IF_ELASTIC:
         raise FieldError("kernel.elements.no-cell-mesh-belongs-to-support")
     return CellField(tuple(blocks), field.title)
 
@@ -232,6 +243,6 @@ def field_on_model(field: CellField, model: Model) -> CellField:
             CellFieldBlock(zone.cells, components, support, element, zone.constituent)
             for support, components in by_support.items()
         ]
-    if not blocks:
+    if not blocks and field.title not in NONE_IF_ELASTIC:
         raise FieldError("kernel.elements.field-no-value-cells")
     return CellField(tuple(blocks), field.title)

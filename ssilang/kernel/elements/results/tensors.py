@@ -12,7 +12,6 @@ from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.solids.gradients import PAIRS
-from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.zone_fields import carry, none_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Mode, Zone
@@ -38,12 +37,19 @@ def components_at_home(
     return np.stack(columns, axis=1), support
 
 
+def names_seen(zone: Zone, field: CellField) -> tuple[tuple[str, ...], bool]:
+    """Names of the strains, total or plastic, or else of the stresses; whether it has strains."""
+    seen, family = zone_field(zone, field), families.family_of(zone)
+    for names in (family.strain_names(zone), families.plastic_strain_names(zone)):
+        if any(n in seen for n in names):
+            return names, True
+    return family.stress_names(zone), False
+
+
 def tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support, bool]:
     """Tensors (n_cells, n_points, 3, 3), their support, and whether they are strains."""
-    table = kinematics(zone)
-    seen = zone_field(zone, field)
-    strains = any(n in seen for n in table.strains)
-    values, support = components_at_home(zone, field, table.strains if strains else table.stresses)
+    names, strains = names_seen(zone, field)
+    values, support = components_at_home(zone, field, names)
     return as_tensor(values, strains), support, strains
 
 

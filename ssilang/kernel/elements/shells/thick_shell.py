@@ -73,6 +73,36 @@ class ThickShell(ShellFamily):
         """Plane stress with transverse shear."""
         return material_moduli(zone, parameters, support)
 
+    def _placed(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Height (n or 1, p), arms (n, k, 3), Jacobian and own axes (n, p, 3, 3) at the points.
+
+        The own axes are rows: along the first reference axis, in the surface, normal.
+        """
+        rule, kind = support_rule(zone.element, support), zone.cells.cell_type
+        N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
+        half = len(rule) // 2
+        zeta = np.where(np.arange(len(rule)) < half, -ACROSS, ACROSS)
+        x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+        h = parameters.at("EPAI", "GRAVITE")
+        h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
+        arm = fibres(zone, cells) * (h / 2)[:, None, None]
+        e = offset(zone, parameters)
+        height = zeta + (np.zeros((len(x), 1)) if e is None else (2 * e[cells] / h)[:, None])
+        place = x[:, None] + height[:, :, None, None] * arm[:, None]
+        J = np.empty((len(x), len(rule), 3, 3))
+        J[:, :, :2] = np.einsum("pki,cpkj->cpij", dN, place)
+        J[:, :, 2] = np.einsum("pk,ckj->cpj", N, arm)
+        e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
+        normal = np.cross(J[:, :, 0], J[:, :, 1])
+        e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+        return height, arm, J, np.stack([e1, np.cross(e3, e1), e3], axis=2)
+
+    def frames(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Own axes (n, p, 3, 3) of strains and stresses, rows."""
+        return self._placed(zone, parameters, support, slice(None))[3]
+
     def _gradients(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
     ) -> tuple[FloatArray, FloatArray]:
@@ -80,35 +110,17 @@ class ThickShell(ShellFamily):
 
         The first two axes after the points: component, direction of the derivative.
         """
-        rule = support_rule(zone.element, support)
-        kind = zone.cells.cell_type
+        rule, kind = support_rule(zone.element, support), zone.cells.cell_type
         N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
-        half = len(rule) // 2
-        zeta = np.where(np.arange(len(rule)) < half, -ACROSS, ACROSS)
-        x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
-        n, k = x.shape[:2]
-        h = parameters.at("EPAI", "GRAVITE")
-        h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
-        arm = fibres(zone, cells) * (h / 2)[:, None, None]
-        e = offset(zone, parameters)
-        height = zeta + (np.zeros((n, 1)) if e is None else (2 * e[cells] / h)[:, None])
-        place = x[:, None] + height[:, :, None, None] * arm[:, None]
-        J = np.empty((n, len(rule), 3, 3))
-        J[:, :, :2] = np.einsum("pki,cpkj->cpij", dN, place)
-        J[:, :, 2] = np.einsum("pk,ckj->cpj", N, arm)
+        height, arm, J, frames = self._placed(zone, parameters, support, cells)
         inverse = np.linalg.inv(J)
         # d u_a / d x_j as an operator on (node, translation or rotation)
-        G = np.zeros((n, len(rule), 3, 3, k, 6))
+        G = np.zeros((len(arm), len(rule), 3, 3, arm.shape[1], 6))
         flat = np.einsum("cpji,pki->cpjk", inverse[..., :2], dN)
         turned = flat * height[:, :, None, None] + inverse[..., 2][..., None] * N[:, None, :]
         for a in range(3):
             G[:, :, a, :, :, a] = flat
         G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
-        # frames (n, p, 3, 3): along the first reference axis, in the surface, normal
-        e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
-        normal = np.cross(J[:, :, 0], J[:, :, 1])
-        e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
-        frames = np.stack([e1, np.cross(e3, e1), e3], axis=2)
         grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
         weights = np.abs(np.linalg.det(J)) * rule.weights * 2
         return grad, weights

@@ -43,7 +43,9 @@ def matching_sides(sides: Sequence[Mesh]) -> bool:
     return all(sides[k].n_cells == sides[k + 2].n_cells for k in (0, 1))
 
 
-def grid_surface(sides: Sequence[Mesh], chart: Chart | None, colour: int = 0) -> Mesh:
+def grid_surface(
+    sides: Sequence[Mesh], chart: Chart | None, colour: int = 0, *, rings: bool = False
+) -> Mesh:
     """A grid of QUA4 (sides of SEG2) or QUA8 (SEG3) on four sides in order.
 
     Parameters
@@ -52,6 +54,9 @@ def grid_surface(sides: Sequence[Mesh], chart: Chart | None, colour: int = 0) ->
         As `sides_in_order` gives them; opposite ones with the same number of cells.
     chart : Chart or None
         Surface on which the inner nodes are put; None interpolates in space.
+    rings : bool
+        Number the inner nodes of QUA4 ring after ring from the sides inwards, as one who fills a
+        contour makes them, and not row after row.
     """
     kinds = {s.single_block().cell_type for s in sides}
     if len(kinds) > 1:
@@ -72,12 +77,25 @@ def grid_surface(sides: Sequence[Mesh], chart: Chart | None, colour: int = 0) ->
         wanted[1::2, 1::2] = False
         inside[2:-2:2, 1::2] = 0.5 * (inside[2:-2:2, :-1:2] + inside[2:-2:2, 2::2])
         inside[1::2, 2:-2:2] = 0.5 * (inside[:-1:2, 2:-2:2] + inside[2::2, 2:-2:2])
-    positions = inside[wanted]
-    density = _sizes(nodes.density, bottom, right, top, left)[wanted]
-    ids[wanted] = nodes.add(positions if chart is None else chart.lift(positions), density)
+    i, j = np.nonzero(wanted)
+    if rings and step == 1:
+        order = _ring_order(i, j, m, n)
+        i, j = i[order], j[order]
+    positions = inside[i, j]
+    density = _sizes(nodes.density, bottom, right, top, left)[i, j]
+    ids[i, j] = nodes.add(positions if chart is None else chart.lift(positions), density)
     return Mesh.of(
         nodes, "QUA8" if step == 2 else "QUA4", grid_cells(ids, step), colour, tuple(sides)
     )
+
+
+def _ring_order(i: IntArray, j: IntArray, m: int, n: int) -> IntArray:
+    """Order of nodes of a grid (m, n) by their distance from the sides, round from the first."""
+    ring = np.minimum(np.minimum(i, m - 1 - i), np.minimum(j, n - 1 - j))
+    up, along = i - ring, j - ring
+    width, height = n - 1 - 2 * ring, m - 1 - 2 * ring
+    forth = (up == 0) | (along == width)
+    return np.lexsort((np.where(forth, along + up, 2 * (width + height) - along - up), ring))
 
 
 def grid_cells(ids: IntArray, step: int) -> IntArray:

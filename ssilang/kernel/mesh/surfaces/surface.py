@@ -325,7 +325,7 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
     for start, count in zip(corners, counts, strict=True):
         rows = np.arange(int(start), int(start) + int(count)) % len(table)
         sides.append(Mesh.of(contour.nodes, block.cell_type, table[rows]))
-    made = grid_surface(sides, chart, colour)
+    made = grid_surface(sides, chart, colour, rings=True)
     quads = made.single_block().connectivity[:, :: 1 if block.cell_type == "SEG2" else 2]
     ids, local = np.unique(quads, return_inverse=True)
     flat = chart.flatten(contour.nodes.coordinates[ids].copy())

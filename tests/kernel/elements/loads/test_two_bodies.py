@@ -257,3 +257,30 @@ def test_linear_values_go_from_points_to_nodes_and_back(element):
     np.testing.assert_allclose(out @ inner, linear, atol=1e-10)
     back = transfer_matrix(element, "NOEUD", "RIGIDITE")
     np.testing.assert_allclose(back @ linear, inner, atol=1e-10)
+
+
+@pytest.mark.parametrize("source", ["STRESSES", "RIGIDITE", "MASSE"])
+def test_what_is_alike_at_all_points_is_so_at_the_nodes(source):
+    """Of thick shells too, whose points stand above one another."""
+    for element in ELEMENTS:
+        sums = transfer_matrix(element, source, "NOEUD").sum(axis=1)
+        np.testing.assert_allclose(sums, 1.0, atol=1e-11, err_msg=element)
+
+
+@pytest.mark.parametrize("element", ["COQ8", "COQ6"])
+def test_nodes_of_thick_shells_have_the_mean_of_both_sides(element):
+    """A membrane force that goes linearly over the cell; moments leave nothing."""
+    at = REFERENCE_CELLS[ELEMENTS[element].cell_type].nodes[:, :2]
+    points = support_rule(element, "STRESSES").points[:, :2]
+    slopes, half = np.array([2.0, -3.0]), len(points) // 2
+    side = np.where(np.arange(len(points)) < half, -5.0, 5.0)
+    found = transfer_matrix(element, "STRESSES", "NOEUD") @ (7.0 + points @ slopes + side)
+    np.testing.assert_allclose(found, 7.0 + at @ slopes, atol=1e-11)
+
+
+def test_a_square_over_a_line_becomes_the_nearest_line():
+    """The straight line nearest to x^2 over -1 to 1 is 1/3; of x^3 it is 3 x / 5."""
+    x = support_rule("COQ2", "STRESSES").points[:, 0]
+    matrix = transfer_matrix("COQ2", "STRESSES", "NOEUD")
+    np.testing.assert_allclose(matrix @ x**2, [1 / 3, 1 / 3], atol=1e-12)
+    np.testing.assert_allclose(matrix @ x**3, [-0.6, 0.6], atol=1e-12)
