@@ -37,14 +37,16 @@ def cell_rows(inside: CellBlock, wanted: CellBlock) -> IntArray:
 
 
 _LINEAR_OF = {
-    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8"
+    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8",
+    "PY13": "PYR5",
 }  # fmt: skip
 
 
 def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> list[FloatArray]:
     """Richest basis that the source points determine, at source and target points."""
+    places = len(np.unique(source, axis=0))  # points one above the other across a shell are one
     for name in (cell_type, _LINEAR_OF.get(cell_type, cell_type)):
-        if len(REFERENCE_CELLS[name].nodes) <= len(source):
+        if len(REFERENCE_CELLS[name].nodes) <= places:
             return [shape_functions(name, points) for points in (source, target)]
     if cell_type == "CUB8" and len(source) == 5:  # solid shells: the line between two faces
         return [np.column_stack([np.ones(len(x)), x[:, 2]]) for x in (source, target)]
@@ -63,6 +65,8 @@ def transfer_matrix(element: str, source: Support, target: Support) -> FloatArra
     rules = [support_rule(element, s) for s in (source, target)]
     if source == "NOEUD":
         return shape_functions(cell_type, rules[1].points)
+    if np.array_equal(rules[0].points, rules[1].points):
+        return np.eye(len(rules[0]))
     old, new = _fitting_basis(cell_type, rules[0].points, rules[1].points)
     matrix: FloatArray = new @ np.linalg.pinv(old)
     return np.where(np.abs(matrix) < 1e-14, 0.0, matrix)
