@@ -4,12 +4,12 @@ from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.frames import (
+    FLAT_SHELLS,
     SurfaceAxes,
     cylindrical_frames,
     fixed_frame,
     given_rotations,
     has_shell_frames,
-    is_flat_shell,
     material_frames,
     points_of,
     polar_frames,
@@ -104,9 +104,8 @@ def rten(
         surface = _surface_of_material(material)
 
     def make(zone: Zone) -> CellFieldBlock:
-        if surface is not None and is_flat_shell(zone):
-            axes = surface(zone, shell_support(zone, field))
-            return shell_in_axes(zone, field, axes)
+        if surface is not None and ELEMENTS[zone.element].family in (*FLAT_SHELLS, "thick"):
+            return shell_in_axes(zone, field, surface(zone, shell_support(zone, field)), material)
         if not is_solid(zone):
             raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
         support = tensor(zone, field)[1]

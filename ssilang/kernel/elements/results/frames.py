@@ -26,6 +26,7 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.tensors import as_components, components_at_home, tensor
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
+from ssilang.kernel.elements.shells.thick_shell import ThickShell
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.solids.solid_moduli import material_axes
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -197,22 +198,27 @@ def shell_support(zone: Zone, field: CellField) -> Support:
     return strains_or_stresses(zone, field)[2]
 
 
-def shell_in_axes(zone: Zone, field: CellField, axes: SurfaceAxes) -> CellFieldBlock:
-    """Forces or strains of a zone of flat shells in other axes."""
+def shell_in_axes(
+    zone: Zone, field: CellField, axes: SurfaceAxes, material: CellField | None = None
+) -> CellFieldBlock:
+    """Forces, stresses or strains of a zone of shells in other axes; thick ones need their EPAI."""
     names, values, support, strains = strains_or_stresses(zone, field)
-    own = flat_frames(zone)[0][:, None]
+    family = family_of(zone)
+    if isinstance(family, ThickShell):
+        own, parts = family.frames(zone, zone_field(zone, material), support), 1
+    else:
+        own, parts = flat_frames(zone)[0][:, None], 2
     Q = _turn(own, axes)
     made = np.empty(np.broadcast_shapes(values.shape, (len(own), 1, Q.shape[1])))
     half = 0.5 if strains else 1.0
-    for start in (0, 3):
+    for start in range(0, 3 * parts, 3):
         a, b, c = (values[:, start + i] for i in range(3))
         T = np.stack([np.stack([a, half * c], -1), np.stack([half * c, b], -1)], -2)
         seen = Q @ T @ np.swapaxes(Q, -1, -2)
         made[:, start], made[:, start + 1] = seen[..., 0, 0], seen[..., 1, 1]
         made[:, start + 2] = seen[..., 0, 1] / half
-    if len(names) > 6:
-        across = np.einsum("cpij,cjp->cip", Q, values[:, 6:8])
-        made[:, 6:8] = across
+    if len(names) > 3 * parts:
+        made[:, -2:] = np.einsum("cpij,cjp->cip", Q, values[:, -2:])
     components = {n: np.ascontiguousarray(made[:, i]) for i, n in enumerate(names)}
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
 

@@ -16,6 +16,7 @@ from ssilang.kernel.elements.family import (
     StrainOperator,
 )
 from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import (
     REFERENCE_CELLS,
     shape_functions,
@@ -64,6 +65,14 @@ def _crossed(v: FloatArray) -> FloatArray:
     return out
 
 
+def _areas(zone: Zone, rule: Rule) -> FloatArray:
+    """Shares (n, p) of the middle surface."""
+    reference = shape_gradients(zone.cells.cell_type, rule.points)
+    t = np.einsum("pki,ckj->cpij", reference, zone.cells.coordinates)
+    found: FloatArray = np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
+    return found
+
+
 class ThickShell(ShellFamily):
     """Curved shell with transverse shear."""
 
@@ -73,6 +82,41 @@ class ThickShell(ShellFamily):
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Plane stress with transverse shear."""
         return material_moduli(zone, parameters, support)
+
+    def _placed(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Jacobians, heights over the nodes in half thicknesses, half fibres, local frames."""
+        rule = support_rule(zone.element, support)
+        kind = zone.cells.cell_type
+        N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
+        zeta = np.where(np.arange(len(rule)) < len(rule) // 2, -ACROSS, ACROSS)
+        x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
+        n = len(x)
+        h = parameters.at("EPAI", "GRAVITE")
+        h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
+        arm = fibres(zone, cells) * (h / 2)[:, None, None]
+        e = offset(zone, parameters)
+        height = zeta + (np.zeros((n, 1)) if e is None else (2 * e[cells] / h)[:, None])
+        place = x[:, None] + height[:, :, None, None] * arm[:, None]
+        J = np.empty((n, len(rule), 3, 3))
+        J[:, :, :2] = np.einsum("pki,cpkj->cpij", dN, place)
+        J[:, :, 2] = np.einsum("pk,ckj->cpj", N, arm)
+        # frames (n, p, 3, 3): along the first reference axis, in the surface, normal
+        e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
+        normal = np.cross(J[:, :, 0], J[:, :, 1])
+        e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+        return J, height, arm, np.stack([e1, np.cross(e3, e1), e3], axis=2)
+
+    def frames(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Local frames (n, p, 3, 3) of the strains and stresses, rows being the axes."""
+        return self._placed(zone, parameters, support, slice(None))[3]
+
+    def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Volumes (n, p) of the points; without EPAI their shares of the middle surface."""
+        if "EPAI" in parameters:
+            return super().weights(zone, parameters, support)
+        return _areas(zone, support_rule(zone.element, support))
 
     def _gradients(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
@@ -84,19 +128,8 @@ class ThickShell(ShellFamily):
         rule = support_rule(zone.element, support)
         kind = zone.cells.cell_type
         N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
-        half = len(rule) // 2
-        zeta = np.where(np.arange(len(rule)) < half, -ACROSS, ACROSS)
-        x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
-        n, k = x.shape[:2]
-        h = parameters.at("EPAI", "GRAVITE")
-        h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
-        arm = fibres(zone, cells) * (h / 2)[:, None, None]
-        e = offset(zone, parameters)
-        height = zeta + (np.zeros((n, 1)) if e is None else (2 * e[cells] / h)[:, None])
-        place = x[:, None] + height[:, :, None, None] * arm[:, None]
-        J = np.empty((n, len(rule), 3, 3))
-        J[:, :, :2] = np.einsum("pki,cpkj->cpij", dN, place)
-        J[:, :, 2] = np.einsum("pk,ckj->cpj", N, arm)
+        J, height, arm, frames = self._placed(zone, parameters, support, cells)
+        n, k = arm.shape[:2]
         inverse = np.linalg.inv(J)
         # d u_a / d x_j as an operator on (node, translation or rotation)
         G = np.zeros((n, len(rule), 3, 3, k, 6))
@@ -105,11 +138,6 @@ class ThickShell(ShellFamily):
         for a in range(3):
             G[:, :, a, :, :, a] = flat
         G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
-        # frames (n, p, 3, 3): along the first reference axis, in the surface, normal
-        e1 = J[:, :, 0] / np.linalg.norm(J[:, :, 0], axis=-1, keepdims=True)
-        normal = np.cross(J[:, :, 0], J[:, :, 1])
-        e3 = normal / np.linalg.norm(normal, axis=-1, keepdims=True)
-        frames = np.stack([e1, np.cross(e3, e1), e3], axis=2)
         grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
         weights = np.abs(np.linalg.det(J)) * rule.weights * 2
         return grad, weights
@@ -155,12 +183,8 @@ class ThickShell(ShellFamily):
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
-        kind = zone.cells.cell_type
-        N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
-        x = zone.cells.coordinates
-        n, k = x.shape[:2]
-        t = np.einsum("pki,ckj->cpij", dN, x)
-        area = np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
+        N, area = shape_functions(zone.cells.cell_type, rule.points), _areas(zone, rule)
+        n, k = zone.cells.raw.shape
         rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
         h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
         scalar = np.einsum("cp,pa,pb->cab", area * (rho * h)[:, None], N, N)
