@@ -23,6 +23,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.tensors import as_components, components_at_home, tensor
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
@@ -167,8 +168,7 @@ def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:
     table = kinematics(zone)
     names = table.strains if strains else table.stresses
     values = as_components(turned, len(names), strains)
-    components = {n: np.ascontiguousarray(values[:, i]) for i, n in enumerate(names)}
-    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+    return cell_block(zone, names, values, support)
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,8 +219,7 @@ def shell_in_axes(
         made[:, start + 2] = seen[..., 0, 1] / half
     if len(names) > 3 * parts:
         made[:, -2:] = np.einsum("cpij,cjp->cip", Q, values[:, -2:])
-    components = {n: np.ascontiguousarray(made[:, i]) for i, n in enumerate(names)}
-    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+    return cell_block(zone, names, made, support)
 
 
 def strains_or_stresses(
