@@ -81,6 +81,27 @@ def test_tangent_of_a_bar_is_elastic_inside_and_hardening_on_the_surface(found):
     np.testing.assert_allclose(k3, expected, rtol=1e-9)
 
 
+LINES = "OPTI DIME 3 MODE TRID ELEM {} ; L = DROI 2 (0. 0. 0.) (1. 2. .5) ; "
+SHELL = LINES.format("TRI3") + "L = TRAN 1 L (0. .3 1.) ; "
+HELD = {
+    "POUT": LINES.format("SEG2"), "TUYA": LINES.format("SEG2"), "COQ3": SHELL, "DKT": SHELL,
+    "Q4RI": "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = TRAN 2 (DROI 2 (0 0) (1 0)) (.2 1.) ; ",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("perturbed", [False, True])
+@pytest.mark.parametrize("element", HELD)
+def test_tangent_of_an_elastic_state_is_the_stiffness(found, element, perturbed):
+    given = "'SECT' .02 'INRY' 3.E-5 'INRZ' 5.E-5 'TORS' 7.E-5" if element == "POUT" else (
+        "'EPAI' .02" + " 'RAYO' .2" * (element == "TUYA")) if element != "Q4RI" else ""  # fmt: skip
+    way = "KTAN 'PERT' M (A ET Z ET S0) (Z ET A)" if perturbed else "KTAN M S0 V0 A"
+    script = f"M = MODE L MECANIQUE ELASTIQUE {element} ; A = MATE M 'YOUN' 2.E3 'NU' .3 {given} ; "
+    k0, k1 = map(matrix, found(
+        HELD[element] + script + ZEROS + f"K0 = RIGI M A ; K1 = {way} ;", "K0", "K1"
+    ))  # fmt: skip
+    np.testing.assert_allclose(k1, k0, atol=1e-5 * np.abs(k0).max() * perturbed + 1e-300)
+
+
 @pytest.mark.parametrize("law", [ELASTIC, MISES])
 def test_perturbed_tangent_is_the_consistent_one(found, law):
     script = (

@@ -341,6 +341,29 @@ def test_membrane_forces_of_shells_along_a_vector(found, vectors, side):
     assert values == pytest.approx((one, one, two, shear, shear), rel=1e-9)
 
 
+@pytest.mark.parametrize(("cell", "element"), [("QUA8", "COQ8"), ("TRI6", "COQ6")])
+def test_stresses_of_thick_shells_in_axes_of_their_surface(found, cell, element):
+    """A plate across x, stretched and bent along z: cells differ in their own axes."""
+    values = found(
+        f"OPTI DIME 3 MODE TRID ELEM {cell} ; A = 0. 0. 0. ; B = 0. 2. .3 ; C = 0. 1.7 1.5 ; "
+        "D = 0. -.2 1. ; S = DALL (A DROI 2 B) (B DROI 1 C) (C DROI 2 D) (D DROI 1 A) 'PLAN' ; "
+        "X Y Z = COOR S ; M = MODE (S ET (INVE (S PLUS (0. 5. 0.)))) MECANIQUE ELASTIQUE "
+        f"{element} ; G = MATE M 'YOUN' 2.E4 'NU' .3 'EPAI' .1 ; X Y Z = COOR (EXTR M 'MAIL') ; "
+        "U = (NOMC 'UY' ((1.E-3 * Y) + (4.E-4 * Z))) + (NOMC 'UZ' ((2.E-4 * Y) - (5.E-4 * Z))) + "
+        "(NOMC 'UX' (1.E-2 * Z * Z)) + (NOMC 'RY' (2.E-2 * Z)) ; T = SIGM M G U ; "
+        "R = RTEN T M G (0. 0. 1.) (0. 1. 0.) ; X1 = MAXI (EXCO 'SMSS' R) ; "
+        "X2 = MINI (EXCO 'SMSS' R) ; X3 = MAXI (EXCO 'SMST' R) ; X4 = MINI (EXCO 'SMST' R) ; "
+        "O = CHAN 'CHAM' (NOMC 'SCAL' ((Y * 0.) + 1.)) M 'STRESSES' 'SCALAIRE' ; "
+        "X5 = INTG M O ; X6 = INTG M O G ; X7 = MESU (EXTR M 'MAIL') ;",
+        *(f"X{i}" for i in range(1, 8)),
+    )  # fmt: skip
+    E, area = 2e4 / 0.91, values[-1]
+    middle, bent = E * (-5e-4 + 0.3 * 1e-3), E * 2e-2 * 0.05 / np.sqrt(3)
+    shear = 2e4 / 2.6 * 6e-4
+    expected = (middle + bent, middle - bent, shear, shear, area, 0.1 * area)
+    assert values[:-1] == pytest.approx(expected, rel=1e-9)
+
+
 def test_moments_of_a_cylindrical_bending_at_half_a_right_angle(found):
     """nu = 0, one curvature: at 45 degrees half of it on both axes, and half in torsion."""
     script = (

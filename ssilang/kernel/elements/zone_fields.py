@@ -37,7 +37,8 @@ def cell_rows(inside: CellBlock, wanted: CellBlock) -> IntArray:
 
 
 _LINEAR_OF = {
-    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8"
+    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8",
+    "PY13": "PYR5",
 }  # fmt: skip
 
 
@@ -66,6 +67,8 @@ def transfer_matrix(element: str, source: Support, target: Support) -> FloatArra
     rules = [support_rule(element, s) for s in (source, target)]
     if source == "NOEUD":
         return shape_functions(cell_type, rules[1].points)
+    if np.array_equal(rules[0].points, rules[1].points):
+        return np.eye(len(rules[0]))
     old, new = _fitting_basis(cell_type, rules[0].points, rules[1].points)
     weights = rules[0].weights if (rules[0].weights > 0).all() else np.ones(len(old))
     roots = np.sqrt(weights)

@@ -27,7 +27,7 @@ ELASTICITIES: dict[str, tuple[str, ...]] = {
     "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
     "ANISOTROPE": (*SOLID_FAMILIES, "joint"),  # of joints, those of two points
-    "UNIDIRECTIONNEL": SOLID_FAMILIES,
+    "UNIDIRECTIONNEL": (*SOLID_FAMILIES, "plate"),
     "ARMATURE": ("bar",),
     "MODAL": ("shape",),
     "STATIQUE": ("shape",),

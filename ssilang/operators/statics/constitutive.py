@@ -1,11 +1,17 @@
 """COMP ECOU PLAS KTAN HOTA CRIT MOTA: constitutive laws at integration points."""
 
-from ssilang.kernel.elements.families import components_of, family_of
-from ssilang.kernel.elements.family import cell_block, contract, element_matrices
+from ssilang.kernel.elements.families import components_of, family_of, stiffness
+from ssilang.kernel.elements.family import cell_block, contract, per_cell
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.statics.constitutive import Answer, has_law, probing_step, respond
+from ssilang.kernel.statics.constitutive import (
+    Answer,
+    elastic_moduli,
+    has_law,
+    probing_step,
+    respond,
+)
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *
@@ -208,16 +214,16 @@ def _tangent_matrix(
         raise MeshError("operators.statics.no-mechanical-zone")
     blocks = []
     for zone, (tangent, own) in zip(model.zones, tangents, strict=True):
-        parameters = zone_field(zone, material)
+        parameters, family = zone_field(zone, material), family_of(zone)
         D = 0.5 * (tangent + np.swapaxes(tangent, -1, -2)) if symmetric else tangent
-        family = family_of(zone)
-        layout = family.layout(zone)
-        values = np.empty((len(zone.cells), *(len(layout.unknowns),) * 2))
-        for cells in chunks(len(zone.cells)):
+        # elements whose stiffness is more than their stresses' keep the rest of it
+        block = stiffness(zone, material)
+        D = D - elastic_moduli(zone, parameters)
+        values = block.values.copy()
+        for cells in chunks(len(zone.cells)) if D.any() else ():
             operator_ = family.strain_operator(zone, parameters, "STRESSES", cells)
-            values[cells] = contract(operator_, D[cells])
-        block = element_matrices(zone, layout, values, "RIGIDITE")
-        blocks.append(replace(block, symmetric=own or symmetric))
+            values[cells] += contract(operator_, per_cell(D, cells))
+        blocks.append(replace(block, values=values, symmetric=own or symmetric))
     return Matrix(model.mesh.nodes, tuple(blocks), (), "RIGIDITE")
 
 

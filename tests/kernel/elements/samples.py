@@ -24,7 +24,7 @@ SPACE = [n for n in SOLIDS if CELL_TYPES[ELEMENTS[n].cell_type].dimension == 3]
 def corners_only(cell_type):
     """The linear cell on the corners of another."""
     linear = {"TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8",
-              "SEG3": "SEG2"}  # fmt: skip
+              "SEG3": "SEG2", "PY13": "PYR5"}  # fmt: skip
     return linear.get(cell_type, cell_type)
 
 

@@ -5,10 +5,11 @@ import pytest
 from together import together
 
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import Layout, StrainOperator, contract
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
+from ssilang.kernel.elements.zone_fields import carry, transfer_matrix
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -294,3 +295,20 @@ def test_products_sum_over_points_whose_moduli_may_differ(points, varying, cells
     wide = np.broadcast_to(D, (3, points, 4, 4))
     found = contract(StrainOperator(B, w), D)
     np.testing.assert_allclose(found, np.einsum("cp,cspm,cpst,ctpn->cmn", w, B, wide, B))
+
+
+@together("element, mode", ALL)
+def test_fields_carried_between_supports_stay_what_they_are(element, mode):
+    zone = Two(element, mode, np.eye(3)).zone
+    places = ("GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+    rng = np.random.default_rng(1)
+    for source in places:
+        at = support_rule(element, source)
+        back = transfer_matrix(element, source, "NOEUD")
+        np.testing.assert_allclose(back.sum(axis=1), 1.0, rtol=1e-12, err_msg=source)
+        for target in places:
+            to = support_rule(element, target)
+            drawn_values = rng.standard_normal((len(zone.cells), len(at)))
+            found = carry(drawn_values, element, source, target)
+            if np.array_equal(at.points, to.points):  # the same points, whatever they are called
+                np.testing.assert_allclose(found, drawn_values, rtol=1e-12)

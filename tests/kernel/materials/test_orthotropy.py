@@ -222,6 +222,42 @@ def test_moduli_of_shells_turn_with_their_axes():
         np.testing.assert_allclose(across[min(k, len(across) - 1), 0], 5 / 6 * 0.2 * G)
 
 
+@pytest.mark.parametrize("element", ["DKT", "COQ3"])
+@pytest.mark.parametrize("skins", [False, True])
+def test_layers_of_one_direction_are_bars_side_by_side(element, skins):
+    zone = tilted_plate(element, ("ELASTIQUE", "UNIDIRECTIONNEL"))
+    given = {"YOUN": 2e11, "ALPH": 1.2e-5, "EPAI": 3e-4}
+    field = with_axes(zone, Directions(FIRST, None, angle=10.0), **given)
+    seen = zone_field(zone, field)
+    found = section_moduli(zone, seen, "STRESSES")
+    nodes = np.arange(len(zone.cells.nodes))
+    parts = {"T": 40.0, "TINF": 30.0, "TSUP": 50.0} if skins else {"T": 40.0}
+    heat = NodeField.of(
+        zone.cells.nodes, nodes, {n: np.full(len(nodes), v) for n, v in parts.items()}, "DIFFUS"
+    )
+    strain = thermal_strain(zone, field, heat)
+    for k in range(len(zone.cells)):
+        c, s = seen.at("V1X", "GRAVITE")[k, 0], seen.at("V1Y", "GRAVITE")[k, 0]
+        along = np.array([c * c, s * s, c * s])  # the strain along the layer by EPSS EPTT GAST
+        forces = found[min(k, len(found) - 1), 0]
+        np.testing.assert_allclose(forces[:3, :3], 6e7 * np.outer(along, along), atol=1e-3)
+        np.testing.assert_allclose(forces[3:, 3:], 4.5e-1 * np.outer(along, along), atol=1e-11)
+        np.testing.assert_allclose(strain[k, :3, 0] @ along, 4.8e-4)
+        np.testing.assert_allclose(strain[k, :3, 0] @ [s * s, c * c, -c * s], 0.0, atol=1e-18)
+        np.testing.assert_allclose(strain[k, 3:6, 0] @ along, 0.8 * skins, atol=1e-15)
+
+
+def test_bodies_of_one_direction_expand_along_it():
+    zone = zone_of("CUB8", SPACE, "UNIDIRECTIONNEL")
+    field = with_axes(zone, Directions(FIRST, SECOND), YOUN=2e11, ALPH=1.2e-5)
+    nodes = np.arange(len(zone.cells.nodes))
+    heat = NodeField.of(zone.cells.nodes, nodes, {"T": np.full(len(nodes), 40.0)}, "DIFFUS")
+    d = FIRST / np.linalg.norm(FIRST)
+    expected = 4.8e-4 * np.array([*d * d, 2 * d[0] * d[1], 2 * d[0] * d[2], 2 * d[1] * d[2]])
+    found = thermal_strain(zone, field, heat)[0]
+    np.testing.assert_allclose(found, np.repeat(expected[:, None], found.shape[1], axis=1))
+
+
 @pytest.mark.parametrize("space", [False, True])
 def test_first_axes_of_joints_lie_in_their_surface(space):
     table = NodeTable()

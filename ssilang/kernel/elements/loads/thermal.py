@@ -113,12 +113,18 @@ def _skins(zone: Zone, field: NodeField | CellField) -> tuple[FloatArray, FloatA
     return lower, upper
 
 
+def _rates_along_axes(zone: Zone, parameters: ZoneField) -> list[FloatArray]:
+    """Expansion along the three axes of orthotropy; of one direction: along it."""
+    names = ("ALPH", "", "") if symmetry_of(zone) == "UNIDIRECTIONNEL" else ("ALP1", "ALP2", "ALP3")
+    return [parameters.at(n, "STRESSES", 0.0) for n in names]
+
+
 def _shell_rates(zone: Zone, parameters: ZoneField) -> FloatArray:
     """Expansion (n_cells or 1, 3, n_points or 1) along s, t and shear, in the own frame."""
     if symmetry_of(zone) == "ISOTROPE":
         alpha = parameters.at("ALPH", "STRESSES", 0.0)
         return np.stack([alpha, alpha, 0.0 * alpha], axis=1)
-    first, second = (parameters.at(f"ALP{i}", "STRESSES", 0.0) for i in (1, 2))
+    first, second, _ = _rates_along_axes(zone, parameters)
     c, s = (parameters.at(n, "STRESSES") for n in ("V1X", "V1Y"))
     rates = np.broadcast_arrays(
         first * c**2 + second * s**2,
@@ -183,9 +189,7 @@ def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) 
         T = alpha[..., None, None] * np.eye(3)
     else:
         axes = material_axes(parameters, "STRESSES")
-        along = np.stack(
-            [parameters.at(f"ALP{i}", "STRESSES", 0.0) * rise for i in (1, 2, 3)], axis=-1
-        )
+        along = np.stack([a * rise for a in _rates_along_axes(zone, parameters)], axis=-1)
         axes = np.broadcast_to(axes, (*rise.shape, 3, 3))
         T = np.einsum("cpki,cpk,cpkj->cpij", axes, along, axes)
     return as_components(T, n_strains, strains=True)

@@ -23,6 +23,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.tensors import (
     as_components,
     components_at_home,
@@ -169,8 +170,7 @@ def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:
     turned = frames @ T @ np.swapaxes(frames, -1, -2)
     names = names_seen(zone, field)[0]
     values = as_components(turned, len(names), strains)
-    components = {n: np.ascontiguousarray(values[:, i]) for i, n in enumerate(names)}
-    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+    return cell_block(zone, names, values, support)
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,8 +225,7 @@ def shell_in_axes(
         made[:, start + 2] = seen[..., 0, 1] / half
     if len(names) > blocks.stop:
         made[:, blocks.stop :] = np.einsum("cpij,cjp->cip", Q, values[:, blocks.stop :])
-    components = {n: np.ascontiguousarray(made[:, i]) for i, n in enumerate(names)}
-    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+    return cell_block(zone, names, made, support)
 
 
 def strains_or_stresses(

@@ -34,7 +34,17 @@ def _isotropic(parameters: ZoneField, support: Support) -> FloatArray:
 def _orthotropic(parameters: ZoneField, support: Support) -> FloatArray:
     """V1X, V1Y are the cosines of the first axis in the element's own frame."""
     names = ("YG1", "YG2", "NU12", "G12", "V1X", "V1Y")
-    E1, E2, n12, G, c, s = np.broadcast_arrays(*(parameters.at(n, support) for n in names))
+    return _along_axes(*(parameters.at(n, support) for n in names))
+
+
+def _unidirectional(parameters: ZoneField, support: Support) -> FloatArray:
+    """A layer that is stiff along its first axis only."""
+    young, c, s = (parameters.at(n, support) for n in ("YOUN", "V1X", "V1Y"))
+    return _along_axes(young, 0.0 * young, 0.0 * young, 0.0 * young, c, s)
+
+
+def _along_axes(*given: FloatArray) -> FloatArray:
+    E1, E2, n12, G, c, s = np.broadcast_arrays(*given)
     Q = np.zeros((*E1.shape, 3, 3))
     k = 1 / (1 - n12**2 * E2 / E1)
     Q[..., 0, 0], Q[..., 1, 1], Q[..., 2, 2] = k * E1, k * E2, G
@@ -46,7 +56,9 @@ def _orthotropic(parameters: ZoneField, support: Support) -> FloatArray:
     return np.swapaxes(T, -1, -2) @ Q @ T
 
 
-_LAWS = {"ISOTROPE": _isotropic, "ORTHOTROPE": _orthotropic}
+_LAWS = {
+    "ISOTROPE": _isotropic, "ORTHOTROPE": _orthotropic, "UNIDIRECTIONNEL": _unidirectional
+}  # fmt: skip
 
 
 def _law_of(zone: Zone) -> Callable[[ZoneField, Support], FloatArray]:

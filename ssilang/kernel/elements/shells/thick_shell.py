@@ -16,6 +16,7 @@ from ssilang.kernel.elements.family import (
     StrainOperator,
 )
 from ssilang.kernel.elements.shapes.geometry import chunks
+from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import (
     REFERENCE_CELLS,
     shape_functions,
@@ -63,6 +64,13 @@ def _crossed(v: FloatArray) -> FloatArray:
     return out
 
 
+def _areas(zone: Zone, rule: Rule) -> FloatArray:
+    """Shares (n, p) of the middle surface."""
+    reference = shape_gradients(zone.cells.cell_type, rule.points)
+    t = np.einsum("pki,ckj->cpij", reference, zone.cells.coordinates)
+    return np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
+
+
 class ThickShell(ShellFamily):
     """Curved shell with transverse shear."""
 
@@ -102,6 +110,12 @@ class ThickShell(ShellFamily):
     def frames(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Own axes (n, p, 3, 3) of strains and stresses, rows."""
         return self._placed(zone, parameters, support, slice(None))[3]
+
+    def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
+        """Volumes (n, p) of the points; without EPAI their shares of the middle surface."""
+        if "EPAI" in parameters:
+            return super().weights(zone, parameters, support)
+        return _areas(zone, support_rule(zone.element, support))
 
     def _gradients(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
@@ -166,12 +180,8 @@ class ThickShell(ShellFamily):
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
-        kind = zone.cells.cell_type
-        N, dN = shape_functions(kind, rule.points), shape_gradients(kind, rule.points)
-        x = zone.cells.coordinates
-        n, k = x.shape[:2]
-        t = np.einsum("pki,ckj->cpij", dN, x)
-        area = np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
+        N, area = shape_functions(zone.cells.cell_type, rule.points), _areas(zone, rule)
+        n, k = zone.cells.raw.shape
         rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
         h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
         scalar = np.einsum("cp,pa,pb->cab", area * (rho * h)[:, None], N, N)
