@@ -324,6 +324,6 @@ def _formatted(value: object, spec: str) -> str:
         if isinstance(value, float) and spec.endswith("g"):
             value = float(format(value, _STEADY))
         told = format(value, spec)
-        return told.replace("\n", "\\n") if isinstance(value, PurePath) else told
+        return told.replace("\n", "\\n") if isinstance(value, PurePath | str) else told
     except (OverflowError, TypeError, ValueError):  # an integer past all reals, or of another type
         return str(value)[:_LONGEST]

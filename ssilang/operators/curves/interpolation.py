@@ -2,6 +2,7 @@
 
 from ssilang.kernel.base.errors import NoResultError
 from ssilang.kernel.curves.algebra import (
+    beyond,
     crossings,
     integral,
     integral_along,
@@ -54,6 +55,11 @@ def _interpolate(
     x, y = _points_of(call, function)
     if smooth:
         return mapped(lambda at: spline(x, y, at, left, right), value)
+    if isinstance(value, float | int) and function.word == "curve":
+        outside = beyond(x, y, np.array([float(value)]))
+        if outside is not None:
+            told = {"value": outside, "first": float(x.min()), "last": float(x.max())}
+            call.warn("operators.curves.beyond-curve", **told)
     return mapped(lambda at: interpolated(x, y, at), value)
 
 
