@@ -30,11 +30,14 @@ def name_of(text: str, span: Span) -> tree.Name:
 
 
 def quoted_of(text: str, span: Span) -> tree.Quoted:
-    """A string with its quotes; over a line end it is joined with one blank."""
+    """A string with its quotes."""
+    return tree.Quoted(_unquoted(text), span)
+
+
+def _unquoted(text: str) -> str:
+    """What a string says; over a line end it is joined with one blank."""
     text = text[1:-1].replace("''", "'")
-    if "\n" in text:
-        text = " ".join(part.rstrip() for part in text.split("\n"))
-    return tree.Quoted(text, span)
+    return " ".join(part.rstrip() for part in text.split("\n")) if "\n" in text else text
 
 
 def integer_of(text: str, span: Span) -> tree.Number:
@@ -60,7 +63,7 @@ def symbol_of(text: str, span: Span) -> tree.Symbol:
 
 def attribute_name(text: str) -> str:
     """What an attribute is called that `text` writes, with or without quotes."""
-    return text.strip("'").upper()
+    return (_unquoted(text) if text.startswith("'") else text).upper()
 
 
 def statement_of(targets: tuple[tree.Item, ...] | None, items: list[tree.Item]) -> tree.Statement:

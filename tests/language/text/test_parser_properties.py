@@ -124,6 +124,13 @@ def test_mutated_decks_parse_or_are_explained(data):
     parse_or_explain(text)
 
 
+@pytest.mark.parametrize(
+    "text", ["X = T % 'l''aire' ;", "X = 'a'%' b'' c' ;", "X = T % 'a\n  b' ;"]
+)
+def test_quoted_names_behind_a_percent_sign_say_what_strings_say(text):
+    parse_or_explain(text)
+
+
 def _deck() -> str:
     return """* a plate that is pulled
 OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
