@@ -6,11 +6,14 @@ loaded, so that a type checker accepts them for every system.
 """
 
 import errno
+import faulthandler
 import importlib
 import os
+import re
 import signal
 import sys
 import time
+import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -153,6 +156,47 @@ def limit_memory(n_bytes: int) -> bool:
     except (OSError, ValueError):  # macOS refuses some
         return False
     return True
+
+
+def in_bounds(
+    work: Callable[[], Any], more: int, longest: float | None, *told: type[Exception]
+) -> Any:
+    """What a function answers in a fork that holds at most so many bytes more than this process.
+
+    None where it ends, or lasts so many seconds; what it raises of some classes is raised here.
+    Libraries make what a file declares, or end. Where there are no forks it is called as it is.
+    """
+    if not CAN_FORK:
+        return work()
+
+    def answer() -> None:
+        faulthandler.disable()
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what a library says when it ends
+        status = Path("/proc/self/status")
+        held = re.search(r"VmData:\s*(\d+) kB", status.read_text() if status.is_file() else "")
+        limit_memory((1024 * int(held[1]) if held else 0) + more)
+        try:
+            sender.send(work())
+        except told as problem:
+            sender.send(problem)
+
+    context: Any = importlib.import_module("multiprocessing").get_context("fork")
+    receiver, sender = context.Pipe(duplex=False)
+    worker = context.Process(target=answer, daemon=True)
+    with warnings.catch_warnings():  # threads: the fork starts no other of this process
+        warnings.simplefilter("ignore", DeprecationWarning)
+        worker.start()
+    sender.close()
+    try:
+        found = receiver.recv() if receiver.poll(longest) else None
+    except EOFError:
+        found = None
+    worker.kill()
+    worker.join()
+    receiver.close()
+    if isinstance(found, told):
+        raise found
+    return found
 
 
 def peak_memory() -> float | None:

@@ -332,15 +332,12 @@ def _completion(options: argparse.Namespace) -> int:
 
 def _view(options: argparse.Namespace) -> int:
     from ssilang.io.errors import InputError, OutputError
-    from ssilang.io.viewer import Wish, draw, show
+    from ssilang.io.viewer import Wish, looked_at
     from ssilang.language.say.errors import SsiError
 
     wish = Wish(options.field, options.step, options.scale)
     try:
-        if options.output is None:
-            show(options.file, wish)
-        else:
-            draw(options.file, options.output, wish)
+        looked_at(options.file, options.output, wish)
     except (InputError, OutputError) as problem:
         _told(SsiError.of(problem, None), options.lang)
         return USAGE

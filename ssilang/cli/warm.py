@@ -61,6 +61,6 @@ def _run(deck: Path, allowed: Sequence[Path], language: str, out: TextIO, told: 
     ended = kept_code()
     count = ended[1] - begun[1] if begun and ended else 0
     seconds = time.perf_counter() - start
-    out.write(told("cli.warm-deck", deck=deck.name, count=count, seconds=seconds) + "\n")
+    out.write(told("cli.warm-deck", deck=Path(deck.name), count=count, seconds=seconds) + "\n")
     out.flush()
     return result.exit_code

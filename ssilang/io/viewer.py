@@ -24,6 +24,7 @@ from ssilang.io.plots.view import DEFAULT_DIRECTION
 from ssilang.io.vtk.silence import silent
 from ssilang.io.vtk.vtkhdf import COMPONENT
 from ssilang.kernel.fields.deformed import round_down
+from ssilang.system import in_bounds
 
 PICTURES = ("png", "jpg", "jpeg", "bmp", "tif", "tiff")
 RESULTS = ("vtkhdf", "pvd", "vtu", "vtk", "vtp", "vti", "vtm")
@@ -33,6 +34,7 @@ MESHES = (
 DRAWN = ("png", "gif", "jpg", "jpeg")
 
 _SIZE = (1280, 960)
+_ROOM, _DENSEST = 4 * 10**9, 50  # bytes that a look may take, and times those of its files
 _SHARE = 0.08  # of a scene's diagonal: largest displacement shown if no scale is asked for
 _MOST_EDGES = 30_000  # cells whose edges are drawn
 # what displacements are called
@@ -186,6 +188,26 @@ def has_screen() -> bool:
     if not sys.platform.startswith("linux"):
         return True
     return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def looked_at(path: Path, target: Path | None, wish: Wish) -> None:
+    """Draw, or show where no picture is asked for, in a process that what a file declares may end.
+
+    Raises
+    ------
+    InputError, OutputError
+        As `draw` and `show`; or if that process ended.
+    """
+    found = chosen_file(path)
+    beside = found.parent.glob("*") if found.suffix == ".pvd" else (found,)
+    most = _ROOM + _DENSEST * sum(p.stat().st_size for p in beside if p.is_file())
+
+    def look() -> bool:
+        show(path, wish) if target is None else draw(path, target, wish)
+        return True
+
+    if in_bounds(look, most, None, InputError, OutputError) is None:
+        raise InputError("io.not-viewed-reader-ended", path=found, most=most / 1e6)
 
 
 def show(path: Path, wish: Wish) -> None:

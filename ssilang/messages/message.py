@@ -46,6 +46,7 @@ _BETWEEN = {
 }
 name_of_type: list[Callable[[object], str]] = []
 """Names what has no text of its own, an object of the language: by its type word."""
+_ONE_WORD = ("name", "word", "label", "group")  # fields that lay out nothing
 _LONGEST = 40  # letters of a value that has not the form it should be shown in
 COLON = {"en": ": ", "fr": " : "}
 # all but the tab and the line end, which lay out text; those of eight bits steer as ESC does, and
@@ -261,7 +262,8 @@ def filled(template: str, data: Mapping[str, Any], language: str, script: bool =
                 made.append(hint(value.code, value.data, language, script))
             else:
                 quoted = conversion == "r" and _has_text(value)
-                made.append(repr(value) if quoted else _shown(value, spec, language))
+                shown = repr(value) if quoted else _shown(value, spec, language)
+                made.append(shown.replace("\n", "\\n") if name.endswith(_ONE_WORD) else shown)
     return "".join(made)
 
 

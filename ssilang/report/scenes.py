@@ -6,11 +6,6 @@ next, deflated. pyvista reads the series and finds the surface.
 """
 
 import base64
-import faulthandler
-import multiprocessing
-import os
-import re
-import warnings
 import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
@@ -26,7 +21,7 @@ from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.vtk.silence import silent
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.system import CAN_FORK, limit_memory
+from ssilang.system import in_bounds
 
 FRAMES = 60
 MOST_PARTS = 1000
@@ -71,44 +66,16 @@ def guarded_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
 
     A few kB may declare more than all memory.
     """
-    if not CAN_FORK:
-        return packed_scene(path, most_bytes)
     with suppress(ImportError):  # shared with the forks
         import pyvista  # noqa: F401
-    context: Any = multiprocessing.get_context("fork")  # not there on all systems
-    answers, answer = context.Pipe(duplex=False)
-    worker = context.Process(target=_answer, args=(answer, path, most_bytes), daemon=True)
-    with warnings.catch_warnings():  # threads: VTK starts none here, and the fork no other
-        warnings.simplefilter("ignore", DeprecationWarning)
-        worker.start()
-    answer.close()
-    try:
-        found = answers.recv() if answers.poll(_LONGEST) else None
-    except EOFError:  # ended by VTK
-        found = None
-    worker.kill()
-    worker.join()
-    answers.close()
-    if isinstance(found, SceneError):
-        raise found
+    size = sum(p.stat().st_size for p in path.parent.glob("*") if p.is_file())
+    found = in_bounds(
+        lambda: packed_scene(path, most_bytes), _ROOM + _DENSEST * size, _LONGEST, SceneError
+    )
     if found is None:
         raise SceneError("report.series-damaged", name=path.name)
     scene: tuple[dict[str, Any], str] = found
     return scene
-
-
-def _answer(answer: Any, path: Path, most_bytes: int) -> None:
-    """In the fork: the scene, or why there is none."""
-    faulthandler.disable()
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what a library says when it ends
-    size = sum(p.stat().st_size for p in path.parent.glob("*") if p.is_file())
-    status = Path("/proc/self/status")
-    held = re.search(r"VmData:\s*(\d+) kB", status.read_text() if status.is_file() else "")
-    limit_memory((1024 * int(held[1]) if held else 0) + _ROOM + _DENSEST * size)
-    try:
-        answer.send(packed_scene(path, most_bytes))
-    except SceneError as problem:
-        answer.send(problem)
 
 
 def packed_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:

@@ -163,6 +163,33 @@ def test_what_is_given_anew_and_used_is_not_told(text):
 
 
 @pytest.mark.parametrize(
+    ("text", "wrong", "meant"),
+    [
+        ("H = 2. ; V = 3. * H ** 1. / 2. ; MESS V ;", "H ** 1.", "H ** (1. / 2.)"),
+        ("Z = 2. ; E = 9. * 1. + (Z / 10.) ; MESS E ;", "9. * 1.", "9. * (1. + (Z / 10.))"),
+    ],
+)
+def test_a_one_that_belongs_to_what_follows_is_noted(text, wrong, meant):
+    (note,) = [p for p in check_source(Source("test", text))[0] if p.code != "left-to-right"]
+    assert (note.code, note.severity) == ("one-changes-nothing", "note")
+    assert (note.data["wrong"], note.data["meant"]) == (wrong, meant)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "X = 2. ** 1.5 / 2. ; MESS X ;",
+        "X = 3. * 1. ; MESS X ;",
+        "X = 1. * 3. + 2. ; MESS X ;",
+        "X = 3. * 1. / 2. ; MESS X ;",
+        "CHARGE = 3. ; MESS CHARGE ;",
+    ],
+)
+def test_a_one_by_itself_and_a_long_form_for_a_name_are_not_told(text):
+    assert not [p for p in check_source(Source("test", text))[0] if p.code != "left-to-right"]
+
+
+@pytest.mark.parametrize(
     "text", ["X = RELA 1. 'UX' P - 2. 'UX' Q * 3. ;", "X = 2. * 3. + 4. ;", "X = 1. - 2. + 3. ;"]
 )
 def test_signs_in_the_order_of_other_languages_are_not_noted(text):

@@ -104,3 +104,9 @@ def test_a_run_without_refusals_loads_no_catalogue(tmp_path):
         env={**os.environ, "PYTHONPATH": root},
     )  # fmt: skip
     assert found.stdout.strip() == "0"
+
+
+def test_a_line_end_in_a_name_begins_no_line():
+    """Another group's name, or a deck's, would else tell an error of its own."""
+    data = {"name": "A\nerror: B", "names": ["C\nD"], "value": "two\nlines"}
+    assert filled("{name}; {names}; {value}", data, "en") == "A\\nerror: B; C\\nD; two\nlines"

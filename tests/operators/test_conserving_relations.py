@@ -61,3 +61,24 @@ def test_energy_that_impacts_create_is_told_in_every_method(entries, told):
     assert ("operators.dynamics.impacts-change-energy" in codes) is told, codes
     share = result.session.statistics["calculations"][0]["energy_imbalance"]
     assert (share > 0.3) is told
+
+
+@pytest.mark.parametrize("stiffness", [4.0e6, 1.0e6])
+def test_the_energy_that_a_run_closes_with_is_what_impacts_leave(stiffness):
+    """A mass that a record drives against a stop: off for single steps, and back behind them."""
+    result = run_text(
+        "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P = 0. 0. ; "
+        f"K = APPU 'UX' {stiffness} P ; MS = MASS 'DEPL' 1.E5 P ; STOP = BLOQ 'UX' 'MAXI' P ; "
+        "T = TABL ; T . 'RIGI' = K ET STOP ET (BLOQ 'UY' P) ; T . 'MASS' = MS ; "
+        "T . 'AMOR' = 0.6 * MS ; LT = PROG 0. PAS 0.005 8. ; "
+        "LA = 2. * LT * (EXP (-0.5 * LT)) * (SIN (396. * LT)) ; "
+        "T . 'CHAR' = (CHAR 'DIMP' (DEPI STOP 0.02) (EVOL 'MANU' (PROG 0. 99.) (PROG 1. 1.))) ET "
+        "(CHAR 'MECA' (MS * (MANU 'CHPO' P 1 'UX' -1.)) (EVOL 'MANU' 'TEMP' LT 'ACCE' LA)) ; "
+        "T . 'TEMPS_CALCULES' = PROG 0. PAS 1.E-3 8. ; DYNAMIC T ; E = T . 'ENERGIES' . 'ECART' ;"
+    )
+    off = np.abs(result.session.root.find("E").values)
+    (line,) = result.session.statistics["calculations"]
+    assert line["energy_imbalance"] < 0.05
+    assert line["energy_imbalance_joules"] < 0.3 * off.max()
+    assert line["energy_imbalance_joules"] >= np.median(off[len(off) // 2 :]) * 0.5
+    assert not result.session.warnings

@@ -1,5 +1,6 @@
 """SAUV and REST: a calculation goes on in another run."""
 
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -141,3 +142,33 @@ def test_results_of_dynamic_are_saved_with_all_their_instants(tmp_path):
     assert before.any()
     assert before.tolist() == after.tolist()
     assert result.session.root.find("TIME") == pytest.approx(0.01)
+
+
+def _edited(path: Path, edit) -> None:
+    """The archive with the text of its objects changed."""
+    with zipfile.ZipFile(path) as read:
+        parts = {name: read.read(name) for name in read.namelist()}
+    parts["objects.json"] = edit(parts["objects.json"].decode()).encode()
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as made:
+        for name, content in parts.items():
+            made.writestr(name, content)
+
+
+def test_numbers_that_are_not_finite_are_told_by_the_names_that_hold_them(tmp_path: Path) -> None:
+    """Saved after a division by zero, or written by hand: a real, a whole number, a list."""
+    saved = ran(
+        "OPTI DIME 2 ELEM QUA4 ; R = 0.125 ; N = 4444 ; SOUND = PROG 1. 2. ; T = TABL ; "
+        "T . 1 = 3. ; L = (PROG 1. 0.) / (PROG 0. 1.) ; C = EVOL 'MANU' (PROG 0. 1.) L ; "
+        "P = 0. 0. ; F = MANU 'CHPO' P 1 'UX' 1. ; OPTI SAUV 'state' ; SAUV ;",
+        tmp_path,
+    )
+    assert np.isinf(saved.session.root.find("L").values[0])
+    path = next(tmp_path.rglob("state"))
+    _edited(path, lambda text: text.replace("0.125", "NaN").replace("4444", "9" * 400))
+    again = ran(f"OPTI DIME 2 ; OPTI REST '{path}' ; REST ;", tmp_path)
+    assert [w.code for w in again.session.warnings] == ["operators.files.not-finite-numbers"]
+    assert again.session.warnings[0].data["names"] == ["C", "L", "N", "R"]
+    sound = ran("X = PROG 1.E300 -1.E300 ; N = 2147483647 ; OPTI SAUV 'b' ; SAUV ;", tmp_path)
+    path = next(tmp_path.rglob("b"))
+    assert not sound.session.warnings
+    assert not ran(f"OPTI REST '{path}' ; REST ;", tmp_path).session.warnings

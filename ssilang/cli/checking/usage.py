@@ -8,6 +8,7 @@ from ssilang.language.search import VERY_LIKE, nearest
 from ssilang.language.text import tree
 
 _NAME = re.compile(r"[@&!]?[^\W\d]\w*")
+_ALONE = {("**", "/"), ("*", "+"), ("*", "-")}  # signs about a 1 that belongs to what follows
 _RANK = {"+": 0, "-": 0, "*": 1, "/": 1, "**": 2}  # of signs, in other languages
 _NAMED = 5  # places that a note names
 _SHORTEST = 4  # letters of a word that may be a misspelt name
@@ -106,14 +107,22 @@ def misspelt_names(
 
 
 def left_to_right(script: tree.Script) -> Iterator[SsiError]:
-    """A note, at the first, of places where a sign comes before one that elsewhere goes first."""
-    found = [
+    """A note, at the first, of places where a sign comes before one that elsewhere goes first.
+
+    And of each 1 that a power, or a product in front of a sum, takes for itself alone.
+    """
+    fives = [
         five
         for statement in statements_of(script.body)
         for items in _phrases((*statement.targets, *statement.items))
         for five in zip(*(items[k:] for k in range(5)), strict=False)
-        if _RANK.get(_sign(five[1]), 3) < _RANK.get(_sign(five[3]), 0)
     ]
+    for five in fives:
+        a, first, one, then, c = (" ".join(item.span.text.split()) for item in five)
+        if (first, then) in _ALONE and isinstance(five[2], tree.Number) and five[2].value == 1:
+            told = {"wrong": f"{a} {first} {one}", "meant": f"{a} {first} ({one} {then} {c})"}
+            yield SsiError("one-changes-nothing", five[0].span.to(five[4].span), **told)
+    found = [f for f in fives if _RANK.get(_sign(f[1]), 3) < _RANK.get(_sign(f[3]), 0)]
     said = []
     for five in found[:_NAMED]:
         line = five[0].span.source.position(five[0].span.start)[0]

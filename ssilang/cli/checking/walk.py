@@ -287,7 +287,7 @@ class Checker:
         found = find_operator(name)
         if found is None or name in ("C", "D"):
             return
-        if name == found.name or found.full_name.startswith(name):
+        if name == found.name:  # a longer form hides none of what scripts mostly write
             self._report(SsiError("shadowed-operator", _head(span), name=name))
 
     def _outcome(self, statement: tree.Statement, left: Any) -> Values:

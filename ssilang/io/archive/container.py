@@ -109,7 +109,9 @@ def read_archive(path: Path) -> Archive:
     try:
         file = zipfile.ZipFile(path)
         bound = most_unpacked(path)
-        if sum(i.file_size for i in file.infolist()) > bound:
+        objects_size = file.getinfo(_OBJECTS).file_size  # takes some 25 times that in memory
+        most = max(_SMALL // _WORDY, _DENSEST // 4 * path.stat().st_size)
+        if sum(i.file_size for i in file.infolist()) > bound or objects_size > most:
             file.close()
             raise _too_large(path)
         head = json.loads(file.read(_OBJECTS))
@@ -130,6 +132,7 @@ def read_archive(path: Path) -> Archive:
 
 
 _SMALL = 2**28  # bytes that any archive may take
+_WORDY = 16  # objects before their bytes are made to arrays
 _DENSEST = 200  # bytes for each of the file's: fields that are nearly all zero are packed so
 
 

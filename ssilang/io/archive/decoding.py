@@ -18,6 +18,8 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.mesh.cells import find_cell_type
 from ssilang.kernel.mesh.nodes import NodeTable
 
+_BEYOND = 1.7e308  # what is larger is infinite, or no number that scripts make
+
 
 class Decoder:
     """Makes the objects of a file over the nodes of a session.
@@ -39,6 +41,8 @@ class Decoder:
         self._made: dict[int, Any] = {}
         self._added = 0
         self._named: list[NDArray[Any]] = []  # node numbers of objects
+        self._amiss = False  # a number that is none was met
+        self.not_finite: list[str] = []  # names of what holds such
 
     def decode(self, code: Any) -> Any:
         """The value that a code stands for.
@@ -49,6 +53,7 @@ class Decoder:
             If the file is damaged.
         """
         if not isinstance(code, list):
+            self._amiss |= isinstance(code, int | float) and not -_BEYOND < code < _BEYOND
             return code
         try:
             return self._decoded(code)
@@ -65,7 +70,11 @@ class Decoder:
         InputError
             If the file is damaged.
         """
-        found = [(name, self.decode(c)) for r in records for name, c in r.names.items()]
+        found = []
+        for name, code in ((n, c) for r in records for n, c in r.names.items()):
+            self._amiss = False
+            found.append((name, self.decode(code)))
+            self.not_finite += [name] * self._amiss
         for numbers in self._named:
             if numbers.size and not 0 <= numbers.min() <= numbers.max() < len(self._nodes):
                 raise self._unfit("nodes", "node numbers")
@@ -76,7 +85,9 @@ class Decoder:
         if kind == "o":
             return self._object(what)
         if kind == "a":
-            return self._archive.array(what)
+            array = self._archive.array(what)
+            self._amiss |= not np.isfinite(array).all()
+            return array
         if kind == "l":
             return [self.decode(v) for v in what]
         if kind == "t":
@@ -89,7 +100,7 @@ class Decoder:
                 raise self._unfit("class", what)
             return cls[code[2]]
         if kind == "ao":
-            made = np.empty(int(np.prod(what)), dtype=object)
+            made = np.empty(len(code[2]), dtype=object)
             made[:] = [self.decode(v) for v in code[2]]
             return made.reshape(what)
         raise InputError("io.holds-unknown-kind-data", name=self._archive.path.name, kind=kind)

@@ -1,6 +1,7 @@
 """IPOL INTG PRIM on curves: interpolation, integrals, primitives."""
 
 from ssilang.kernel.curves.algebra import (
+    beyond,
     crossings,
     integral,
     integral_along,
@@ -52,6 +53,11 @@ def _interpolate(
     x, y = _points_of(call, function)
     if smooth:
         return mapped(lambda at: spline(x, y, at, left, right), value)
+    if isinstance(value, float | int) and function.word == "curve":
+        outside = beyond(x, y, np.array([float(value)]))
+        if outside is not None:
+            told = {"value": outside, "first": float(x.min()), "last": float(x.max())}
+            call.warn("operators.curves.beyond-curve", **told)
     return mapped(lambda at: interpolated(x, y, at), value)
 
 

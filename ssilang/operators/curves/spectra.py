@@ -81,6 +81,9 @@ def spo(
         if second is None or percentiles is None or times is not None:
             raise call.error("operators.curves.rotd-incomplete")
         check_together(call, signal, second)
+        x, y = part.ordinates, second.parts[0].ordinates
+        if abs(x @ y) > (1.0 - SAME) * np.linalg.norm(x) * np.linalg.norm(y) > 0.0:
+            call.warn("operators.curves.components-alike", second)
         several = [percentiles] if isinstance(percentiles, float) else percentiles.values
         return _all_directions(
             signal, second, values, frequencies, np.asarray(several, float), kind, colour
@@ -217,7 +220,7 @@ def _spon(
     return Curve(tuple(made), signal.title)
 
 
-SAME = 1e-6  # relative: dampings this near are one
+SAME = 1e-6  # relative: dampings this near are one, motions along one direction
 
 
 def _spectra(call: Call, table: Table) -> list[tuple[Curve, list[float]]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
@@ -14,7 +15,7 @@ from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
-from ssilang.kernel.stepping.problem.bodies import held, loose_bodies
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
     STRANGE,
@@ -50,6 +51,7 @@ from ssilang.operators.dynamics.standing import (
     unequal_joints,
     velocity_of_rest,
     weak_cores,
+    weight_of_part,
 )
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
@@ -229,6 +231,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
     rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
+    weight_of_part,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
@@ -368,9 +371,29 @@ def warn_massless(entries: Entries, problem: Problem) -> None:
     if massless:
         node = problem.numbering.table.told(massless[0].node)
         others = len(massless) - 1
-        entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
+        if taken := _taken_for(problem, massless[0].node):
+            entries.warn("operators.dynamics.joint-side-alone", node=node, other=taken)
+        else:
+            entries.warn("operators.dynamics.body-without-mass", node=node, others=others)
     if not massless and not problem.M.count_nonzero() and not problem.C.count_nonzero():
         entries.warn("operators.dynamics.no-mass")
+
+
+def _taken_for(problem: Problem, node: int) -> str:
+    """Where joints alone have a node, the one at its place with bodies on both sides of them."""
+    numbering, joints, K = problem.numbering, problem.interface, sp.csr_array(problem.K)
+    nodes, points = numbering.nodes, numbering.table.coordinates
+    stiff, here = abs(K).sum(axis=1) > 0.0, nodes == node
+    if joints is None or stiff[here].any() or problem.constraints.C[:, here].nnz:
+        return ""
+    normal = joints.B[:, -1].reshape(-1, joints.dimension).sum(axis=0)
+    near = ROUNDING * np.ptp(points[nodes], axis=0).max()
+    for other in np.unique(nodes[stiff & (np.abs(points[nodes] - points[node]).max(1) <= near)]):
+        beside = points[nodes[K[nodes == other].indices], : len(normal)]
+        heights = (beside - points[node, : len(normal)]) @ normal
+        if heights.min() < -near < near < heights.max():
+            return numbering.table.told(int(other))
+    return ""
 
 
 def warn_of_bodies(entries: Entries, inputs: Inputs) -> None:

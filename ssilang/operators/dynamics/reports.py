@@ -90,9 +90,13 @@ def report(
         entries.warn("operators.dynamics.beyond-curve", law=law, share=100.0 * share)
     if (times := growth(history)) > EXPLODES:
         entries.warn("operators.dynamics.grows-without-end", times=times, added=added)
-    told = warn_impacts(entries, problem, history)
+    lasting = warn_impacts(entries, problem, history)
+    told = lasting or 0.0 if (lasting or 0.0) > CHANGED else 0.0
     # at an impact of relations alone it is off for a step: what lasts is told by itself
     impacts = problem.contact is not None and problem.interface is None and not in_statics
+    if impacts and not told and lasting is not None and line["energy_imbalance"]:
+        line["energy_imbalance_joules"] *= lasting / line["energy_imbalance"]
+        line["energy_imbalance"] = lasting
     if (line["energy_imbalance"] or 0.0) > ENERGY_LIMIT and (told or not impacts):
         causes = [_LOAD_STEPS] if in_statics else _causes(problem, added)
         line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
@@ -112,7 +116,7 @@ def growth(history: "History") -> float:
     return float(most[-1] / most[0]) if (most[:-1] * 10.0 < most[1:]).all() and most[0] else 0.0
 
 
-def warn_impacts(entries: Entries, problem: "Problem", history: "History") -> float:
+def warn_impacts(entries: Entries, problem: "Problem", history: "History") -> float | None:
     """Warn where impacts on relations alone have changed the energy for good; by what share.
 
     A share of what the structure had been given by then. At an impact it is off for a step, see
@@ -120,18 +124,18 @@ def warn_impacts(entries: Entries, problem: "Problem", history: "History") -> fl
     do; the springs of a penalty hold some.
     """
     if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
-        return 0.0
+        return None
     if not history.energies[:, 0].any():
-        return 0.0
+        return None
     damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
     options = problem.contact_options
     penalty = options.method == "PENALITE"
     takes = damps or penalty or options.correction == "FAUX"
     change = (history.imbalance if takes else np.abs(history.imbalance)) / history.given
     windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
-    share = float(windows.min(axis=1).max())
+    share = max(0.0, float(windows.min(axis=1).max()))
     if share <= CHANGED:
-        return 0.0
+        return share
     if damps:
         entries.warn("operators.dynamics.impacts-uncorrected", share=100.0 * share)
     else:

@@ -87,8 +87,20 @@ class _Entering:
             shares(p[:, None], b[:, None]).any() for p, b in zip(pulled.T, braked.T, strict=True)
         ):
             yield "operators.dynamics.damped-against-ground", {}
+        yield from self._twice_along()
         finds = self._sides(), self._masses_one_way(), self._long_cells(), self._columns()
         yield from chain(*finds, self._driven_in_part())
+
+    def _twice_along(self) -> Told:
+        """Records along one axis, each by its load, while nothing shakes along another."""
+        curves, shaken = self.problem.loading.curves, self.start.shaking
+        alone = np.count_nonzero(shaken, axis=0) == 1
+        records = [k for k in np.flatnonzero(alone) if is_record(curves[k][1])]
+        axes = [int(np.abs(shaken[:, k]).argmax()) for k in records]
+        if len(self.axes) > 1 and len(axes) > 1 == len({*axes}):
+            name = self.start.names[records[1]]
+            told = {"name": name, "axis": self.axes[axes[0]], "others": self.axes}
+            yield "operators.dynamics.shaken-twice-along", told
 
     def _strange_loads(self, system: Any) -> Told:
         loading, load = self.problem.loading, self.inputs.load

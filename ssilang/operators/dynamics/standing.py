@@ -43,6 +43,7 @@ FEW_STOPS = 50
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
 AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
+SAME_PULL = 1e-6  # of what a node weighs by its mass
 TIMES = 10.0  # masses of a body over that of its weight
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
@@ -80,6 +81,32 @@ def out_of_balance(start: Start) -> Told:
         still = start.changing[k] or share[k] > NEAR * begins[k]
         if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
             yield "operators.dynamics.out-of-balance", {"begins": begins[k], "held": share[k]}
+
+
+def weight_of_part(start: Start) -> Told:
+    """Bodies that weigh at most nodes what their mass does, and less at those that got more."""
+    for body in start.bodies():
+        mass, weight = (body.up * f for f in (start.problem.M @ body.up, -start.weight))
+        heavy = np.flatnonzero(mass > 0.0)
+        if not len(heavy):
+            continue
+        pull = weight[heavy] / mass[heavy]
+        usual = float(np.median(pull))
+        same, less = np.abs(pull - usual) < SAME_PULL * usual, (pull > 0.0) & (pull < usual)
+        less &= pull < (1.0 - AGAIN) * usual
+        known = any(abs(usual / g - 1.0) < 0.01 for g in GRAVITIES)
+        rows = start.problem.numbering.nodes[heavy]
+        heights = start.problem.numbering.table.coordinates[rows, len(start.axes) - 1]
+        if not known or not (same | less).all():
+            continue
+        less &= heights > heights.min() + BESIDE * body.size  # ground moves with a footing
+        if less.any():
+            worst = int(heavy[less][np.argmin(pull[less])])
+            told = {"mass": mass[worst], "weighs": weight[worst] / usual, "count": int(less.sum())}
+            node = start.problem.numbering.nodes[worst]
+            told["node"] = start.problem.numbering.table.told(node)
+            told["share"] = 100.0 * body.weight / (usual * body.mass)
+            yield "operators.dynamics.weight-of-part", told
 
 
 def velocity_of_rest(start: Start) -> Told:

@@ -229,6 +229,8 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     decoder = Decoder(archive, ws.nodes)
     for held, value in decoder.named(records):
         call.session.frame.assign(held, value)
+    if decoder.not_finite:
+        call.warn("operators.files.not-finite-numbers", name=name, names=decoder.not_finite)
     if added := dict(archive.settings.get("INCO", {})):
         ws.options["INCO"] = {**ws.options.get("INCO", {}), **added}
     _restore_units(call, name, str(archive.settings.get("UNIT", "")))

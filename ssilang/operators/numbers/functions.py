@@ -119,17 +119,32 @@ def _run(name: str, function: Function, value: Any, axis: str | None) -> Any:
     return mapped(function, value)
 
 
+def _of_angle(name: str, function: Function, call: Call, value: Any, axis: str | None) -> Any:
+    """A function of degrees; numbers that are all short parts of PI were meant in radians."""
+    held = value.values if isinstance(value, ListReel) else value
+    numbers = np.atleast_1d(np.asarray(held, float) if isinstance(held, float | np.ndarray) else 0)
+    parts = numbers[numbers != 0.0] / np.pi * _PARTS
+    off = np.abs(parts - parts.round(4)) > 1e-11 * np.abs(parts)
+    if parts.size and not off.any() and np.abs(parts).max() < _MOST_PARTS:
+        first = float(numbers[numbers != 0.0][0])
+        told = {"name": name, "value": first, "degrees": float(np.degrees(first))}
+        call.warn("operators.numbers.angle-in-radians", value, **told)
+    return _run(name, function, value, axis)
+
+
+_PARTS, _MOST_PARTS = 720.0, 1e4  # of PI, so that the angles which scripts write are short
+_ANGLES = ("SIN", "COS", "TAN")
 _AXIS = choice("axis", ("ABSC", "ORDO"), en="of the abscissas of a curve, or of its ordinates")
 
 
 for _name, _function in _FUNCTIONS.items():
     operator(
         _name,
-        _ANGLE if _name in ("SIN", "COS", "TAN") else _VALUE,
+        _ANGLE if _name in _ANGLES else _VALUE,
         _AXIS,
         gives=Like("value") if _name in _INTEGERS_STAY else _REALS,
         family="functions",
-    )(partial(_run, _name, _function))
+    )(partial(_of_angle if _name in _ANGLES else _run, _name, _function))
 
 
 @operator("IFRE", family="functions")

@@ -19,6 +19,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.system import peak_memory
 
 
 def saved(path: Path, **values: Any) -> None:
@@ -230,3 +231,27 @@ def test_a_reference_to_no_object_is_damage(tmp_path, number):
     with refusal(InputError, "io.damaged"):
         Decoder(archive, NodeTable()).decode(["o", number])
     archive.close()
+
+
+def test_an_array_of_objects_is_as_large_as_its_items(tmp_path):
+    """A shape that a file declares takes no memory of its own."""
+    saved(tmp_path / "sound", X=1.0)
+    archive = read_archive(tmp_path / "sound")
+    decoder = Decoder(archive, NodeTable())
+    assert decoder.decode(["ao", [2, 1], [1.0, None]]).tolist() == [[1.0], [None]]
+    before = peak_memory()
+    with refusal(InputError, "io.damaged"):
+        decoder.decode(["ao", [3 * 10**8], []])
+    assert peak_memory() < before + 1e8
+    archive.close()
+
+
+def test_objects_that_unpack_to_many_more_than_the_file_has_are_refused(tmp_path):
+    saved(tmp_path / "sound", X=1.0)
+    path = tmp_path / "crafted"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as made:
+        made.writestr("objects.json", '{"objects": [' + "[]," * 2**24 + "0]}")
+    before = peak_memory()
+    with refusal(InputError, "io.archive-too-large"):
+        read_archive(path)
+    assert peak_memory() < before + 1e8

@@ -1,5 +1,7 @@
 """ZDRM, ZBOR: forces that bring a free field into a mesh, behind the procedures @DRM and @BORDS."""
 
+from ssilang.kernel.elements.families import stiffness
+from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.waves.free_field_forces import (
     Ground,
@@ -25,6 +27,8 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 _LOWEST = 3  # heights that the elements of the base may have
+_OTHER = 1e-3  # of a stiffness: what differs more was given otherwise
+_UNLIKE = 1e-3  # of a motion along a height: that of a wave at an angle
 _UNBALANCED = 0.3  # of the forces of inertia: what damping leaves is less
 _MOTION = ("DEPL", "VITE", "ACCE")
 
@@ -59,14 +63,27 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     motion = _motion(entries, row.numbering)
     _free_field_is_linear(entries, row)
     _tell_coarse(entries, motion)
-    if entries.get("COLONNE") is not None:
-        _tell_other_ground(entries, row, motion)
+    _tell_other_ground(entries, row, motion)
+    _tell_other_matter(entries)
     dampers = entries.needed("AMORTISSEURS")
     return load_of(row, dampers, motion, edge_forces(row, edge, dampers, motion))
 
 
+def _tell_other_matter(entries: Entries) -> None:
+    """Warn of a ground whose matrix has not the parameters that the table gives for it."""
+    given, material = entries.needed("RIGI").blocks, entries.get("CARACTERISTIQUES")
+    for zone in entries.needed("MODELE").zones if material is not None else ():
+        mine = [b.values for b in given if b.zone is zone]
+        own = stiffness(zone, material).values if mine and not is_joint(zone) else np.zeros(0)
+        if mine and mine[0].shape == own.shape and (most := np.abs(own).max(initial=0.0)):
+            off = np.abs(sum(mine) - own).max(initial=0.0) / most
+            if off > _OTHER:
+                entries.warn("operators.dynamics.ground-of-others", off=100.0 * off)
+                return
+
+
 def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
-    """Warn of a column whose motion is not in balance with the ground's elements, by height.
+    """Warn of a motion, the same along a height, that is not in balance with the ground's elements.
 
     What the elements above those of the base exert sums to nought at a height, the motion being
     the same along it; of damping that the table does not name a part is left.
@@ -77,11 +94,18 @@ def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
     moving = numbering.codes == int(np.argmax(size))
     heights = numbering.table.coordinates[numbering.nodes, axis].round(6)
     levels, at = np.unique(heights, return_inverse=True)
+    most, least = np.full((2, len(levels), u.shape[1]), [[[-np.inf]], [[np.inf]]])
+    known = moving & row.touched
+    np.maximum.at(most, at[known], u[known])
+    np.minimum.at(least, at[known], u[known])
+    if (most - least).max() > _UNLIKE * np.abs(u).max():
+        return
     sums = np.zeros((len(levels), 2, u.shape[1]))
     np.add.at(sums, at[moving], np.stack([row.force(u, v, a), row.mass @ a], axis=1)[moving])
     left, whole = np.linalg.norm(sums[_LOWEST:], axis=(0, 2))
     if left > _UNBALANCED * whole > 0.0:
-        entries.warn("operators.dynamics.column-of-others", share=100.0 * left / whole)
+        told = {"share": 100.0 * left / whole, "column": entries.get("COLONNE") is not None}
+        entries.warn("operators.dynamics.column-of-others", **told)
 
 
 def _free_field_is_linear(entries: Entries, share: Share) -> None:
