@@ -210,7 +210,7 @@ def _run_options(options: argparse.Namespace) -> "RunOptions":
         raise SystemExit(USAGE)
     made = RunOptions(
         output_directory=options.out,
-        allowed=[p.resolve() for p in options.allow],
+        allowed=[Path(os.path.realpath(p)) for p in options.allow],
         language=options.lang,
         debug=options.debug,
         quiet=options.quiet,
@@ -280,7 +280,8 @@ def _sweep(options: argparse.Namespace) -> int:
 def _warm(options: argparse.Namespace) -> int:
     from ssilang.cli.warm import warm
 
-    return warm(options.files, [p.resolve() for p in options.allow], options.lang, sys.stdout)
+    allowed = [Path(os.path.realpath(p)) for p in options.allow]
+    return warm(options.files, allowed, options.lang, sys.stdout)
 
 
 def _check(options: argparse.Namespace) -> int:

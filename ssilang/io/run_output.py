@@ -195,9 +195,9 @@ class RunOutput:
     _flushed_at: float = 0.0
 
     def __post_init__(self) -> None:
-        self.directory = self.directory.resolve()
-        self.inputs = self.inputs.resolve()
-        self.allowed = tuple(p.resolve() for p in self.allowed)
+        places = (self.directory, self.inputs, *self.allowed)  # `resolve` raises if links go round
+        self.directory, self.inputs, *others = (Path(os.path.realpath(p)) for p in places)
+        self.allowed = tuple(others)
         self.pictures = Pictures(self.directory)
 
     def target(self, name: str) -> Path | None:

@@ -131,17 +131,29 @@ def read_record(path: Path, kind: Mapping[str, Any]) -> dict[str, Any]:
     RecordError
         If it is no such record.
     """
+    found = read_json(path, shown=True)
+    _check(found, kind, "")
+    return dict(found)
+
+
+def read_json(path: Path, shown: bool = False) -> Any:
+    """What a file of JSON holds that anybody may have written; `shown`: NaN is null.
+
+    Raises
+    ------
+    OSError, ValueError
+        If it cannot be read: what is too large, or nested too deep, too.
+    """
     if path.stat().st_size > MOST_BYTES:
         raise RecordError(f"more than {MOST_BYTES // 10**6} MB")
     try:
         text = path.read_text(encoding="utf-8")
-        found: Any = json.loads(text, parse_constant=lambda _: None)
-        if "\\ud" in text.lower():  # halves of a character are in no page
+        found: Any = json.loads(text, parse_constant=(lambda _: None) if shown else None)
+        if shown and "\\ud" in text.lower():  # halves of a character are in no page
             json.dumps(found, ensure_ascii=False).encode()
     except RecursionError:
         raise ValueError("brackets within brackets") from None
-    _check(found, kind, "")
-    return dict(found)
+    return found
 
 
 def _check(value: Any, kind: Any, place: str) -> None:

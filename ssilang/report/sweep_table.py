@@ -1,7 +1,6 @@
 """The table of a sweep, as its folder has it."""
 
 import csv
-import json
 import math
 import re
 from collections import Counter
@@ -19,7 +18,7 @@ from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.report import records
 from ssilang.report.html import text
-from ssilang.report.records import MOST_BYTES, read_record
+from ssilang.report.records import MOST_BYTES, read_json, read_record
 
 TABLE, RUNS, KEPT = "sweep.csv", "runs", "row.json"
 MOTION = "MOTION"
@@ -75,7 +74,7 @@ def edited(sweep: Sweep) -> list[str]:
     for row in sweep.rows:
         path = inside(sweep.folder / RUNS, f"{row['folder']}/{KEPT}") if row["folder"] else None
         try:
-            kept = json.loads(path.read_text(encoding="utf-8"))["row"] if path else row
+            kept = read_json(path)["row"] if path else row
             same = all(real(row[n]) == real(str(kept.get(n))) for n in own)
         except (OSError, ValueError, KeyError, TypeError, AttributeError):
             same = False

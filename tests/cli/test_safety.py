@@ -152,6 +152,25 @@ def test_results_that_lead_elsewhere_are_written_where_the_user_says_so(
     assert (tmp_path / "elsewhere" / "a.csv").is_file()
 
 
+@pytest.mark.parametrize(
+    "words", [["run", "--out"], ["run", "--allow"], ["sweep", "--out"], ["sweep", "--allow"]]
+)
+@pytest.mark.parametrize("kind", ["circle", "file"])
+def test_a_folder_that_is_none_is_named(tmp_path, process, words, kind):
+    """Links that go round, a file: where results go it is told, with `--allow` it opens nothing."""
+    (tmp_path / "d.ssi").write_text("A = 1. ; SORT 'BILA' 'a' A ;")
+    if kind == "circle":
+        (tmp_path / "round").symlink_to("round")
+    else:
+        (tmp_path / "round").write_text("")
+    command, option = words
+    given = ["--set", "A=1,2"] if command == "sweep" else []
+    ended = process(command, str(tmp_path / "d.ssi"), *given, option, str(tmp_path / "round"))
+    assert "Traceback" not in ended.err
+    assert ended.code == (0 if option == "--allow" else 2 if command == "sweep" else 1)
+    assert option == "--allow" or "round" in ended.err
+
+
 def test_a_sweep_writes_no_results_that_lead_elsewhere(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "elsewhere").mkdir()

@@ -336,6 +336,42 @@ def test_rows_that_were_changed_are_made_again(deck, tmp_path, before, after):
     assert figures(tmp_path / "out" / "sweep.csv") == table
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no pipes with a name")
+@pytest.mark.parametrize("name", ["row.json", "summary.json"])
+@pytest.mark.parametrize("left", ["pipe", "deep", "elsewhere"])
+def test_what_a_stranger_left_in_a_folder_of_runs_holds_up_nothing(deck, tmp_path, name, left):
+    """A pipe is not waited for, brackets within brackets, or a link, are no row: the run again."""
+    options = SweepOptions(deck, ["AG=0.1,0.2", "N=1"], out=tmp_path / "out", jobs=1)
+    run(options)
+    table = figures(tmp_path / "out" / "sweep.csv")
+    record = min((tmp_path / "out").glob(f"runs/*/{name}"))
+    record.rename(tmp_path / "kept")
+    if left == "pipe":
+        os.mkfifo(record)
+    elif left == "deep":
+        record.write_text("[" * 100_000 + "]" * 100_000)
+    else:
+        record.symlink_to(tmp_path / "kept")
+    code, said, wrong = run(options)
+    assert code == 0
+    assert ("1 of 2 runs" in said) == ("again" in wrong) == (name == "row.json")
+    assert figures(tmp_path / "out" / "sweep.csv") == table
+    assert (tmp_path / "kept").is_file()
+
+
+@pytest.mark.parametrize("place", ["runs", "runs/AG=0.2_N=1", "histories"])
+def test_folders_of_a_sweep_that_lead_elsewhere_are_refused(deck, tmp_path, place):
+    options = SweepOptions(deck, ["AG=0.1,0.2", "N=1"], out=tmp_path / "out", jobs=1)
+    (tmp_path / "elsewhere").mkdir()
+    link = tmp_path / "out" / place
+    link.parent.mkdir(parents=True)
+    link.symlink_to(tmp_path / "elsewhere")
+    code, _, wrong = run(options)
+    assert code == 2
+    assert f"{link.name} is a link to another place" in wrong
+    assert not list((tmp_path / "elsewhere").iterdir())
+
+
 @pytest.mark.parametrize(
     ("peaks", "reads", "told"),
     [

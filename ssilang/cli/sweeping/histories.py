@@ -4,7 +4,6 @@ A row of a run's CSV or Parquet table is a row of the joined one, behind the num
 the values that it was given. Units stay where they are: in the titles, or in the metadata.
 """
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,8 +12,9 @@ from typing import IO, Any
 import numpy as np
 
 from ssilang.cli.sweeping.table import Row
-from ssilang.io.atomic import replacing
+from ssilang.io.atomic import inside, replacing
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.report.records import read_json
 from ssilang.report.results import tables_of
 
 FOLDER = "histories"
@@ -63,12 +63,12 @@ def join_histories(rows: Sequence[Row], swept: Sequence[str], folder: Path) -> J
 def _tables_of_run(folder: Path) -> list[Path]:
     """Tables that a run itself wrote beside its summary."""
     try:
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-        names = [str(f["path"]) for f in summary["files"]]
+        path = inside(folder, "summary.json")
+        names = [str(f["path"]) for f in read_json(path)["files"]] if path else []
     except (OSError, ValueError, KeyError, TypeError):
         return []
-    paths = [folder / n for n in names if n.endswith((".csv", ".parquet")) and "/" not in n]
-    return [p for p in paths if p.is_file()]
+    names = [n for n in names if n.endswith((".csv", ".parquet")) and "/" not in n]
+    return [path for n in names if (path := inside(folder, n))]
 
 
 def _columns(path: Path) -> dict[str, FloatArray]:

@@ -44,6 +44,7 @@ from ssilang.messages.message import Sentence, Teller, sentence, teller
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
 from ssilang.report.sweep_table import read_sweep, unscaled, usual_intensities, warnings_of
+from ssilang.system import system_reason
 
 TABLE, PLAIN_TABLE, FITS = "sweep.parquet", "sweep.csv", "fragility.csv"
 
@@ -70,7 +71,7 @@ class SweepOptions:
     @property
     def folder(self) -> Path:
         """Where runs, tables and pictures go."""
-        return (self.out or Path("results") / f"{self.deck.stem}_sweep").resolve()
+        return Path(os.path.realpath(self.out or Path("results") / f"{self.deck.stem}_sweep"))
 
 
 _IN_SI = re.compile(r"\bLIRE\b[^;]*\bSI\b", re.IGNORECASE)
@@ -84,12 +85,15 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     """
     try:
         asked = _asked(options)
-        if options.folder.exists() and not options.folder.is_dir():
-            raise SsiError("cli.out-no-folder", None, path=options.folder)
         link = None if options.out else link_to(Path("results") / f"{options.deck.stem}_sweep")
         if link is not None:
             raise SsiError("io.folder-is-link", None, path=link)
         cases = _checked_cases(options, err)
+        try:
+            options.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as fault:
+            told = {"path": options.folder, "reason": system_reason(fault)}
+            raise SsiError("cli.out-no-folder", None, **told) from None
         rows = run_cases(cases, options, out, err)
     except SsiError as error:
         err.write(render(error, options.language) + "\n")
@@ -152,7 +156,8 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
     Raises
     ------
     SsiError
-        If the script cannot be read, or does not have a name that is given a value.
+        If the script cannot be read, does not have a name that is given a value, or a run would
+        write into a folder that is a link.
     """
     source = read_source(options.deck)
     _check_names(source, cases[0].values, options, err)
@@ -161,6 +166,9 @@ def run_cases(cases: Sequence[Case], options: SweepOptions, out: TextIO, err: Te
         _task(case, options, options.folder / "runs" / name)
         for case, name in zip(cases, folder_names(cases), strict=True)
     ]
+    places = (options.folder / "runs", options.folder / "histories", *(t.folder for t in tasks))
+    if link := next(filter(Path.is_symlink, places), None):
+        raise SsiError("io.folder-is-link", None, path=link)
     found = {task.number: row_of(task, deck_of(source, task.values)) for task in tasks}
     rows = {number: row for number, row in found.items() if isinstance(row, dict)}
     reasons = [why for why in found.values() if isinstance(why, Sentence)]
@@ -240,7 +248,7 @@ def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: Tex
 
 
 def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
-    allowed = tuple(p.resolve() for p in options.allowed)
+    allowed = tuple(Path(os.path.realpath(p)) for p in options.allowed)
     deck = options.deck.resolve()
     return Task(
         case.number, deck, folder, case.values, allowed, options.language, report=options.report

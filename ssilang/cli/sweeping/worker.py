@@ -2,6 +2,7 @@
 
 import gc
 import json
+import os
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -117,10 +118,14 @@ def row_of(task: Task, deck: "Deck") -> Row | Sentence | None:
     dict, Sentence or None
         Why it does not hold any more, if what the run computed with has changed; None without one.
     """
+    from ssilang.io.atomic import inside
     from ssilang.io.checkpoint import changed_names, digest_of_file
+    from ssilang.report.records import read_json
 
+    if not os.path.lexists(task.folder / ROW):
+        return None
     try:
-        kept = json.loads((task.folder / ROW).read_text(encoding="utf-8"))
+        kept = read_json(inside(task.folder, ROW) or Path())  # a folder is no row
         row: Row = kept["row"]
         if kept["seal"] != _seal(row):
             return Sentence("cli.again-changed")
@@ -132,8 +137,6 @@ def row_of(task: Task, deck: "Deck") -> Row | Sentence | None:
         inputs = task.deck.parent
         now = {name: digest_of_file(inputs / name) for name in kept["files"]}
         files = changed_names(kept["files"], now)
-    except FileNotFoundError:
-        return None
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return Sentence("cli.again-unknown")
     return Sentence("cli.again-files", files=files) if files else {**row, "run": task.number}
