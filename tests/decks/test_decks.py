@@ -129,10 +129,14 @@ SHORTER = {
     "club_cast3m_2014/club_a_methods.ssi": [("DUREE = 0.4 ;", "DUREE = 0.16 ;")],
     "club_cast3m_2014/club_b_sdm.ssi": [("DUREE = 1. ;", "DUREE = 0.15 ;")],
     "club_cast3m_2014/club_c_sdm.ssi": [("DUREE = 1. ;", "DUREE = 0.15 ;")],
+    "footing/block_on_soil.ssi": [("1.44E-3 7.2E-4 3.6E-4", "1.44E-3 1.44E-3 1.44E-3")],
     "published/rocking_block.ssi": [("REPE BA 2", "REPE BA 1")],
     "seismic/reactor.ssi": [("COMPARE = VRAI ; IMAGES = VRAI", "COMPARE = FAUX ; IMAGES = FAUX")],
     "seismic/tower_quake.ssi": [
         ("TFIN = SEISME 1. (DT0 / 2.) 16 'JOINT' ; LFIN = SOMMET TFIN", "LFIN = LTOP"),
+        ("TBON = SEISME 1. DT0 8 'COLLE' ;", "TBON = TQUA ;"),
+        ("TWEA = SEISME 0.02 DT0 8 'JOINT' ;", "TWEA = TQUA ;"),
+        ("TWEB = SEISME 0.02 DT0 8 'COLLE' ;", "TWEB = TQUA ;"),
     ],
 }
 
