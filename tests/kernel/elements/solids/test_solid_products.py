@@ -102,4 +102,4 @@ def test_folded_cells_are_named(cell_type, mode, spoilt, monkeypatch):
     parameters = {"YOUN": np.full((5, 1), 1e9), "NU": np.full((5, 1), 0.3)}
     monkeypatch.setattr(solid, "MANY_TERMS", 0)  # the sum at points would refuse them too
     with pytest.raises(MeshError, match="being number 2"):
-        elements.stiffness(zone, field_of(zone, parameters))
+        families.stiffness(zone, field_of(zone, parameters))
