@@ -428,7 +428,7 @@ def test_what_makes_a_sweep_useless_is_told(deck, tmp_path):
     ]
     assert "8 runs were warned" in (options.out / "report.html").read_text()
     code, _, wrong = run(replace(options, out=deck))
-    assert (code, "is a file" in wrong) == (2, True)
+    assert (code, f"{deck} cannot be the folder of a sweep" in wrong) == (2, True)
     code, _, wrong = run(replace(options, settings=["MOTION=a"]))
     assert (code, "MOTION is set twice" in wrong) == (2, True)
 
