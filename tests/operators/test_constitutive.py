@@ -102,6 +102,32 @@ def test_tangent_of_an_elastic_state_is_the_stiffness(found, element, perturbed)
     np.testing.assert_allclose(k1, k0, atol=1e-5 * np.abs(k0).max() * perturbed + 1e-300)
 
 
+BENT = {
+    "POUT": "'SECT' .02 'INRY' 3.E-5 'INRZ' 5.E-5 'TORS' 7.E-5 'DZ' .1 'DY' .1",
+    "TUYA": "'EPAI' .02 'RAYO' .2",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("element", BENT)
+def test_tangent_of_beams_that_yield_in_bending_is_a_share_of_the_stiffness(found, element):
+    script = (
+        "OPTI DIME 3 MODE TRID ELEM SEG2 ; P = 0 0 0 ; Q = 2. 0 0 ; L = DROI 1 P Q ; "
+        f"M = MODE L MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE {element} ; "
+        f"A = MATE M 'YOUN' 2.E3 'NU' .3 'SIGY' 1. 'H' 700. {BENT[element]} ; " + ZEROS +
+        "N = MANU 'CHPO' L 1 'UX' 0. 'NATURE' 'DIFFUS' ; "
+        "U = N + (MANU 'CHPO' Q 2 'UY' .2 'RZ' .2 'NATURE' 'DIFFUS') ; "
+        "W = N + (MANU 'CHPO' Q 1 'UY' 1. 'NATURE' 'DIFFUS') ; "
+        "S1 V1 E1 = ECOU M S0 V0 (EPSI M U A) A ; S2 V2 E2 = ECOU M S1 V1 (EPSI M (.01 * U) A) A ; "
+        "D = .01 * (MAXI (EXCO 'MOMZ' (SIGM M A U))) ; "
+        "R = ((MAXI (EXCO 'MOMZ' S2)) - (MAXI (EXCO 'MOMZ' S1))) / D ; "
+        "K = KTAN M S1 V1 A ; G = RIGI M A ; "
+        "A1 = XTMX U K ; B1 = XTMX U G ; A2 = XTMX W K ; B2 = XTMX W G ;"
+    )  # fmt: skip
+    share, *works = found(script, "R", "A1", "B1", "A2", "B2")
+    assert 0.05 < share < 0.9
+    np.testing.assert_allclose(works[::2], share * np.array(works[1::2]), rtol=1e-4)
+
+
 @pytest.mark.parametrize("law", [ELASTIC, MISES])
 def test_perturbed_tangent_is_the_consistent_one(found, law):
     script = (

@@ -75,10 +75,13 @@ class StrainOperator:
         strain[c, s, p] = sum_m matrix[c, s, p, m] u[c, m].
     weights : array (n_cells, n_points)
         Integration weights: volume, times thickness or circumference where that applies.
+    forces : array as `matrix`, or None
+        The operator that stresses have forces by, where it is another.
     """
 
     matrix: FloatArray
     weights: FloatArray
+    forces: FloatArray | None = None
 
 
 class ElementFamily(ABC):
@@ -182,13 +185,13 @@ def apply_moduli(moduli: FloatArray, strain: FloatArray) -> FloatArray:
         return np.einsum("st,ctp->csp", moduli[0, 0], strain)
     n, _, p = strain.shape
     full = np.broadcast_to(moduli, (n, p, *moduli.shape[2:]))
-    out = np.einsum("cpst,ctp->csp", full, strain)
-    return out
+    return np.einsum("cpst,ctp->csp", full, strain)
 
 
 def contract(operator: StrainOperator, moduli: FloatArray) -> FloatArray:
     """Sum over points of weight B^T D B, shape (n_cells, n_rows, n_rows)."""
     B = operator.matrix
+    dual = B if operator.forces is None else operator.forces
     n, s, p, m = B.shape
     if moduli.shape[1] == 1:
         DB = np.matmul(moduli[:, 0], B.reshape(n, s, p * m)).reshape(n, s, p, m)
@@ -198,7 +201,7 @@ def contract(operator: StrainOperator, moduli: FloatArray) -> FloatArray:
         for i, j in zip(*np.nonzero(used), strict=True):
             DB[:, i] += moduli[..., i, j, None] * B[:, j]
     DB *= operator.weights[:, None, :, None]
-    left, right = B.reshape(n, s * p, m), DB.reshape(n, s * p, m)
+    left, right = dual.reshape(n, s * p, m), DB.reshape(n, s * p, m)
     return np.matmul(left.transpose(0, 2, 1), right)
 
 

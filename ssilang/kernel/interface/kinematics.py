@@ -199,8 +199,7 @@ def _thickness(
 ) -> FloatArray:
     """2 pi r in axisymmetry, else DIM3 (default 1), shape (n, g) or broadcast to it."""
     if zone.mode is Mode.AXISYMMETRIC:
-        ring: FloatArray = 2 * np.pi * np.einsum("gm,nm->ng", N, middle[:, :, 0])
-        return ring
+        return 2 * np.pi * np.einsum("gm,nm->ng", N, middle[:, :, 0])
     thickness = point_values(given, "DIM3", len(middle), N)
     return np.ones((1, 1)) if thickness is None else thickness
 

@@ -76,8 +76,7 @@ class Numbering:
         if wanted.size >= self.size and keys[-1] < 4 * self.size:  # a list of places pays
             places = np.full(keys[-1] + 2, -1, dtype=np.int64)
             places[keys] = np.arange(self.size)
-            listed: IntArray = places[np.clip(wanted, -1, keys[-1] + 1)]
-            return listed
+            return places[np.clip(wanted, -1, keys[-1] + 1)]
         place = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
         return np.where(keys[place] == wanted, place, -1)
 

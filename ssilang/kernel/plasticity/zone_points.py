@@ -60,8 +60,7 @@ class EndPoints(PlasticPoints):
     def paired(self, full: FloatArray) -> FloatArray:
         """Two thirds of an end's values (m, ...) and one of the other end's."""
         ends = full.reshape(-1, 2, *full.shape[1:])
-        found: FloatArray = (2 * ends + ends[:, ::-1]) / 3
-        return found.reshape(full.shape)
+        return ((2 * ends + ends[:, ::-1]) / 3).reshape(full.shape)
 
     def stored(self, state: PointState) -> float:
         """Elastic energy of forces that are linear between the ends."""

@@ -54,8 +54,8 @@ def _interpolate(
     if smooth:
         return mapped(lambda at: spline(x, y, at, left, right), value)
     if isinstance(value, float | int) and function.word == "curve":
-        outside = beyond(x, y, np.array([float(value)]))
-        if outside is not None:
+        outside = beyond(x, y, at := np.array([float(value)]))
+        if outside is not None and interpolated(x, y, at).any():  # else it is over, or not begun
             told = {"value": outside, "first": float(x.min()), "last": float(x.max())}
             call.warn("operators.curves.beyond-curve", **told)
     return mapped(lambda at: interpolated(x, y, at), value)

@@ -97,7 +97,9 @@ class _Entering:
         alone = np.count_nonzero(shaken, axis=0) == 1
         records = [k for k in np.flatnonzero(alone) if is_record(curves[k][1])]
         axes = [int(np.abs(shaken[:, k]).argmax()) for k in records]
-        if len(self.axes) > 1 and len(axes) > 1 == len({*axes}):
+        spans = [curves[k][0][curves[k][1] != 0.0] for k in records]
+        apart = max((t[0] for t in spans), default=0) >= min((t[-1] for t in spans), default=0)
+        if len(self.axes) > 1 and len(axes) > 1 == len({*axes}) and not apart:
             name = self.start.names[records[1]]
             told = {"name": name, "axis": self.axes[axes[0]], "others": self.axes}
             yield "operators.dynamics.shaken-twice-along", told

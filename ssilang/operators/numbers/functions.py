@@ -124,7 +124,7 @@ def _of_angle(name: str, function: Function, call: Call, value: Any, axis: str |
     held = value.values if isinstance(value, ListReel) else value
     numbers = np.atleast_1d(np.asarray(held, float) if isinstance(held, float | np.ndarray) else 0)
     parts = numbers[numbers != 0.0] / np.pi * _PARTS
-    off = np.abs(parts - parts.round(4)) > 1e-11 * np.abs(parts)
+    off = np.abs(parts - parts.round(2)) > 1e-11 * np.abs(parts)
     if parts.size and not off.any() and np.abs(parts).max() < _MOST_PARTS:
         first = float(numbers[numbers != 0.0][0])
         told = {"name": name, "value": first, "degrees": float(np.degrees(first))}

@@ -164,7 +164,9 @@ class Beam(_LineBeam):
         matrix = _end_forces(Section(np.array([[1.0, np.inf, np.inf, 1.0, 1.0, 1.0]])), part, zone)
         shear = [i for i, row in enumerate(kept_rows(zone)) if row in (1, 2)]
         matrix[:, shear] = 0.0
-        return StrainOperator(matrix, np.repeat(part.lengths[:, None] / 2, 2, axis=1))
+        weights = np.repeat(part.lengths[:, None] / 2, 2, axis=1)
+        # what is linear between the ends works with a third of the other end's
+        return StrainOperator(matrix, weights, (2 * matrix + matrix[:, :, ::-1]) / 3)
 
     def strain_values(
         self, zone: Zone, displacement: NodeField, parameters: ZoneField

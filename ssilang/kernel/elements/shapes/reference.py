@@ -251,8 +251,7 @@ def _monomial_gradients(cell: ReferenceCell, points: FloatArray) -> FloatArray:
     """Derivatives (n_points, n_functions, dim) of the spanning functions."""
     gradients = _power_gradients(points, cell.exponents)
     if cell.sums is not None:
-        summed: FloatArray = np.einsum("pmd,mf->pfd", gradients, cell.sums)
-        return summed
+        return np.einsum("pmd,mf->pfd", gradients, cell.sums)
     if not len(cell.over):
         return gradients
     depth = _below_apex(points)

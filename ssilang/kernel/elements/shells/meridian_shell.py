@@ -160,12 +160,10 @@ class MeridianShell(ShellFamily):
     @staticmethod
     def _measure(zone: Zone, m: _Meridian, parameters: ZoneField, cells: slice) -> FloatArray:
         if zone.mode in REVOLUTION:
-            ring: FloatArray = m.weights * m.r * circumference(zone)
-            return ring
+            return m.weights * m.r * circumference(zone)
         width = parameters.at("DIM3", "GRAVITE", 1.0)
         part = width if len(width) == 1 else width[cells]
-        strip: FloatArray = m.weights * part.mean(axis=1, keepdims=True)
-        return strip
+        return m.weights * part.mean(axis=1, keepdims=True)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO EPAI of the three displacements."""

@@ -26,8 +26,7 @@ def cell_measures(block: CellBlock) -> FloatArray:
     frames = np.einsum("gkd,nkj->ngdj", shape_gradients(block.cell_type, rule.points), x)
     dimension = frames.shape[2]
     if dimension == 3:
-        volumes: FloatArray = np.abs(np.linalg.det(frames) @ rule.weights)
-        return volumes
+        return np.abs(np.linalg.det(frames) @ rule.weights)
     if dimension == 2:
         size = np.linalg.norm(np.cross(frames[:, :, 0], frames[:, :, 1]), axis=-1)
     else:
