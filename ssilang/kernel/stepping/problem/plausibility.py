@@ -325,10 +325,7 @@ def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
 
 
 def _loads(problem: Problem) -> list[tuple[FloatArray, bool, bool, int]]:
-    """Forces (n,) of loads that change, of velocities; ways of supports; if in a step, number.
-
-    With each whether it is a way, of supports that move something.
-    """
+    """Forces (n,) of loads that change, velocities, or ways of supports (so); if sudden; number."""
     loading, found = problem.loading, []
     factors = loading.at(problem.times)
     sizes = np.abs(factors).max(axis=0, initial=0.0)
