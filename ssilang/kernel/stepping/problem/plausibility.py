@@ -337,8 +337,7 @@ def _loads(problem: Problem) -> list[tuple[FloatArray, bool, bool, int]]:
             way = problem.constraints.particular(loading.imposed[:, k])
             way *= bool(closed_forces(problem, way).any())
             found.append((way, True, sudden, int(k)))
-    found.append((problem.M @ problem.v, False, True, -1))
-    return [given for given in found if given[0].any()]
+    return [g for g in (*found, (problem.M @ problem.v, False, True, -1)) if g[0].any()]
 
 
 def against_supports(problem: Problem) -> dict[str, IntArray]:
