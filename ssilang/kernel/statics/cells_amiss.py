@@ -6,6 +6,7 @@ across a plate, shear takes what bending should (R. D. Cook, Concepts and Applic
 Element Analysis, the four-node element in pure bending).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import chain, combinations, permutations
 from typing import cast
@@ -14,7 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, IntArray
 from ssilang.kernel.elements.catalog import LOCKING
-from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.elements import is_joint, joint_element
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
@@ -51,11 +52,37 @@ def hanging_nodes(matrix: Matrix, solids: Solids) -> IntArray:
     for block, zone, border in solids:
         kind = zone.cells.kind
         for (name, local), alone in zip(kind.faces, border, strict=True):
-            ring = np.array(local[: len(local) - (name in ("TRI7", "QUA9"))])
-            ends = ring if kind.dimension == 3 else ring[:-1]
-            pairs = np.stack([ends, np.resize(np.roll(ring, -1), len(ends))], axis=1)
-            links.append(block.nodes[alone][:, pairs].reshape(-1, 2))
-    edges = np.concatenate(links)
+            links.append(_sides(block.nodes[alone][:, list(local)], name, kind.dimension == 3))
+    return _inner(matrix, np.concatenate(links))
+
+
+def passed_by_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
+    """Nodes (n,) of bodies, in no condition, inside an edge of a joint that begins on their own."""
+    links = [np.zeros((0, 2), np.int64)]
+    for zone in (z for z in joints if z.element != "JOI1"):
+        name, nodes = joint_element(zone).face, zone.cells.nodes.resolve(zone.cells.raw)
+        links += [_sides(half, name, name[:3] != "SEG") for half in np.split(nodes, 2, axis=1)]
+    sides = np.concatenate(links)
+    for block in matrix.blocks if len(sides) else ():
+        if block.zone is not None and not is_joint(block.zone):
+            near = block.nodes[np.isin(block.nodes, sides).any(axis=1)]
+            kind = block.zone.cells.kind
+            whole = ((kind.name, tuple(range(kind.n_nodes))),)
+            for name, local in kind.faces if kind.dimension == 3 else whole:
+                links.append(_sides(near[:, list(local)], name, kind.dimension > 1))
+    return np.setdiff1d(_inner(matrix, np.concatenate(links)), sides)
+
+
+def _sides(nodes: IntArray, name: str, closed: bool) -> IntArray:
+    """Pairs (n, 2) of neighbours along lines (m, k) of nodes, of faces round about them."""
+    ring = np.arange(nodes.shape[1] - (name in ("TRI7", "QUA9")))
+    ends = ring if closed else ring[:-1]
+    pairs = np.stack([ends, np.resize(np.roll(ring, -1), len(ends))], axis=1)
+    return np.asarray(nodes[:, pairs].reshape(-1, 2))
+
+
+def _inner(matrix: Matrix, edges: IntArray) -> IntArray:
+    """The nearer ends (n,), in no condition, of edges (m, 2) that go one way from one node."""
     a, b = np.unique(np.concatenate([edges, edges[:, ::-1]]), axis=0).T
     way = matrix.table.coordinates[b] - matrix.table.coordinates[a]
     length = np.linalg.norm(way, axis=1)

@@ -197,7 +197,11 @@ def elements_of(ground: Ground, cells: Mesh) -> Share:
 
 def elements_at(ground: Ground, edge: Mesh) -> Share:
     """The share of the elements that touch a mesh."""
-    nodes = edge.sorted_node_ids
+    return elements_with(ground, edge.sorted_node_ids)
+
+
+def elements_with(ground: Ground, nodes: IntArray) -> Share:
+    """The share of the elements that have one of some nodes (n,)."""
 
     def kept(of: IntArray) -> BoolArray:
         return np.asarray(np.isin(of, nodes).any(axis=1))

@@ -7,7 +7,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
-from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.mesh import Mesh
@@ -100,6 +101,22 @@ def reflecting_edges(model: Model, near: Mesh, dampers: Matrix | None) -> Reflec
     distances = np.array([np.linalg.norm(of_near - xyz[n], axis=1).min() for n in bare])
     i = int(np.argmin(distances))
     return Reflecting(xyz[bare[i]], float(distances[i]), len(bare))
+
+
+def bare_sides(model: Model, known: IntArray) -> IntArray:
+    """Nodes of a ground's base and outermost sides, but for some that are known."""
+    zones = tuple(z for z in model.zones if not is_joint(z))
+    if not zones:
+        return known[:0]
+    nodes, axis = np.setdiff1d(_sides_and_bottom(Model(zones)), known), zones[0].mode.dimension - 1
+    places, whole = (zones[0].cells.nodes.coordinates[of, : axis + 1] for of in (nodes, known))
+    both = np.append(whole, places, axis=0)
+    slack = 1e-6 * float(np.ptp(both, axis=0).max(initial=0.0))
+    least, most = places <= both.min(axis=0) + slack, places >= both.max(axis=0) - slack
+    most[:, axis] = False  # the surface
+    if zones[0].mode in (Mode.AXISYMMETRIC, Mode.FOURIER):
+        least[:, 0] = False
+    return nodes[(least | most).any(axis=1)]
 
 
 def _sides_and_bottom(model: Model) -> IntArray:

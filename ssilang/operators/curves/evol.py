@@ -339,7 +339,10 @@ def _tell_rounding(
     ways = {n: float(np.abs(v).max(initial=0.0)) for n, v in found.items() if v is not None}
     other = max(ways, key=lambda n: ways[n], default="")
     if name not in ways or ways[name] > _ROUNDING * ways[other] or not ways[other]:
-        _LOOKED_AT.setdefault(fields.track, set()).add(node)
+        if values.any():
+            _LOOKED_AT.setdefault(fields.track, set()).add(node)
+        else:
+            _tell_held_side(call, fields, name, node)
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
     known = node in _LOOKED_AT.get(fields.track, ())
@@ -347,6 +350,21 @@ def _tell_rounding(
         told = {"most": float(np.abs(values).max(initial=0.0)), "other": other}
         node_told = problem.numbering.table.told(node)
         call.warn(code, name=name, node=node_told, **told, moved=ways[other])
+
+
+def _tell_held_side(call: Call, fields: RecordedFields, name: str, node: int) -> None:
+    """Warn of a fixed side of a joint that is read, and its other side moves and was not."""
+    problem, code = fields.track.problem, "operators.curves.held-side"
+    table, joints = problem.numbering.table, problem.interface
+    for joint in () if joints is None else joints.joints:
+        ends = np.stack([table.resolve(s).ravel() for s in (joint.lower, joint.upper)])
+        for other in ends[::-1][ends == node][:1].tolist():
+            found = fields.track.history(fields.name, name, other)
+            moved = 0.0 if found is None else float(np.abs(found).max(initial=0.0))
+            known = other in _LOOKED_AT.get(fields.track, ())
+            if moved and not known and not call.session.warned(code):
+                told = {"node": table.told(node), "other": table.told(other), "moved": moved}
+                call.warn(code, name=name, **told)
 
 
 def _point_names(call: Call, support: Operand) -> dict[int, str]:

@@ -42,6 +42,7 @@ from ssilang.operators.dynamics.standing import (
     braked,
     footing_too_wide,
     ground_twice,
+    mass_of_beam,
     mass_of_both,
     matter_amiss,
     out_of_balance,
@@ -231,7 +232,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
     rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
-    weight_of_part,
+    weight_of_part, mass_of_beam,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (

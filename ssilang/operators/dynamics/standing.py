@@ -43,6 +43,7 @@ FEW_STOPS = 50
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
 AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
+SAME_MASS = 0.01  # of a beam
 SAME_PULL = 1e-6  # of what a node weighs by its mass
 TIMES = 10.0  # masses of a body over that of its weight
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
@@ -182,6 +183,28 @@ def mass_of_both(start: Start) -> Told:
                 told = {"node": table.told(a[k]), "unknown": name}
                 yield "operators.dynamics.mass-of-both", told
                 return
+
+
+def mass_of_beam(start: Start) -> Told:
+    """Masses of one statement on the nodes of a beam that are its own mass once more."""
+    given = [] if start.inputs.mass is None else start.inputs.mass.blocks
+    beams = [b for b in given if b.raw_nodes.shape[1] == PAIR]
+    for lump in (b for b in given if b.zone is None and b.raw_nodes.shape == (len(b.nodes), 1)):
+        axis = lump.unknowns[0]
+        mass = float(lump.values[:, 0, 0].sum())
+        of = [(b, np.isin(b.nodes, lump.nodes).all(axis=1)) for b in beams if axis in b.unknowns]
+        nodes, own, cells = [lump.nodes[:0]], 0.0, 0
+        for beam, on in of if axis in AXES else ():
+            at = [i for i, name in enumerate(beam.unknowns) if name == axis]
+            own += float(beam.values[on][:, at][:, :, at].sum())
+            nodes.append(beam.nodes[on].reshape(-1, 1))
+            cells += int(on.sum())
+        count, spread = len(np.unique(np.concatenate(nodes))), mass / len(lump.nodes)
+        twice = min(abs(mass - own), abs(spread * cells - own)) < SAME_MASS * own
+        if cells >= PAIR and count == len(np.unique(lump.nodes)) and twice:
+            told = {"count": count, "mass": mass, "own": own}
+            yield "operators.dynamics.mass-of-beam", told
+            return
 
 
 def bodies_stand(start: Start) -> Told:

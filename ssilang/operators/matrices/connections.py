@@ -10,6 +10,7 @@ from ssilang.kernel.statics.cells_amiss import (
     bordered_solids,
     hanging_nodes,
     overlapping_cells,
+    passed_by_joints,
 )
 from ssilang.kernel.statics.linear_motion import crossed_lines, wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
@@ -70,6 +71,7 @@ def warn_connections(
     springs = [b for b in matrix.blocks if b.raw_nodes.shape[1] == 1]
     found = {
         "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
+        "operators.matrices.joints-pass-by": passed_by_joints(matrix, joints),
         "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": doubled.idle_nodes(springs, matrix),
         "operators.matrices.clamped-alone": doubled.clamped_alone(matrix),

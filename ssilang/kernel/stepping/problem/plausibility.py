@@ -268,22 +268,29 @@ def swings(problem: Problem) -> Iterator[Swing]:
 
     Of a force f the static displacement x has the period `2 pi sqrt(x M x / x f)`, an upper
     estimate of those of the modes that it excites, weighed by their compliance (Rayleigh).
+    Supports that move ask for what the inertia of the displacement that follows them does.
     """
-    T, given = problem.constraints.T, _forces(problem)
+    T, given = problem.constraints.T, _loads(problem)
     if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
         return
-    forces = np.column_stack([T.T @ f for f, _, _ in given])
     K = closed_stiffness(problem)
     largest = float(abs(K).max()) if K.nnz else 0.0
     if not largest or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return
     # held by next to nothing: a load that moves a part of what is free is seen, too
-    motions = solved(K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest), forces)
+    weakly = K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest)
+    if moved := [k for k, (_, way, _, _) in enumerate(given) if way]:
+        ways = np.column_stack([given[k][0] for k in moved])
+        ways = problem.M @ (ways - T @ solved(weakly, T.T @ closed_forces(problem, ways)))
+        for k, force in zip(moved, ways.T, strict=True):
+            given[k] = (force, *given[k][1:])
+    forces = np.column_stack([T.T @ f for f, *_ in given])
+    motions = solved(weakly, forces)
     free = np.abs(motions).max(axis=0) * largest * WEAK > np.abs(forces).max(axis=0)
     free |= (motions * (K @ motions)).sum(axis=0) < WEAK * (K.diagonal() @ motions**2)
-    for x, (force, sudden, k), unheld in zip((T @ motions).T, given, free, strict=True):
+    for x, (force, way, sudden, k), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
-            if not is_dragged(problem, x):
+            if not way and not is_dragged(problem, x):
                 yield Swing(np.inf, 0.0, sudden, k, x)
             continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
@@ -317,19 +324,20 @@ def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
         raise SingularFactorError(str(error)) from None
 
 
-def _forces(problem: Problem) -> list[tuple[FloatArray, bool, int]]:
-    """Forces (n,) of loads that change, moving supports, velocities; if in a step, the number."""
+def _loads(problem: Problem) -> list[tuple[FloatArray, bool, bool, int]]:
+    """Forces (n,) of loads that change, velocities, or ways of supports (so); if sudden; number."""
     loading, found = problem.loading, []
     factors = loading.at(problem.times)
     sizes = np.abs(factors).max(axis=0, initial=0.0)
     bends = np.abs(np.diff(factors, 2, axis=0)).max(axis=0, initial=0.0)
     for k in np.flatnonzero(np.ptp(factors, axis=0) > 0.0):
         sudden = bool(bends[k] > SUDDEN * sizes[k])
-        found.append((loading.forces[:, k], sudden, int(k)))
+        found.append((loading.forces[:, k], False, sudden, int(k)))
         if loading.imposed[:, k].any():
-            moved = problem.constraints.particular(loading.imposed[:, k])
-            found.append((closed_forces(problem, moved), sudden, int(k)))
-    return [given for given in (*found, (problem.M @ problem.v, True, -1)) if given[0].any()]
+            way = problem.constraints.particular(loading.imposed[:, k])
+            way *= bool(closed_forces(problem, way).any())
+            found.append((way, True, sudden, int(k)))
+    return [g for g in (*found, (problem.M @ problem.v, False, True, -1)) if g[0].any()]
 
 
 def against_supports(problem: Problem) -> dict[str, IntArray]:

@@ -11,6 +11,7 @@ from ssilang.kernel.waves.free_field_forces import (
     edge_forces,
     elements_at,
     elements_of,
+    elements_with,
     layer_forces,
     load_of,
     yielded,
@@ -18,6 +19,7 @@ from ssilang.kernel.waves.free_field_forces import (
     yielding_outside,
 )
 from ssilang.kernel.waves.resolution import (
+    bare_sides,
     highest_frequency,
     pressure_speed,
     reflecting_edges,
@@ -28,6 +30,7 @@ from ssilang.operators.tables.entries import Entries
 
 _LOWEST = 3  # heights that the elements of the base may have
 _OTHER = 1e-3  # of a stiffness: what differs more was given otherwise
+_PULLS = 0.01  # of the largest force at the edges
 _UNLIKE = 1e-3  # of a motion along a height: that of a wave at an angle
 _UNBALANCED = 0.3  # of the forces of inertia: what damping leaves is less
 _MOTION = ("DEPL", "VITE", "ACCE")
@@ -66,7 +69,26 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     _tell_other_ground(entries, row, motion)
     _tell_other_matter(entries)
     dampers = entries.needed("AMORTISSEURS")
-    return load_of(row, dampers, motion, edge_forces(row, edge, dampers, motion))
+    forces = edge_forces(row, edge, dampers, motion)
+    _tell_bare(entries, edge, motion, float(np.abs(forces).max(initial=0.0)))
+    return load_of(row, dampers, motion, forces)
+
+
+def _tell_bare(entries: Entries, edge: Mesh, motion: Motion, most: float) -> None:
+    """Warn of sides that are neither edges nor held, where the motion asks for a part of a force.
+
+    At a free surface, and along a plane that waves do not pull at, it asks for none.
+    """
+    held = [r.nodes for r in entries.needed("RIGI").relations]
+    known = np.unique(np.concatenate([edge.sorted_node_ids, *held]))
+    nodes = bare_sides(entries.needed("MODELE"), known)
+    row = elements_with(_ground(entries), nodes)
+    at = np.isin(row.numbering.nodes, nodes)
+    asked = np.abs(row.force(*motion.at(row.touched))[at])  # not a number where it is not known
+    if asked.size and asked.max() > _PULLS * most:
+        node = row.numbering.nodes[at][asked.max(axis=1).argmax()]
+        told = {"count": len(nodes), "node": row.numbering.table.told(int(node))}
+        entries.warn("operators.dynamics.edges-bare", **told)
 
 
 def _tell_other_matter(entries: Entries) -> None:
