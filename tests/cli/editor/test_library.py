@@ -62,7 +62,9 @@ def test_names_are_those_that_the_language_reads(path):
 def test_a_name_of_a_procedure_is_renamed_wherever_it_is_meant(path):
     """The renamed text is read as the old one was, with another name in the same places."""
     document = Document.of(path.read_text(encoding="utf-8"), path)
-    text, names = document.source.text, document.names
+    names = document.names
+    script = parse(Source(str(path), document.source.text, path))
+    headings = [part for part in parts(script) if isinstance(part, tree.Definition)]
     for first in {o.name: o for o in names.found if o.kind == "parameter"}.values():
         alike = names.alike(first)
         assert {o.name for o in alike} == {first.name}
@@ -71,8 +73,7 @@ def test_a_name_of_a_procedure_is_renamed_wherever_it_is_meant(path):
         assert first in names.definitions(first)
         assert first.name in names.visible(first.scope)
         assert first.name not in names.visible(0)
-        script = parse(Source(str(path), text, path))
-        heading = [n for n in parts(script) if isinstance(n, tree.Definition)][first.scope - 1]
+        heading = headings[first.scope - 1]
         told = [n.span.start for n in parts(heading.body) if isinstance(n, tree.Name)
                 and n.text == first.name]  # fmt: skip
         indices = {i.span.start for n in parts(heading.body) if isinstance(n, tree.Path)
