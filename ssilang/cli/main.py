@@ -201,6 +201,7 @@ def _compile_ahead(source: "Source") -> None:
 
 def _run_options(options: argparse.Namespace) -> "RunOptions":
     from ssilang.cli.run import RunOptions
+    from ssilang.io.atomic import resolved
     from ssilang.language.run.session import Limits
     from ssilang.language.say.errors import SsiError
     from ssilang.system import limit_memory
@@ -210,7 +211,7 @@ def _run_options(options: argparse.Namespace) -> "RunOptions":
         raise SystemExit(USAGE)
     made = RunOptions(
         output_directory=options.out,
-        allowed=[Path(os.path.realpath(p)) for p in options.allow],
+        allowed=[resolved(p) for p in options.allow],
         language=options.lang,
         debug=options.debug,
         quiet=options.quiet,
@@ -279,9 +280,9 @@ def _sweep(options: argparse.Namespace) -> int:
 
 def _warm(options: argparse.Namespace) -> int:
     from ssilang.cli.warm import warm
+    from ssilang.io.atomic import resolved
 
-    allowed = [Path(os.path.realpath(p)) for p in options.allow]
-    return warm(options.files, allowed, options.lang, sys.stdout)
+    return warm(options.files, [resolved(p) for p in options.allow], options.lang, sys.stdout)
 
 
 def _check(options: argparse.Namespace) -> int:

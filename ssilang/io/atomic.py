@@ -115,6 +115,11 @@ def fault_on_windows(name: str) -> Sentence | None:
     return None
 
 
+def resolved(path: Path) -> Path:
+    """The place that a path leads to, through links; `Path.resolve` raises where they go round."""
+    return Path(os.path.realpath(path))
+
+
 def inside(folder: Path, name: str) -> Path | None:
     """The file of this name below a folder; None for one elsewhere, a link that leads out, no file.
 

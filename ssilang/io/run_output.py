@@ -14,7 +14,13 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ssilang.io.atomic import fault_on_windows, names_foreign_drive, portable, write_text
+from ssilang.io.atomic import (
+    fault_on_windows,
+    names_foreign_drive,
+    portable,
+    resolved,
+    write_text,
+)
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.messages.message import Sentence
@@ -195,9 +201,8 @@ class RunOutput:
     _flushed_at: float = 0.0
 
     def __post_init__(self) -> None:
-        places = (self.directory, self.inputs, *self.allowed)  # `resolve` raises if links go round
-        self.directory, self.inputs, *others = (Path(os.path.realpath(p)) for p in places)
-        self.allowed = tuple(others)
+        self.directory, self.inputs = resolved(self.directory), resolved(self.inputs)
+        self.allowed = tuple(map(resolved, self.allowed))
         self.pictures = Pictures(self.directory)
 
     def target(self, name: str) -> Path | None:

@@ -31,6 +31,7 @@ from ssilang.cli.sweeping.table import (
 )
 from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
+from ssilang.io.atomic import resolved
 from ssilang.io.checkpoint import digest_of_file
 from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named, vertical
 from ssilang.io.run_output import link_to
@@ -71,7 +72,7 @@ class SweepOptions:
     @property
     def folder(self) -> Path:
         """Where runs, tables and pictures go."""
-        return Path(os.path.realpath(self.out or Path("results") / f"{self.deck.stem}_sweep"))
+        return resolved(self.out or Path("results") / f"{self.deck.stem}_sweep")
 
 
 _IN_SI = re.compile(r"\bLIRE\b[^;]*\bSI\b", re.IGNORECASE)
@@ -248,7 +249,7 @@ def _tell_motions(cases: Sequence[Case], source: Source, language: str, err: Tex
 
 
 def _task(case: Case, options: SweepOptions, folder: Path) -> Task:
-    allowed = tuple(Path(os.path.realpath(p)) for p in options.allowed)
+    allowed = tuple(map(resolved, options.allowed))
     deck = options.deck.resolve()
     return Task(
         case.number, deck, folder, case.values, allowed, options.language, report=options.report

@@ -1,5 +1,6 @@
 """The families of elements by name, and the quantities of a zone computed through them."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -38,6 +39,8 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
+
+_OTHER = 1e-3  # of a stiffness: what differs more was given otherwise
 
 FAMILIES: dict[str, ElementFamily] = {
     "solid": Solid(),
@@ -111,6 +114,19 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
     values = family.stiffness_values(zone, moduli, parameters)
     made = element_matrices(zone, family.layout(zone), values, "RIGIDITE")
     return replace(made, viscous="VISQ" in parameters)
+
+
+def unlike(given: Iterable[ElementMatrices], zone: Zone, material: CellField) -> float:
+    """How far the stiffness that a zone has is from what a material gives, of its largest entry.
+
+    0. below a thousandth, or where the zone has none or one of another form.
+    """
+    mine = [b.values for b in given if b.zone is zone]
+    own = stiffness(zone, material).values if mine else np.zeros(0)
+    if not mine or mine[0].shape != own.shape or not (most := np.abs(own).max(initial=0.0)):
+        return 0.0
+    off = float(np.abs(sum(mine) - own).max()) / most
+    return off if off > _OTHER else 0.0
 
 
 def viscosity(zone: Zone, material: CellField) -> ElementMatrices:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, MaterialError
+from ssilang.kernel.elements.beams.beam import paired
 from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS
@@ -59,8 +60,7 @@ class EndPoints(PlasticPoints):
 
     def paired(self, full: FloatArray) -> FloatArray:
         """Two thirds of an end's values (m, ...) and one of the other end's."""
-        ends = full.reshape(-1, 2, *full.shape[1:])
-        return ((2 * ends + ends[:, ::-1]) / 3).reshape(full.shape)
+        return paired(full.reshape(-1, 2, *full.shape[1:]), 1).reshape(full.shape)
 
     def stored(self, state: PointState) -> float:
         """Elastic energy of forces that are linear between the ends."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.elements.families import stiffness
+from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
@@ -73,7 +73,6 @@ AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its en
 HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stages sees less
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 FEWEST, WANTED = 3, 20  # steps of a period
-OTHER = 1e-3  # of a joint's stiffness: what differs more was given otherwise
 RESOLVED = 5e-3  # of the largest energy: with four steps a contact some 3 %, with 24 0.15 %
 TURNED, TIPPED = 1.0, 0.2  # rad: of a node; of a body at the end, that joints or stops bear
 HELD = 0.99  # of all mass, on nodes that do not move
@@ -136,12 +135,8 @@ def _joints_of_others(start: Start) -> Told:
     if inputs.model is None or inputs.characteristics is None:
         return
     for zone in joint_zones(inputs.model):
-        given = [b.values for b in inputs.stiffness.blocks if b.zone is zone]
-        own = stiffness(zone, inputs.characteristics).values if given else np.zeros(0)
-        if given and given[0].shape == own.shape and (most := np.abs(own).max(initial=0.0)):
-            off = np.abs(sum(given) - own).max(initial=0.0) / most
-            if off > OTHER:
-                yield "operators.dynamics.joints-of-others", {"off": off}
+        if off := unlike(inputs.stiffness.blocks, zone, inputs.characteristics):
+            yield "operators.dynamics.joints-of-others", {"off": off}
 
 
 def _mass_held(start: Start) -> Told:

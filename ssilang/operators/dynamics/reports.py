@@ -91,7 +91,7 @@ def report(
     if (times := growth(history)) > EXPLODES:
         entries.warn("operators.dynamics.grows-without-end", times=times, added=added)
     lasting = warn_impacts(entries, problem, history)
-    told = lasting or 0.0 if (lasting or 0.0) > CHANGED else 0.0
+    told = lasting is not None and lasting > CHANGED
     # at an impact of relations alone it is off for a step: what lasts is told by itself
     impacts = problem.contact is not None and problem.interface is None and not in_statics
     if impacts and not told and lasting is not None and line["energy_imbalance"]:
@@ -100,8 +100,8 @@ def report(
     if (line["energy_imbalance"] or 0.0) > ENERGY_LIMIT and (told or not impacts):
         causes = [_LOAD_STEPS] if in_statics else _causes(problem, added)
         line["energy_imbalance_from"] = [sentence(c, {}, session.language) for c in causes]
-        line["energy_imbalance_told"] = bool(told)
-        line["energy_imbalance"] = max(line["energy_imbalance"], told)
+        line["energy_imbalance_told"] = told
+        line["energy_imbalance"] = max(line["energy_imbalance"], lasting or 0.0)
 
 
 def growth(history: "History") -> float:

@@ -1,5 +1,6 @@
 """Functions of one number on numbers, lists, curves and fields: ABS SIN EXP LOG ATG ..."""
 
+import math
 from importlib import import_module
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -119,15 +120,16 @@ def _run(name: str, function: Function, value: Any, axis: str | None) -> Any:
     return mapped(function, value)
 
 
+def _is_part_of_pi(number: float) -> bool:
+    parts = number / math.pi * _PARTS
+    return 0.0 < abs(parts) < _MOST_PARTS and abs(parts - round(parts, 2)) <= 1e-11 * abs(parts)
+
+
 def _of_angle(name: str, function: Function, call: Call, value: Any, axis: str | None) -> Any:
     """A function of degrees; numbers that are all short parts of PI were meant in radians."""
-    held = value.values if isinstance(value, ListReel) else value
-    numbers = np.atleast_1d(np.asarray(held, float) if isinstance(held, float | np.ndarray) else 0)
-    parts = numbers[numbers != 0.0] / np.pi * _PARTS
-    off = np.abs(parts - parts.round(2)) > 1e-11 * np.abs(parts)
-    if parts.size and not off.any() and np.abs(parts).max() < _MOST_PARTS:
-        first = float(numbers[numbers != 0.0][0])
-        told = {"name": name, "value": first, "degrees": float(np.degrees(first))}
+    given = value.values[value.values != 0.0] if isinstance(value, ListReel) else [value]
+    if isinstance(value, float | ListReel) and len(given) and all(map(_is_part_of_pi, given)):
+        told = {"name": name, "value": float(given[0]), "degrees": math.degrees(given[0])}
         call.warn("operators.numbers.angle-in-radians", value, **told)
     return _run(name, function, value, axis)
 

@@ -146,6 +146,14 @@ class _LineBeam(ElementFamily):
         return rho * area, rho[:, None] * np.stack([iy + iz, iy, iz], axis=1)
 
 
+def paired(values: FloatArray, axis: int) -> FloatArray:
+    """Two thirds of an end's values and one of the other end's, the ends along an axis.
+
+    So count the values of what is linear between the ends in forces and work.
+    """
+    return (2 * values + np.flip(values, axis)) / 3
+
+
 class Beam(_LineBeam):
     """POUT: cubic deflection; SECY, SECZ add shear flexibility; sections turn with the slope."""
 
@@ -165,8 +173,7 @@ class Beam(_LineBeam):
         shear = [i for i, row in enumerate(kept_rows(zone)) if row in (1, 2)]
         matrix[:, shear] = 0.0
         weights = np.repeat(part.lengths[:, None] / 2, 2, axis=1)
-        # what is linear between the ends works with a third of the other end's
-        return StrainOperator(matrix, weights, (2 * matrix + matrix[:, :, ::-1]) / 3)
+        return StrainOperator(matrix, weights, paired(matrix, 2))
 
     def strain_values(
         self, zone: Zone, displacement: NodeField, parameters: ZoneField

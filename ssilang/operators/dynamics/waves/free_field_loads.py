@@ -1,6 +1,6 @@
 """ZDRM, ZBOR: forces that bring a free field into a mesh, behind the procedures @DRM and @BORDS."""
 
-from ssilang.kernel.elements.families import stiffness
+from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.waves.free_field_forces import (
@@ -29,7 +29,6 @@ from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 _LOWEST = 3  # heights that the elements of the base may have
-_OTHER = 1e-3  # of a stiffness: what differs more was given otherwise
 _PULLS = 0.01  # of the largest force at the edges
 _UNLIKE = 1e-3  # of a motion along a height: that of a wave at an angle
 _UNBALANCED = 0.3  # of the forces of inertia: what damping leaves is less
@@ -95,13 +94,9 @@ def _tell_other_matter(entries: Entries) -> None:
     """Warn of a ground whose matrix has not the parameters that the table gives for it."""
     given, material = entries.needed("RIGI").blocks, entries.get("CARACTERISTIQUES")
     for zone in entries.needed("MODELE").zones if material is not None else ():
-        mine = [b.values for b in given if b.zone is zone]
-        own = stiffness(zone, material).values if mine and not is_joint(zone) else np.zeros(0)
-        if mine and mine[0].shape == own.shape and (most := np.abs(own).max(initial=0.0)):
-            off = np.abs(sum(mine) - own).max(initial=0.0) / most
-            if off > _OTHER:
-                entries.warn("operators.dynamics.ground-of-others", off=100.0 * off)
-                return
+        if not is_joint(zone) and (off := unlike(given, zone, material)):
+            entries.warn("operators.dynamics.ground-of-others", off=100.0 * off)
+            return
 
 
 def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
