@@ -1,5 +1,7 @@
 """AJUSTE against SciPy's least squares and closed forms."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
@@ -113,3 +115,24 @@ def test_further_bounds_are_told_and_left():
     found = [told.session.root.find(n).values for n in "QP"]
     assert np.concatenate(found) == pytest.approx([2.0, 0.7], rel=1e-6)
     assert [w.code for w in told.session.warnings] == ["stdlib.ajuste-more-bounds"]
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.5, 30.0])
+@pytest.mark.parametrize("apart", [1.0, 1e-4])
+def test_a_step_is_the_damped_least_squares_of_columns_of_norm_one(damping, apart):
+    """Against numpy, the columns above a unit matrix; the second may be nearly the first."""
+    columns = [np.array([1.0, 2.0, 3.0, 4.0, 0.5])]
+    columns += [columns[0] + apart * np.array([0.0, 1.0, -1.0, 2.0, 0.0]), np.zeros(5)]
+    columns += [np.array([0.0, 30.0, 0.0, -20.0, 10.0])]
+    side = np.array([1.0, 0.0, 2.0, 5.0, -1.0])
+    norms = np.array([np.linalg.norm(c) or 1.0 for c in columns])
+    unit = np.column_stack(columns) / norms
+    whole = np.vstack([unit, np.sqrt(damping) * np.eye(4)])
+    expected = np.linalg.lstsq(whole, np.concatenate([side, np.zeros(4)]), rcond=None)[0]
+    text = (Path(__file__).parents[2] / "stdlib" / "ajuste.ssi").read_text(encoding="utf-8")
+    given = " ".join(f"C . {k} = {prog(c)} ;" for k, c in enumerate(columns, 1))
+    root = ran(
+        text + f"C = TABL ; {given} D R = AJUSTE_M C 4 {prog(side)} {damping} ;"
+    ).session.root
+    assert root.find("D").values == pytest.approx(expected / norms, rel=1e-6, abs=1e-9)
+    assert root.find("R").values == pytest.approx(side - unit @ expected, rel=1e-6, abs=1e-9)
