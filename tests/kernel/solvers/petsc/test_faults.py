@@ -129,10 +129,13 @@ def test_a_command_that_ends_tells_its_code_and_what_it_printed(fake):
 
 
 def test_a_command_that_only_prints_is_ended_in_time(fake):
-    started = time.monotonic()
-    code, told = refusal(fake("prints"), limit=1.0)
-    assert code == "petsc-late"
-    assert time.monotonic() - started < SOON
+    for limit in (1.0, 4.0, 16.0):  # a busy machine may not have started it in a second
+        started = time.monotonic()
+        code, told = refusal(fake("prints"), limit=limit)
+        assert code == "petsc-late"
+        assert time.monotonic() - started < SOON
+        if "garbage" in told:
+            break
     assert "garbage" in told
     assert "\x1b" not in told
     assert "\x07" not in told
