@@ -84,8 +84,7 @@ PARTS = {
     "mixed in the plane": "Z = MANU 'QUA4' P4 P9 P2 P3 ; A = (MANU 'TRI3' P4 P3 P5) ET Z ; "
     "L = MANU 'SEG2' P7 P1 ; V = L ET P9 ET P2 ; E = DIFF A A ;",
     "mixed in space": "Z = MANU 'PYR5' P6 P3 P5 P4 P9 ; A = (MANU 'PRI6' P1 P10 P7 P3 P11 P5) ET "
-    "Z ; "
-    "L = MANU 'TRI3' P3 P5 P4 ; V = L ET P9 ET P2 ; E = DIFF A A ;",
+    "Z ; L = MANU 'TRI3' P3 P5 P4 ; V = L ET P9 ET P2 ; E = DIFF A A ;",
 }
 TITLES = ("S", "Z", "A", "L", "V", "P9", "P2")
 
