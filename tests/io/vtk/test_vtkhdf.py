@@ -150,24 +150,6 @@ def test_every_step_is_found_however_many_there_are(tmp_path: Path, count: int) 
         assert step_of(reader, i).point_data["T"].tolist() == [float(i)] * 3
 
 
-def test_other_programs_may_go_on_with_the_arrays(tmp_path: Path) -> None:
-    h5py = pytest.importorskip("h5py", reason="h5py is not installed")
-    mesh = bar()
-    with VtkHdfWriter(tmp_path / "p") as series:
-        for i in range(3):
-            series.write(1.0 * i, mesh, {"": moving(mesh, i)})
-    with h5py.File(tmp_path / "p.vtkhdf", "r+") as file:
-        arrays = []
-        file.visititems(lambda _, item: arrays.append(item))
-        growing = [a for a in arrays if getattr(a, "chunks", None)]
-        assert [a.name.split("/")[-1] for a in growing] == ["TEMP", "displacement"]
-        for array in growing:
-            before = array[:]
-            array.resize(len(before) + 2, axis=0)
-            array[-2:] = 7
-            np.testing.assert_array_equal(array[:-2], before)
-
-
 def test_pyvista_reads_the_file_by_its_name(tmp_path: Path) -> None:
     mesh = bar()
     with VtkHdfWriter(tmp_path / "p.vtu") as series:
