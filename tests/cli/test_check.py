@@ -242,6 +242,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "DEBP P A*ENTIER ; SI (A EGA 2) ; QUIT B ; FINSI ; FINP ; REPE B 4 ; P &B ; FIN B ;",
         "REPE B 4 ; REPE C 2 ; SI (&C EGA 2) ; quit B ; FINSI ; FIN C ; FIN B ;",
         "L = MOTS 'CARA' 'YUON' ; MESS L (MOTS MATE YUON) ;",
+        "DEBP P S ; M = MODE S 'MECANIQUE' 'ELASTIQUE' CONS CO2 ; FINP M ; X = P 1 ; MESS X ;",
         "DEBP AUTOPILO A*CHPOINT ; FINP 1. ;",
         "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
         f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
