@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import is_macro, joint_zones
+from ssilang.kernel.interface.interface import is_macro, joint_zones, same_zone
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
@@ -130,11 +130,20 @@ def _not_conserved(start: Start) -> Told:
 
 
 def _joints_of_others(start: Start) -> Told:
-    """Joints whose matrix in RIGI has not the parameters that CARACTERISTIQUES give their law."""
+    """Joints of RIGI with other parameters than CARACTERISTIQUES give their law, or of other laws.
+
+    The law of MODELE takes the place of all that stands in RIGI on its cells.
+    """
     inputs = start.inputs
     if inputs.model is None or inputs.characteristics is None:
         return
-    for zone in joint_zones(inputs.model):
+    zones = joint_zones(inputs.model)
+    for block in (b for b in inputs.stiffness.blocks if b.zone is not None):
+        of = [z.behaviour for z in zones if same_zone(block.zone, z)]
+        if of and block.zone is not None and block.zone.behaviour not in of:
+            told = {"node": block.table.told(int(block.nodes[0, 0])), "count": len(block.nodes)}
+            yield "operators.dynamics.springs-replaced", told
+    for zone in zones:
         if off := unlike(inputs.stiffness.blocks, zone, inputs.characteristics):
             yield "operators.dynamics.joints-of-others", {"off": off}
 
