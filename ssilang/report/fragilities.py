@@ -340,8 +340,8 @@ def _notes(sweep: Sweep, fits: list[Fit], told: Teller) -> Iterator[str]:
                 yield told("report.fragility-apart", run=run, name=name, ratio=ratio)
             judged = [name, *(fit.limit.figure for fit in fits)]
             done = [row for row in sweep.rows if row["exit_code"] == "0"]
-            for _, swept in unscaled(sweep.folder, done, sweep.swept, judged, [name]):
-                yield told("report.fragility-still", name=name, swept=swept)
+            for code, data in unscaled(sweep.folder, done, sweep.swept, judged, [name]):
+                yield told(code, **data)
 
 
 def _apart(sweep: Sweep, name: str) -> Iterator[tuple[str, float]]:

@@ -104,7 +104,31 @@ def test_an_intensity_that_a_stiffness_leaves_as_it_was_is_not(tmp_path):
         asked = Asked(read_limits("drift>1"), ["PGA"])
         page = fragility_html(made, fits_of(made, asked), [], TOLD)
         told.append("PGA does not change with AG" in page)
+        assert "PGA changes with AG" not in page
     assert told == [True, False]
+
+
+@together(
+    "drift, peak, told",
+    [("same", 1.0, True), ("same", 0.0, False), ("scaled", 1.0, False), ("scaled", 0.0, False)],
+)
+def test_an_intensity_that_alone_is_scaled_is_told_where_motions_stay(
+    tmp_path, drift, peak, told
+):
+    """A load made before its motion is scaled; not a figure that a linear model leaves the same."""
+    rows = suite()
+    for number, row in enumerate(rows, 1):
+        row["drift"] /= row["AG"] if drift == "same" else 1.0
+        motion = float(row["MOTION"][3:-4]) + 1.0
+        (run := tmp_path / "runs" / f"r{number}").mkdir(parents=True, exist_ok=True)
+        moved = [motion * (1.0 if peak else row["AG"])]
+        summary = {"version": "", "deck": "", "seconds": 1.0, "files": [], "figures": [],
+                   "warnings": [], "errors": [],
+                   "statistics": {"calculations": [{"motions": moved}]}}  # fmt: skip
+        (run / "summary.json").write_text(json.dumps(summary))
+    made = sweep_of(tmp_path, rows)
+    page = fragility_html(made, fits_of(made, Asked(read_limits("drift>1"), ["PGA"])), [], TOLD)
+    assert ("PGA changes with AG, and neither" in page) == told
 
 
 def test_counts_and_cloud_of_known_capacities_and_the_run_that_governs(tmp_path):

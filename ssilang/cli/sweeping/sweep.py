@@ -335,8 +335,7 @@ def _tell_warnings(
     told += [("cli.value-idle", {"name": name}) for name in idle]
     figures = [n for n in columns_of(done) if n not in (*RESERVED, *swept)]
     known = options.intensity or usual_intensities(figures)
-    for name, value in unscaled(options.folder, done, swept, figures, known):
-        told.append(("report.fragility-still", {"name": name, "swept": value}))
+    told += unscaled(options.folder, done, swept, figures, known)
     for code, data in told:
         err.write(sentence(code, data, options.language) + "\n")
 

@@ -67,6 +67,7 @@ if TYPE_CHECKING:
 
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
+NEARLY = 0.02  # the same, where the curve goes on to the last step but one
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
@@ -309,7 +310,8 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         return
     if x[0] > first + slack and abs(y[0]) > NOUGHT * size and abs(y[1] - y[0]) > NOUGHT * size:
         yield "operators.dynamics.load-begins", told | {"value": float(y[0])}
-    if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
+    short = NEARLY if last - x[-1] <= 1.01 * (x[-1] - x[-2]) else NOUGHT
+    if x[-1] < last - slack and min(abs(y[-1]), abs(y[-1] - y[-2])) > short * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
     ends = [0, int(np.abs(y).argmax())]
