@@ -44,6 +44,7 @@ from ssilang.operators.dynamics.standing import (
     ground_twice,
     mass_of_beam,
     mass_of_both,
+    masses_apart,
     matter_amiss,
     out_of_balance,
     rotary_alone,
@@ -61,6 +62,7 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
     from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
@@ -76,6 +78,7 @@ SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load
 FEWEST, WANTED = 3, 20  # steps of a period
 RESOLVED = 5e-3  # of the largest energy: with four steps a contact some 3 %, with 24 0.15 %
 TURNED, TIPPED = 1.0, 0.2  # rad: of a node; of a body at the end, that joints or stops bear
+STEEP = 1.0 / 3.0  # of a bowl's radius, where sine and tangent are 6 % apart
 HELD = 0.99  # of all mass, on nodes that do not move
 OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
@@ -237,7 +240,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
     rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
-    weight_of_part, mass_of_beam,
+    weight_of_part, mass_of_beam, masses_apart,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
@@ -275,6 +278,18 @@ def _turn(problem: Problem, own: BoolArray, kept: IntArray, u: FloatArray) -> fl
     """Rotation (rad) of a body, by the displacements u (n,) of those of its unknowns kept."""
     motions, mine = rigid_motions(problem.numbering, np.zeros(3))[kept], own[kept]
     return float(np.linalg.norm(np.linalg.lstsq(motions[mine], u[mine])[0][3:]))
+
+
+def warn_of_bowls(entries: Entries, joints: Interface | None, track: NodeHistories) -> None:
+    """Warn of pendulums that travel so far that their bowl is steeper than their law has it."""
+    if joints is None or not len(track) or not (joints.codes == LawCode.PENDULUM).any():
+        return
+    ways = np.linalg.norm(track.joints("w")[..., :-1], axis=-1).max(axis=0)
+    radii = joints.parameters[:, Parameter.RAYO]
+    far = (joints.codes == LawCode.PENDULUM) & (ways > STEEP * radii)
+    if far.any():
+        told = {"way": ways[far].max(), "radius": radii[far][ways[far].argmax()]}
+        entries.warn("operators.dynamics.travels-far", **told, share=told["way"] / told["radius"])
 
 
 def warn_of_loads(
