@@ -253,11 +253,10 @@ def amiss(sweep: Sweep, fits: Sequence[Fit]) -> Iterator[Refusal]:
             goes = float(np.corrcoef(np.log(x), np.log(d))[0, 1]) if len(x) > 1 else 0.0
         told = {"limit": str(limit), "figure": limit.figure, "intensity": name}
         known = [fit.problem.code for fit in (counts, cloud) if fit.problem is not None]
-        if len(d) and np.log(_FAR) < off.min() < np.inf and counts.exceeded in (0, counts.runs):
-            if limit.value > 0.0 and (goes < 0.0) == limit.below:
-                yield Refusal("report.fragility-far", **told, nearest=float(d[off.argmin()]))
-                continue
-        if len(d) and len(known) == 2 and not {*known} & {*_TELL_LEVEL}:
+        far = limit.value > 0.0 and np.log(_FAR) < off.min(initial=np.inf) < np.inf
+        if far and counts.exceeded in (0, counts.runs) and (goes < 0.0) == limit.below:
+            yield Refusal("report.fragility-far", **told, nearest=float(d[off.argmin()]))
+        elif len(d) and len(known) == 2 and not {*known} & {*_TELL_LEVEL}:
             turned = str(replace(limit, below=not limit.below)) * (abs(goes) > _GOES)
             turned *= (goes < 0.0) != limit.below
             told |= {"reason": counts.problem, "turned": turned, "grows": goes > 0.0}

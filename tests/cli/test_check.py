@@ -183,7 +183,7 @@ TURNED = CONES.replace("DIME 2", "DIME 3").replace("0. 0.", "0. 0. 0.")
     ("text", "code"),
     [
         (CONES + "MESS (APPU 'UX' (K . 'UY') P) ;", "spring-of-another"),
-        (CONES + "C = (AMOR 'UY' K . 'UY' P) ET (AMOR 'RZ' K . 'UX' P) ; MESS C ;", "spring-of-another"),
+        (CONES + "MESS ((AMOR 'UY' K . 'UY' P) ET (AMOR 'RZ' K . 'UX' P)) ;", "spring-of-another"),
         (TURNED + "MESS (APPU 'UZ' (K . 'UX') P) ;", "spring-of-another"),
         (CONES + "K . 'FREQUENCE' = 2. * PI * 1.5 ; MESS K ;", "pulsation-for-frequency"),
         (CONES + "K . 'FREQUENCES' = PI * 2 * (PROG 1. 2.) ; MESS K ;", "pulsation-for-frequency"),

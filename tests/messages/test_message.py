@@ -52,8 +52,8 @@ def test_no_digit_that_is_told_hangs_on_rounding(spec, value):
 
 @pytest.mark.parametrize(
     ("spec", "count", "end"),
-    [("", 3000, "n19, ... (+2980)"), (":and", 61, "n19, ... (+41)"), (":words", 99, "n19 ... (+79)"),
-     (":and", 60, "n58 and n59"), ("", 60, "n58, n59")],
+    [("", 3000, "n19, ... (+2980)"), (":and", 61, "n19, ... (+41)"),
+     (":words", 99, "n19 ... (+79)"), (":and", 60, "n58 and n59"), ("", 60, "n58, n59")],
 )  # fmt: skip
 def test_long_collections_are_told_by_their_first_words_and_how_many_more(spec, count, end):
     told = filled(f"{{names{spec}}}", {"names": [f"n{k}" for k in range(count)]}, "en")

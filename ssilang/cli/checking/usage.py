@@ -147,8 +147,8 @@ def crossed_words(script: tree.Script, *, plane: bool) -> Iterator[SsiError]:
             first = items[0].text[:4] if items and isinstance(items[0], tree.Name) else ""
             named: list[str] = []
             for item in items if first in _NODAL else ():
-                of = item.items[0] if isinstance(item, tree.Paren) and len(item.items) == 1 else item
-                last = of.indices[-1] if isinstance(of, tree.Path) else None
+                (of, *more) = item.items if isinstance(item, tree.Paren) else (item,)
+                last = of.indices[-1] if isinstance(of, tree.Path) and not more else None
                 other = last.text.upper() if isinstance(last, tree.Quoted) else ""
                 if isinstance(item, tree.Quoted) and item.text.upper() in _WAYS:
                     named.append(item.text.upper())

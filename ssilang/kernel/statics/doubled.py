@@ -93,7 +93,7 @@ def idle_nodes(blocks: Iterable[ElementMatrices], matrix: Matrix) -> IntArray:
 
 
 def stops_held(matrix: Matrix) -> IntArray:
-    """Nodes (n,) of one-sided conditions that others hold both ways, all of one BLOQ along a way."""
+    """Nodes (n,) of one-sided conditions that others hold both ways, all of a BLOQ along a way."""
     terms, found = terms_of(matrix), [np.zeros(0, np.int64)]
     both = terms.alone & (terms.sense == 0)
     held = {*zip(terms.nodes[both].tolist(), terms.names[both].tolist(), strict=True)}

@@ -216,7 +216,7 @@ def masses_apart(start: Start) -> Told:
     alone = (m > 0.0) & (k > 0.0) & (abs(problem.K).sum(axis=1) == k)
     for tie in (*ties, *(x.G for x in [problem.contact] if x)):
         alone &= abs(tie).sum(axis=0) == 0.0
-    for axis in np.flatnonzero(start.shaking.any(axis=1)[:up]):
+    for axis in np.flatnonzero(np.abs(start.shaking[:up]).sum(axis=1)):
         rows = np.flatnonzero(alone & (numbering.codes == numbering.code(start.axes[axis])))
         places = points[numbering.nodes[rows]].round(6)
         for plan in np.unique(places[:, :up], axis=0):
