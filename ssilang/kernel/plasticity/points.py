@@ -212,12 +212,6 @@ def is_plastic(zone: Zone) -> bool:
     return family != "joint" and plastic_law(zone.behaviour) is not None
 
 
-def variable_names(zone: Zone) -> tuple[str, ...]:
-    """Internal variables of the plastic law of a zone of bodies, none without one."""
-    law = plastic_law(zone.behaviour) if is_plastic(zone) else None
-    return () if law is None else law.variables
-
-
 def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
     """Zones of bodies with a plastic law."""
     zones = () if model is None else model.zones

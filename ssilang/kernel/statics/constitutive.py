@@ -24,7 +24,8 @@ from ssilang.kernel.interface.laws.law_table import law_of, shown_variables, sta
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.plasticity.layered_points import is_layered
+from ssilang.kernel.materials.plastic.laws import plastic_law
+from ssilang.kernel.plasticity.layered_points import STRESSES, is_layered
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
@@ -51,6 +52,15 @@ def has_law(zone: Zone) -> bool:
     return (is_joint(zone) and not law_of(zone.behaviour).linear) or (
         not is_joint(zone) and is_plastic(zone)
     )
+
+
+def variable_names(zone: Zone) -> tuple[str, ...]:
+    """Internal variables that results of a zone hold, none without a law."""
+    if is_joint(zone):
+        state = np.zeros(N_STATE)
+        return tuple(shown_variables(law_of(zone.behaviour), state, len(component_order(zone))))
+    law = plastic_law(zone.behaviour) if is_plastic(zone) else None
+    return () if law is None else (*law.variables, *(STRESSES if is_layered(zone) else ()))
 
 
 def respond(

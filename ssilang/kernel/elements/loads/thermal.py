@@ -189,7 +189,13 @@ def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) 
         T = alpha[..., None, None] * np.eye(3)
     else:
         axes = material_axes(parameters, "STRESSES")
-        along = np.stack([a * rise for a in _rates_along_axes(zone, parameters)], axis=-1)
+        rates = np.zeros((*rise.shape, 3, 3))
+        for i, rate in enumerate(_rates_along_axes(zone, parameters)):
+            rates[..., i, i] = rate
+        if symmetry_of(zone) == "ANISOTROPE":
+            for i, j in ((0, 1), (0, 2), (1, 2)):  # angles of shear
+                angle = parameters.at(f"AL{i + 1}{j + 1}", "STRESSES", 0.0)
+                rates[..., i, j] = rates[..., j, i] = angle / 2
         axes = np.broadcast_to(axes, (*rise.shape, 3, 3))
-        T = np.einsum("cpki,cpk,cpkj->cpij", axes, along, axes)
+        T = np.einsum("cpki,cp,cpkl,cplj->cpij", axes, rise, rates, axes)
     return as_components(T, n_strains, strains=True)
