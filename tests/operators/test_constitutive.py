@@ -355,3 +355,26 @@ def test_variables_of_layers_are_named_by_the_model(found):
     )
     names, shown = found(script, "V", "W")
     assert list(names.values) == list(shown.values) == ["EPSE", "SMSS", "SMTT", "SMST"]
+
+
+@pytest.mark.parametrize(("duration", "age"), [(3.0, 1.0), (0.5, 0.5)])
+def test_creep_answers_over_the_time_between_two_states(found, duration, age):
+    rate, young = 1e-6, 1e3
+    script = (
+        BAR.split("M = MODE")[0] + "M = MODE L MECANIQUE ELASTIQUE FLUAGE NORTON BARR ; "
+        f"A = MATE M 'YOUN' {young} 'NU' 0. 'AF1' {rate} 'AF2' 2. 'AF3' {age} 'SECT' 3. ; "
+        "D0 = MANU 'CHML' M 'TEMP' 1. 'TYPE' 'SCALAIRE' 'STRESSES' ; "
+        f"D1 = MANU 'CHML' M 'TEMP' {1 + duration} 'TYPE' 'SCALAIRE' 'STRESSES' ; "
+        "S0 = MANU 'CHML' M 'EFFX' 60. 'TYPE' 'CONTRAINTES' 'STRESSES' ; V0 = ZERO M 'VARINTER' ; "
+        "E0 = ZERO M 'DEFORMATIONS' ; C = COMP M (A ET S0 ET V0 ET E0 ET D0) (A ET E0 ET D1) ; "
+        f"K = KTAN M S0 V0 A 'DT' {duration} ; "
+    )
+    c, k = found(script, "C", "K")
+    stress, crept = component(c, "EFFX") / 3.0, component(c, "EPSE")
+    # held: what the stress loses the creep has gained, by the law of the stress at the end
+    np.testing.assert_allclose(crept, rate * stress**2 * duration**age, rtol=1e-9)
+    np.testing.assert_allclose(20.0 - stress, young * crept, rtol=1e-9)
+    assert crept[0] > 1e-4
+    slope = 2 * rate * stress[0] * duration**age
+    top = np.abs(matrix(k)).max()
+    assert top == pytest.approx(3.0 * young / (1 + young * slope), rel=1e-9)

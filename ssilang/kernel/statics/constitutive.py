@@ -43,8 +43,8 @@ class Answer:
     symmetric: bool = True  # whether the tangent is symmetric whatever the state
 
 
-Law = Callable[[Zone, CellField, FloatArray, ZoneField, FloatArray], Answer]
-"""Answer from the zone, parameters, stress at the start, variables there, step of strain."""
+Law = Callable[[Zone, CellField, FloatArray, ZoneField, FloatArray, float], Answer]
+"""Answer from the zone, parameters, stress at the start, variables there, step of strain, time."""
 
 
 def has_law(zone: Zone) -> bool:
@@ -69,6 +69,7 @@ def respond(
     stress: FloatArray,
     variables: ZoneField,
     step: FloatArray,
+    duration: float | None = None,
 ) -> Answer:
     """The law of a zone over a step.
 
@@ -80,18 +81,20 @@ def respond(
         Internal variables at the start; those absent are zero.
     step : array (n_cells, n_strains, n_points)
         Increment of strain (of jump, for joints).
+    duration : float, optional
+        Time that the step takes: what creeps needs it.
     """
     _no_fibres(zone)
+    if "FLUAGE" in zone.behaviour and duration is None:
+        raise FieldError("kernel.statics.answer-law-creep-depends")
     law = _joint if is_joint(zone) else _plastic if is_plastic(zone) else _elastic
-    return law(zone, material, stress, variables, step)
+    return law(zone, material, stress, variables, step, duration or 0.0)
 
 
 def _no_fibres(zone: Zone) -> None:
     """Refuse yielding beams of fibres: their strains say nothing of those of their fibres."""
     if "SECTION" in zone.behaviour and is_plastic(zone):
         raise FieldError("kernel.statics.beams-sections-fibres-no")
-    if "FLUAGE" in zone.behaviour:
-        raise FieldError("kernel.statics.answer-law-creep-depends")
     if is_plastic(zone) and (is_layered(zone) or zone.element in ("COQ3", "COQ6", "COQ8")):
         raise FieldError("kernel.statics.plastic-shells-no-law", element=zone.element)
 
@@ -112,7 +115,7 @@ def probing_step(
         step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
         step[:, : joints.dimension] = joints.named(joints.jumps(trial))
         return step
-    if not is_plastic(zone):
+    if not is_plastic(zone) or "FLUAGE" in zone.behaviour:
         return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
     points = plastic_points(zone, material)
     raised = section_stress(points, stress) * precision
@@ -131,7 +134,12 @@ def elastic_moduli(zone: Zone, parameters: ZoneField) -> FloatArray:
 
 
 def _elastic(
-    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+    zone: Zone,
+    material: CellField,
+    stress: FloatArray,
+    variables: ZoneField,
+    step: FloatArray,
+    duration: float,
 ) -> Answer:
     D = elastic_moduli(zone, zone_field(zone, material))
     return Answer(stress + apply_moduli(D, step), {}, {}, D)
@@ -147,13 +155,20 @@ def section_stress(points: PlasticPoints, stress: FloatArray) -> FloatArray:
 
 
 def _plastic(
-    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+    zone: Zone,
+    material: CellField,
+    stress: FloatArray,
+    variables: ZoneField,
+    step: FloatArray,
+    duration: float,
 ) -> Answer:
     points = plastic_points(zone, material)
     n, p = points.weights.shape
     before = section_stress(points, stress)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
-    found, whole = points.respond(before, points.spread(step), kept.reshape(n * p, -1))
+    found, whole = points.respond(
+        before, points.spread(step), kept.reshape(n * p, -1), duration
+    )
     elastic = np.einsum("mij,mj->mi", points.parameters.compliance, found.stress - before)
     plastic = points.gathered(whole - elastic)
     chosen = np.array(points.components)
@@ -241,13 +256,18 @@ def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: in
 
 
 def _joint(
-    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+    zone: Zone,
+    material: CellField,
+    stress: FloatArray,
+    variables: ZoneField,
+    step: FloatArray,
+    duration: float,
 ) -> Answer:
     law, d = law_of(zone.behaviour), None
     if law.macro and (zone_field(zone, material).at("COHE", "STRESSES", 0.0) > 0.0).any():
         raise MaterialError("kernel.statics.ground-is-not-at-a-point")
     if law.linear or law.macro:
-        return _elastic(zone, material, stress, variables, step)
+        return _elastic(zone, material, stress, variables, step, duration)
     if law.two_points:  # jumps do not follow from forces where the slider has moved
         raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
