@@ -108,7 +108,7 @@ def probing_step(
     where that is a tension), elastically: the law's tangent over it is the one of the state.
     """
     _no_fibres(zone)
-    if is_joint(zone):
+    if is_joint(zone) and not law_of(zone.behaviour).linear:
         joints = joint_points(zone, material)
         trial = joints.local(stress) * precision
         trial[:, -1] = np.maximum(trial[:, -1], 0.0)

@@ -45,7 +45,7 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
 
 
 def refuse_expanding(joints: list[Zone], material: CellField | None) -> None:
-    """Refuse joints that expand where temperatures load a model in time.
+    """Refuse joints with a law that expand where temperatures load a model in time.
 
     Raises
     ------
