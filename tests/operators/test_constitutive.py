@@ -378,3 +378,35 @@ def test_creep_answers_over_the_time_between_two_states(found, duration, age):
     slope = 2 * rate * stress[0] * duration**age
     top = np.abs(matrix(k)).max()
     assert top == pytest.approx(3.0 * young / (1 + young * slope), rel=1e-9)
+
+
+@pytest.mark.parametrize(("element", "cell"), [("COQ8", "QUA8"), ("COQ6", "TRI6")])
+def test_thick_shells_that_yield_answer_point_by_point_as_in_time(found, element, cell):
+    script = (
+        f"OPTI DIME 3 ELEM {cell} ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. .3) ; "
+        f"M = MODE S MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE {element} ; "
+        "A = MATE M 'YOUN' 2.E3 'NU' .3 'SIGY' 1. 'H' 300. 'EPAI' .2 ; X = COOR 1 S ; "
+        "U = (NOMC 'UX' (2.E-3 * X) 'NATU' 'DIFFUS') ET (NOMC 'UZ' (3.E-3 * X * X) 'NATU' 'DIFFUS')"
+        " ET (NOMC 'RY' (-1.E-3 * X) 'NATU' 'DIFFUS') ; "
+        + ZEROS
+        + "BX = BLOQ 'UX' S ; BZ = BLOQ 'UZ' S ; BR = BLOQ 'RY' S ; "
+        "D = (DEPI BX (EXCO 'UX' U 'UX')) ET (DEPI BZ (EXCO 'UZ' U 'UZ')) ET "
+        "(DEPI BR (EXCO 'RY' U 'RY')) ; "
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'TEMPS_CALCULES' = PROG 1. ;"
+        " T . 'BLOCAGES_MECANIQUES' = BX ET BZ ET BR ET (BLOQ 'UY' 'RX' 'RZ' S) ; "
+        "T . 'CHARGEMENT' = CHAR 'DIMP' D (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; PASAPAS T ; "
+        "C = COMP M (A ET Z) (A ET (EPSI M U A)) ; S1 = T . 'CONTRAINTES' . 1 ; "
+        "LC = EXTR S1 'COMP' ; LV = EXTR M 'VARI' ; S2 = EXCO LC C LC ; V2 = EXCO LV C LV ; "
+        "E1 = MAXI 'ABS' (S1 - S2) ; E0 = MAXI 'ABS' (EXCO 'SMSN' S1) ; "
+        "S3 V3 E3 = ECOU M S2 V2 (EPSI M (1.E-5 * U) A) A ; K = KTAN M S2 V2 A ; "
+        "F = (BSIG M S3 A) - (BSIG M S2 A) ; W = 1.E-5 * U ; G = RIGI M A ; "
+        "X1 = MAXI (F - (K * W)) 'ABS' ; X2 = MAXI F 'ABS' ; X3 = MAXI (F - (G * W)) 'ABS' ; "
+        "K0 = KTAN M S0 V0 A ; X4 = MAXI ((K0 * U) - (G * U)) 'ABS' ; X5 = MAXI (G * U) 'ABS' ; "
+    )
+    names = ("E1", "E0", "X1", "X2", "X3", "X4", "X5")
+    off, shear, error, size, elastic, unlike, whole = found(script, *names)
+    assert shear > 0.1
+    assert off < 1e-9
+    assert unlike < 1e-9 * whole
+    assert error < 5e-3 * size
+    assert elastic > 0.1 * size

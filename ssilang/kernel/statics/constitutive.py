@@ -95,7 +95,7 @@ def _no_fibres(zone: Zone) -> None:
     """Refuse yielding beams of fibres: their strains say nothing of those of their fibres."""
     if "SECTION" in zone.behaviour and is_plastic(zone):
         raise FieldError("kernel.statics.beams-sections-fibres-no")
-    if is_plastic(zone) and (is_layered(zone) or zone.element in ("COQ3", "COQ6", "COQ8")):
+    if is_plastic(zone) and (is_layered(zone) or zone.element == "COQ3"):
         raise FieldError("kernel.statics.plastic-shells-no-law", element=zone.element)
 
 
@@ -119,7 +119,8 @@ def probing_step(
         return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
     points = plastic_points(zone, material)
     raised = section_stress(points, stress) * precision
-    return points.gathered(np.einsum("mij,mj->mi", points.parameters.compliance, raised))
+    strain = np.einsum("mij,mj->mi", points.parameters.compliance, raised) / points.roots
+    return points.gathered(strain)
 
 
 # ---- elasticity -----------------------------------------------------------------------------
@@ -151,7 +152,7 @@ def _elastic(
 def section_stress(points: PlasticPoints, stress: FloatArray) -> FloatArray:
     """Stress tensors (m, 6) of a zone's stresses (forces in bars)."""
     own = stress if points.section is None else stress / points.section[:, None]
-    return points.spread(own)
+    return points.spread(own) / points.roots
 
 
 def _plastic(
@@ -167,13 +168,14 @@ def _plastic(
     before = section_stress(points, stress)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
     found, whole = points.respond(
-        before, points.spread(step), kept.reshape(n * p, -1), duration
+        before, points.spread(step) * points.roots, kept.reshape(n * p, -1), duration
     )
     elastic = np.einsum("mij,mj->mi", points.parameters.compliance, found.stress - before)
-    plastic = points.gathered(whole - elastic)
+    plastic = points.gathered((whole - elastic) / points.roots)
     chosen = np.array(points.components)
-    tangent = found.tangent[:, chosen[:, None], chosen[None, :]].reshape(n, p, *step.shape[1:2] * 2)
-    after = points.gathered(found.stress)
+    whole_tangent = found.tangent * np.outer(points.roots, points.roots)
+    tangent = whole_tangent[:, chosen[:, None], chosen[None, :]].reshape(n, p, *step.shape[1:2] * 2)
+    after = points.gathered(found.stress * points.roots)
     if points.section is not None:
         after, tangent = after * points.section[:, None], tangent * points.section[..., None, None]
     inner = found.variables.reshape(n, p, -1)
