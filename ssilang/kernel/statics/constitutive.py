@@ -4,7 +4,7 @@ end of a step to stresses, internal variables and tangent moduli.
 One table of families of laws serves COMP, ECOU, KTAN, HOTA: elastic, plastic bodies, joints.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,10 +41,6 @@ class Answer:
     inelastic: Variables  # (n_cells, n_points) each: step of inelastic strain
     tangent: FloatArray  # (n_cells, n_points, n_stresses, n_strains)
     symmetric: bool = True  # whether the tangent is symmetric whatever the state
-
-
-Law = Callable[[Zone, CellField, FloatArray, ZoneField, FloatArray, float], Answer]
-"""Answer from the zone, parameters, stress at the start, variables there, step of strain, time."""
 
 
 def has_law(zone: Zone) -> bool:
@@ -87,8 +83,10 @@ def respond(
     _no_fibres(zone)
     if "FLUAGE" in zone.behaviour and duration is None:
         raise FieldError("kernel.statics.answer-law-creep-depends")
-    law = _joint if is_joint(zone) else _plastic if is_plastic(zone) else _elastic
-    return law(zone, material, stress, variables, step, duration or 0.0)
+    if is_plastic(zone):
+        return _plastic(zone, material, (stress, step), variables, duration or 0.0)
+    law = _joint if is_joint(zone) else _elastic
+    return law(zone, material, stress, variables, step)
 
 
 def _no_fibres(zone: Zone) -> None:
@@ -135,12 +133,7 @@ def elastic_moduli(zone: Zone, parameters: ZoneField) -> FloatArray:
 
 
 def _elastic(
-    zone: Zone,
-    material: CellField,
-    stress: FloatArray,
-    variables: ZoneField,
-    step: FloatArray,
-    duration: float,
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
 ) -> Answer:
     D = elastic_moduli(zone, zone_field(zone, material))
     return Answer(stress + apply_moduli(D, step), {}, {}, D)
@@ -158,12 +151,11 @@ def section_stress(points: PlasticPoints, stress: FloatArray) -> FloatArray:
 def _plastic(
     zone: Zone,
     material: CellField,
-    stress: FloatArray,
+    given: tuple[FloatArray, FloatArray],
     variables: ZoneField,
-    step: FloatArray,
     duration: float,
 ) -> Answer:
-    points = plastic_points(zone, material)
+    (stress, step), points = given, plastic_points(zone, material)
     n, p = points.weights.shape
     before = section_stress(points, stress)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
@@ -258,18 +250,13 @@ def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: in
 
 
 def _joint(
-    zone: Zone,
-    material: CellField,
-    stress: FloatArray,
-    variables: ZoneField,
-    step: FloatArray,
-    duration: float,
+    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
 ) -> Answer:
     law, d = law_of(zone.behaviour), None
     if law.macro and (zone_field(zone, material).at("COHE", "STRESSES", 0.0) > 0.0).any():
         raise MaterialError("kernel.statics.ground-is-not-at-a-point")
     if law.linear or law.macro:
-        return _elastic(zone, material, stress, variables, step, duration)
+        return _elastic(zone, material, stress, variables, step)
     if law.two_points:  # jumps do not follow from forces where the slider has moved
         raise FieldError("kernel.statics.joints-law-no-criterion", element=zone.element)
     points = joint_points(zone, material)
