@@ -22,6 +22,11 @@ JOINT_RATES = {
     "CXX": ("ALQN",), "CXY": ("ALQ1",), "CXZ": ("ALQS", "ALQ2"),
 }  # fmt: skip
 """Jumps of a joint that temperature makes, and their coefficients (m/K, 1/K), in 2D and 3D."""
+FULL_RATES = {
+    "EXX": ("ALP1",), "GXY": ("ALP2",), "GXZ": ("ALP3",),
+    "CXX": ("ALQ1",), "CXY": ("ALQ2",), "CXZ": ("ALQ3",),
+}  # fmt: skip
+"""Those of anisotropic joints of two points, in the order of their moduli."""
 SKINS = ("TINF", "TSUP")
 """Temperatures of a shell's lower and upper skin, beside that of its middle, T."""
 
@@ -88,8 +93,9 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
             raise MaterialError("kernel.elements.thermal-expansion-sections-fibres")
         return values
     if kind == "joint":
+        known = FULL_RATES if "ANISOTROPE" in zone.behaviour else JOINT_RATES
         for i, name in enumerate(names):
-            rates = JOINT_RATES.get(name, ())
+            rates = known.get(name, ())
             values[:, i] = sum(parameters.at(r, "STRESSES", 0.0) for r in rates) * rise
         return values
     if kind in THIN_SHELLS:
