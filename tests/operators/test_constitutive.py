@@ -81,6 +81,16 @@ def test_tangent_of_a_bar_is_elastic_inside_and_hardening_on_the_surface(found):
     np.testing.assert_allclose(k3, expected, rtol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("law", "given"),
+    [("BETON_BAEL", "'FC' 30."), ("PARFAIT_UNI", "'SIGY' 2. 'H' 0."), ("PARFAIT", "'SIGY' 2.")],
+)
+def test_tangent_of_a_bar_that_bears_nothing_is_its_stiffness(found, law, given):
+    script = BAR.replace("CINEMATIQUE", law).replace("'SIGY' 2. 'H' 250.", given)
+    k0, k1 = map(matrix, found(script + "K0 = RIGI M A ; K1 = KTAN M S0 V0 A ;", "K0", "K1"))
+    np.testing.assert_allclose(k1, k0)
+
+
 LINES = "OPTI DIME 3 MODE TRID ELEM {} ; L = DROI 2 (0. 0. 0.) (1. 2. .5) ; "
 SHELL = LINES.format("TRI3") + "L = TRAN 1 L (0. .3 1.) ; "
 HELD = {
