@@ -106,6 +106,11 @@ class PlasticPoints:
         """Number of points."""
         return self.weights.size
 
+    @property
+    def roots(self) -> FloatArray:
+        """What the law's stresses (6,) are multiplied by in fields, and its strains divided by."""
+        return np.ones(6)
+
     def strains(self, vectors: FloatArray) -> FloatArray:
         """Strains (m, 6) of element vectors (n_cells, n_rows)."""
         n, s, p, _ = self.B.shape
@@ -169,7 +174,7 @@ class PlasticPoints:
 
     def stress_block(self, state: PointState) -> CellFieldBlock:
         """Stresses (forces in bars)."""
-        values = self.gathered(state.stress)
+        values = self.gathered(state.stress * self.roots)
         values = values if self.section is None else values * self.section[:, None]
         return cell_block(
             self.zone, family_of(self.zone).stress_names(self.zone), values, law_support(self.zone)
@@ -183,7 +188,7 @@ class PlasticPoints:
 
     def plastic_block(self, state: PointState) -> CellFieldBlock | None:
         """Plastic strains."""
-        names, values = plastic_strain_names(self.zone), self.gathered(state.plastic)
+        names, values = plastic_strain_names(self.zone), self.gathered(state.plastic / self.roots)
         return cell_block(self.zone, names, values, law_support(self.zone))
 
     def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
@@ -196,13 +201,13 @@ class PlasticPoints:
             values = seen.matrix(names, at)
             if self.section is not None:
                 values = values / self.section[:, None]
-            state = replace(state, stress=self.spread(values))
+            state = replace(state, stress=self.spread(values) / self.roots)
         if any(n in inner for n in self.law.variables):
             kept = inner.matrix(self.law.variables, at).transpose(0, 2, 1)
             state = replace(state, variables=kept.reshape(self.count, -1))
         names = plastic_strain_names(self.zone)
         if any(n in strains for n in names):
-            state = replace(state, plastic=self.spread(strains.matrix(names, at)))
+            state = replace(state, plastic=self.spread(strains.matrix(names, at)) * self.roots)
         return state, known
 
 
@@ -210,12 +215,6 @@ def is_plastic(zone: Zone) -> bool:
     """Whether a zone of bodies has a plastic law."""
     family = ELEMENTS[zone.element].family
     return family != "joint" and plastic_law(zone.behaviour) is not None
-
-
-def variable_names(zone: Zone) -> tuple[str, ...]:
-    """Internal variables of the plastic law of a zone of bodies, none without one."""
-    law = plastic_law(zone.behaviour) if is_plastic(zone) else None
-    return () if law is None else law.variables
 
 
 def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
