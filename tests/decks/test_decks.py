@@ -108,6 +108,8 @@ SMALLER = {
         ("DUREE = 5.", "DUREE = 1.2"),
         ("NA0 = 4 ; NR0 = 3 ; NO0 = 5 ; NZ1 = 2", "NA0 = 3 ; NR0 = 2 ; NO0 = 4 ; NZ1 = 2"),
         ("NZ2 = 4 ; NW0 = 5 ;", "NZ2 = 3 ; NW0 = 4 ;"),
+        ("TLAG = MOUVOIR CHAQ DUR2 KLAG ; DYNAMIC TLAG ;", ""),  # no check looks at it
+        ("(DEFAUT TLAG) (DEFAUT TLCO)", "(DEFAUT TLCO)"),
         ("REPE BA 12 ;", "REPE BA 3 ;"),
         ("(&BA - 7)", "(&BA - 2)"),
     ],
