@@ -113,6 +113,21 @@ def test_the_kernel_of_notebooks(folder: Path, tmp_path: Path) -> None:
     assert ran(folder) == []
 
 
+def test_the_kernel_of_notebooks_once_it_serves(folder: Path) -> None:
+    """Libraries of IPython that do not heed `-P` put the notebook's folder before all others."""
+    if find_spec("ipykernel") is None:
+        pytest.skip("ipykernel is not installed")
+    code = (
+        "import sys; sys.path.remove(''); from ipykernel.kernelapp import IPKernelApp as App; "
+        "from importlib.util import find_spec; App.start = lambda app: "
+        "print(find_spec('gmsh'), file=open('found.txt', 'w')); "
+        "from ssilang.jupyter.__main__ import main; main(['-f', 'made.json'])"
+    )
+    done = start(folder, sys.executable, "-c", code)
+    assert (folder / "found.txt").is_file(), done.stderr
+    assert str(folder) not in (folder / "found.txt").read_text()
+
+
 def test_the_second_compiler(folder: Path) -> None:
     """It is told the paths of the run; an empty one would be the working folder."""
     code = (
