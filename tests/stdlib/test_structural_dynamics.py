@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from script_runs import found
+from together import together
 
 TWO_MASSES = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 1. 0. ; P3 = 2. 0. ;"
@@ -82,7 +83,7 @@ def direct(f, force, ground=False):
     return np.linalg.solve(p**2 * M + p * damping + K, -M @ np.ones(2) if ground else force)
 
 
-@pytest.mark.parametrize(("word", "power"), [("DEPL", 0), ("VITE", 1), ("ACCE", 2)])
+@together("word, power", [("DEPL", 0), ("VITE", 1), ("ACCE", 2)])
 def test_transfer_function_to_a_force(word, power):
     e, m = found(
         TWO_MASSES + f"E = TRANSFER T1 (PROG 0.02 0.07) 'UX' P3 'UX' P2 '{word}' "
@@ -122,7 +123,7 @@ SHEAR = np.sqrt(2e8 * 2000)
 PRIMARY = np.sqrt(6e8 * 2000)
 
 
-@pytest.mark.parametrize("element", ["SEG2", "SEG3"])
+@together("element", ["SEG2", "SEG3"])
 def test_dampers_of_a_wall_and_of_a_base(element):
     values = found(
         f"OPTI DIME 2 MODE PLAN DEFO ELEM {element} ;"
