@@ -144,7 +144,8 @@ def crossed_words(script: tree.Script, *, plane: bool) -> Iterator[SsiError]:
     """
     for statement in statements_of(script.body):
         for items in _phrases(statement.items):
-            first = items[0].text[:4] if items and isinstance(items[0], tree.Name) else ""
+            word = (*items, None)[0]
+            first = word.text[:4] if isinstance(word, tree.Name) else ""
             named: list[str] = []
             for item in items if first in _NODAL else ():
                 (of, *more) = item.items if isinstance(item, tree.Paren) else (item,)
@@ -159,11 +160,11 @@ def crossed_words(script: tree.Script, *, plane: bool) -> Iterator[SsiError]:
                     named = []
         target = statement.targets[0] if statement.assigns and statement.targets else None
         index = target.indices[-1] if isinstance(target, tree.Path) else None
-        word = index.text.upper() if isinstance(index, tree.Quoted) else ""
+        entry = index.text.upper() if isinstance(index, tree.Quoted) else ""
         said = "".join(i.span.text for i in statement.items).replace(" ", "").upper()
-        if word in ("FREQUENCE", "FREQUENCES") and _PULSATION.match(said) and "/" not in said:
+        if entry in ("FREQUENCE", "FREQUENCES") and _PULSATION.match(said) and "/" not in said:
             span = statement.items[0].span.to(statement.items[-1].span)
-            yield SsiError("pulsation-for-frequency", span, name=word)
+            yield SsiError("pulsation-for-frequency", span, name=entry)
 
 
 def _sign(item: tree.Item) -> str:
