@@ -11,6 +11,7 @@ from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import doubtful_entries
 from ssilang.cli.checking.usage import (
     bare_names,
+    crossed_words,
     left_to_right,
     misspelt_names,
     stale_names,
@@ -78,6 +79,7 @@ class Checker:
             *stale_names(script),
             *entries,
             *left_to_right(script),
+            *crossed_words(script, plane=scope.dimension == 2),
         ):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
