@@ -358,6 +358,15 @@ def test_what_a_stranger_left_in_a_folder_of_runs_holds_up_nothing(deck, tmp_pat
     assert (tmp_path / "kept").is_file()
 
 
+@pytest.mark.parametrize("name", ["sweep.csv", "sweep.parquet", "report.html"])
+def test_what_cannot_be_written_of_a_sweep_is_told(deck, tmp_path, name):
+    (tmp_path / "out" / name).mkdir(parents=True)
+    options = SweepOptions(deck, ["AG=0.1,0.2", "N=1"], out=tmp_path / "out", jobs=1, report=True)
+    code, _, wrong = run(options)
+    assert code == 2
+    assert f"{name} cannot be written" in wrong
+
+
 @pytest.mark.parametrize("place", ["runs", "runs/AG=0.2_N=1", "histories"])
 def test_folders_of_a_sweep_that_lead_elsewhere_are_refused(deck, tmp_path, place):
     options = SweepOptions(deck, ["AG=0.1,0.2", "N=1"], out=tmp_path / "out", jobs=1)

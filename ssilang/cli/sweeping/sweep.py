@@ -33,6 +33,7 @@ from ssilang.cli.sweeping.table import (
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.atomic import resolved
 from ssilang.io.checkpoint import digest_of_file
+from ssilang.io.errors import OutputError
 from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named, vertical
 from ssilang.io.run_output import link_to
 from ssilang.language.say.diagnostics import render
@@ -93,20 +94,28 @@ def sweep(options: SweepOptions, out: TextIO, err: TextIO) -> int:
     Runs that an earlier sweep of the same folder finished are taken from there.
     """
     try:
-        asked = _asked(options)
-        link = None if options.out else link_to(Path("results") / f"{options.deck.stem}_sweep")
-        if link is not None:
-            raise SsiError("io.folder-is-link", None, path=link)
-        cases = _checked_cases(options, err)
-        try:
-            options.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as fault:
-            told = {"path": options.folder, "reason": system_reason(fault)}
-            raise SsiError("cli.out-no-folder", None, **told) from None
-        rows = run_cases(cases, options, out, err)
+        return _swept(options, out, err)
+    except OutputError as problem:
+        told = SsiError.of(problem, None)
     except SsiError as error:
-        err.write(render(error, options.language) + "\n")
-        return 2
+        told = error
+    err.write(render(told, options.language) + "\n")
+    return 2
+
+
+def _swept(options: SweepOptions, out: TextIO, err: TextIO) -> int:
+    """The exit code of a sweep that could be made."""
+    asked = _asked(options)
+    link = None if options.out else link_to(Path("results") / f"{options.deck.stem}_sweep")
+    if link is not None:
+        raise SsiError("io.folder-is-link", None, path=link)
+    cases = _checked_cases(options, err)
+    try:
+        options.folder.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        told = {"path": options.folder, "reason": system_reason(fault)}
+        raise SsiError("cli.out-no-folder", None, **told) from None
+    rows = run_cases(cases, options, out, err)
     made = write_results(rows, list(cases[0].values), options.folder)
     _tell_left(made, options.language, err)
     _tell_warnings(rows, list(cases[0].values), options, err)
