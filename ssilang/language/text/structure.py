@@ -77,8 +77,9 @@ def structure(statements: list[Statement], source: Source) -> Script:
     crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
     for statement in map(_without_strays, statements):
         word = control_word(statement)
-        if word == "FIN" and len(statement.items) == 1:
-            word = ""  # FIN alone stops the run
+        if word == "FIN" and not any(getattr(i, "items", i) for i in statement.items[1:]):
+            word = ""  # FIN alone stops the run, with empty parentheses, too
+            statement = Statement((), statement.items[:1], statement.span)
         try:
             _STEPS.get(word, _plain)(stack, statement)
         except SsiError as error:
@@ -87,8 +88,8 @@ def structure(statements: list[Statement], source: Source) -> Script:
             late = error.code == "stray-block-end" and str(error.data["word"])[:4] in {
                 c[:4] for c in crossed
             }
-            if error.code == "stray-block-end" and word == "FINS" and len(stack) == 1 and not late:
-                # outside of all blocks it ends nothing
+            if error.code == "stray-block-end" and word == "FINS" and not late:
+                # with no SI open in its block it ends nothing
                 strays.append(SsiError("finsi-without-si", error.span, **error.data))
                 strays[-1].warns = True
             elif not late:

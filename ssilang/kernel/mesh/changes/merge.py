@@ -152,7 +152,9 @@ def regenerate(mesh: Mesh) -> Mesh:
     parts = []
     for block in mesh.blocks:
         parts += [Mesh(mesh.nodes, (b,)) for b in _regenerated(block)]
-    return union(*parts, as_given=True) if parts else mesh
+    made = union(*parts, as_given=True) if parts else mesh
+    same = [b.cell_type for b in made.blocks] == [b.cell_type for b in mesh.blocks]
+    return mesh if same else made
 
 
 def _regenerated(block: CellBlock) -> list[CellBlock]:
