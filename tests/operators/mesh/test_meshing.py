@@ -139,6 +139,32 @@ def test_cells_that_are_sound_keep_their_faces() -> None:
     assert faces[1].single_block().coordinates[..., 2] == pytest.approx(np.ones((2, 4)))
 
 
+@pytest.mark.parametrize(
+    ("cell", "kinds"),
+    [("TRI3", {"PRI6", "PYR5", "TET4"}), ("TRI6", {"PR15", "PY13", "TE10"})],
+)
+def test_prisms_about_an_axis_become_pyramids_and_tetrahedra(cell: str, kinds: set[str]) -> None:
+    base = f"OPTI DIME 3 ELEM {cell} ; O = 0. 0. 0. ; Z = 0. 0. 2. ; L = O D 2 Z ; "
+    base += "S = L TRAN 3 (1.5 0. 0.) ; V = S VOLU 4 'ROTA' 60. O Z ; ELIM V 1.E-6 ; W = REGE V ; "
+    made = value(base + "X = W ;")
+    assert {b.cell_type for b in made.blocks} == kinds
+    assert all(len(set(row)) == len(row) for b in made.blocks for row in b.connectivity.tolist())
+    before, after = value(base + "X = MESU V ;"), value(base + "X = MESU W ;")
+    assert after == pytest.approx(before, rel=1e-3 if cell == "TRI6" else 1e-12)
+    if cell == "TRI3":  # layers of the angle a hold sin(a) times the moment of the section
+        assert after == pytest.approx(4 * np.sin(np.radians(15.0)) * 2 * 1.5**2 / 2)
+    # each cell is the right way round
+    parts = "".join(f"X = X + (ABS (MESU (W ELEM {k}))) ; " for k in kinds)
+    assert value(f"{base} X = 0. ; {parts}") == pytest.approx(after)
+
+
+@pytest.mark.parametrize(("prism", "side"), [("PRI6", "QUA4"), ("PR15", "QUA8")])
+def test_lines_sweep_quadrangles_where_prisms_are_chosen(prism: str, side: str) -> None:
+    base = f"OPTI DIME 3 ELEM {prism} ; O = 0. 0. 0. ; A = 1. 0. 0. ; L = O D 2 A ; "
+    made = value(base + "X = L TRAN 3 (0. 2. 0.) ;").single_block()
+    assert (made.cell_type, len(made)) == (side, 6)
+
+
 def test_six_faces_come_in_any_order() -> None:
     base = SPACE + "".join(f"P{k} = {k % 2} {k // 2 % 2} {k // 4} ; " for k in range(8))
     edges = [(a, a | bit) for bit in (1, 2, 4) for a in range(8) if not a & bit]
