@@ -42,11 +42,12 @@ def output_path(call: Call, name: str) -> Path:
     """
     output = run_output(call.session)
     path = output.target(name)
-    if path is None and (path := _elsewhere(output, name)) is not None:
+    if path is None:
+        path = _elsewhere(output, name)
+        if path is None:
+            raise _forbidden(call, name, output.directory)
         if path not in output.files:
             call.warn("io.folder-not-here", name=name.strip(), file=path.name)
-    if path is None:
-        raise _forbidden(call, name, output.directory)
     if path not in output.files and (reason := fault_on_windows(name)):
         call.warn("io.name-stays-here", name=name.strip(), reason=reason)
     return path

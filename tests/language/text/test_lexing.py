@@ -133,6 +133,10 @@ def test_a_dot_behind_a_blank_wants_an_index():
     assert [e.code for e in told.value.errors] == ["nothing-behind"]
 
 
+def test_an_old_script_begins_with_its_beginning(run):
+    assert run("DEBUT ; OPTI DIME 2 ; a = 1 ;")["a"] == 1
+
+
 @pytest.mark.parametrize("end", ["FIN() ;", "'FIN' ( ) ;"])
 def test_the_end_of_a_script_may_have_empty_parentheses(run, end):
     assert run(f"a = 1 ; {end} a = 2 ;")["a"] == 1
