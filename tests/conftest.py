@@ -20,7 +20,7 @@ from not_tested import pytest_terminal_summary  # noqa: F401
 
 from ssilang import late_imports
 from ssilang.cli.main import SELDOM
-from ssilang.cli.sweeping import trunk, worker
+from ssilang.cli.sweeping import pool, worker
 from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
 from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
@@ -62,7 +62,7 @@ def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
             return row_anyhow(task)
 
     def run_all(tasks: list[Task], jobs: int) -> Iterator[Row]:
-        return trunk.run_all(tasks, jobs) if jobs > 1 else map(row_of, tasks)
+        return pool.run_all(tasks, jobs) if jobs > 1 else map(row_of, tasks)
 
     monkeypatch.setattr("ssilang.cli.sweeping.sweep.run_all", run_all)
     yield

@@ -21,9 +21,8 @@ from hypothesis import strategies as st
 import ssilang
 from ssilang.cli.run import run_text
 from ssilang.cli.sweeping.given import parse_values
-from ssilang.cli.sweeping.pool import run_here
+from ssilang.cli.sweeping.pool import run_grown, run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
-from ssilang.cli.sweeping.trunk import run_grown
 from ssilang.cli.sweeping.worker import Task, row_anyhow
 
 pytestmark = pytest.mark.usefixtures("one_after_the_other")

@@ -16,6 +16,7 @@ from ssilang.cli.sweeping.pool import (
     can_share,
     dask_installed,
     one_thread,
+    run_all,
     run_alone,
     run_on_cluster,
 )
@@ -29,7 +30,6 @@ from ssilang.cli.sweeping.table import (
     write_plain_table,
     write_table,
 )
-from ssilang.cli.sweeping.trunk import run_all
 from ssilang.cli.sweeping.worker import Task, row_of
 from ssilang.io.atomic import resolved
 from ssilang.io.checkpoint import digest_of_file

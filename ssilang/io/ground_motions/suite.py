@@ -8,10 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.cosmos import read_cosmos
-from ssilang.io.ground_motions.databases import read_esm, read_peer
+from ssilang.io.ground_motions.formats import read_cosmos, read_esm, read_peer, read_titled
 from ssilang.io.ground_motions.record import GroundMotion, plain_unit
-from ssilang.io.ground_motions.titled import read_titled
 
 _APART = 5.0
 """Ratio of neighbouring peaks, in order of size, that a suite of one unit hardly has."""

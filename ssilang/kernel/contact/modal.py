@@ -16,12 +16,12 @@ from ssilang.kernel.contact.modal_loop import (
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import newmark_of
-from ssilang.kernel.stepping.problem.equilibrium import (
+from ssilang.kernel.stepping.problem.problem import (
+    Problem,
     keep_reactions,
     react,
     supports_are_still,
 )
-from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.modal.diagonal import Diagonal
 from ssilang.kernel.stepping.rests.modal.modes import Modes, modes_of
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder, Tap, recorder_of

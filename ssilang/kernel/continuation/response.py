@@ -6,8 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.continuation.arc import Branch, Lengths, Point, Tracer
-from ssilang.kernel.continuation.floquet import crossing, unstable
-from ssilang.kernel.continuation.harmonics import Oscillators, derivative_matrix
+from ssilang.kernel.continuation.harmonics import Oscillators, crossing, derivative_matrix, unstable
 
 GAUSS = 12
 

@@ -19,8 +19,7 @@ from ssilang.kernel.elements.family import (
     element_matrices,
 )
 from ssilang.kernel.elements.shells.meridian_shell import MeridianShell
-from ssilang.kernel.elements.shells.mindlin import Mindlin
-from ssilang.kernel.elements.shells.plate import Plate
+from ssilang.kernel.elements.shells.plate import Mindlin, Plate
 from ssilang.kernel.elements.shells.solid_shell import SolidShell
 from ssilang.kernel.elements.shells.thick_shell import ThickShell
 from ssilang.kernel.elements.solids.solid import Incompressible, OnePoint, Solid

@@ -17,7 +17,7 @@ from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.equivalent_section import LEVERS, SHELLS, section_form
+from ssilang.kernel.elements.results.tensors import LEVERS, SHELLS, section_form
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.zone_fields import (
     ZoneField,

@@ -21,8 +21,8 @@ from ssilang.kernel.materials.plastic.response import PointParameters, mises
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
-from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
 from ssilang.kernel.stepping.problem.plausibility import solved
+from ssilang.kernel.stepping.problem.problem import closed_stiffness
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import Bulk, State

@@ -21,7 +21,6 @@ from ssilang.kernel.stepping.choose import (
 )
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.problem.bodies import full_uplift
-from ssilang.kernel.stepping.problem.equilibrium import react
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     closed_at_start,
@@ -30,7 +29,7 @@ from ssilang.kernel.stepping.problem.initial import (
     joint_state,
     with_contact,
 )
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, react
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of

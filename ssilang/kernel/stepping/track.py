@@ -219,7 +219,7 @@ class Balance:
         for part in forces:
             found += part.T
         if p.interface is not None:
-            from ssilang.kernel.stepping.problem.equilibrium import joint_forces
+            from ssilang.kernel.stepping.problem.problem import joint_forces
 
             J = p.interface.J[:, self.at]
             found = found + joint_forces(p, rows.joints.t) @ J if J.nnz else found

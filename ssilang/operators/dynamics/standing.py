@@ -20,10 +20,9 @@ from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.problem.bodies import bodies_of, held
-from ssilang.kernel.stepping.problem.equilibrium import closed_forces
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Body, Start, Told
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, closed_forces
 from ssilang.kernel.waves.shaken import (
     AXES,
     GRAVITIES,

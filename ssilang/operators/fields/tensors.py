@@ -5,7 +5,6 @@ from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results import skin
-from ssilang.kernel.elements.results.equivalent_section import section_equivalent
 from ssilang.kernel.elements.results.integrals import integrals
 from ssilang.kernel.elements.results.structural_gradients import (
     is_structural,
@@ -17,6 +16,7 @@ from ssilang.kernel.elements.results.tensors import (
     components_at_home,
     invariants,
     principal,
+    section_equivalent,
     tensor,
     tresca,
     von_mises,

@@ -1,9 +1,7 @@
 """LIRE: ground motions as evolutions in time."""
 
-from ssilang.io.ground_motions.cosmos import read_cosmos
-from ssilang.io.ground_motions.databases import read_esm, read_peer
+from ssilang.io.ground_motions.formats import read_cosmos, read_esm, read_peer, read_titled
 from ssilang.io.ground_motions.record import G, GroundMotion
-from ssilang.io.ground_motions.titled import read_titled
 from ssilang.operators.files.outputs import file_to_read
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.prelude import *

@@ -3,8 +3,8 @@
 from functools import wraps
 
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.absorbing import absorbing_boundary
 from ssilang.kernel.elements.beams.rotating import corotational
+from ssilang.kernel.elements.boundary import absorbing_boundary
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block

@@ -3,8 +3,7 @@
 from ssilang.kernel.continuation.arc import Branch, Lengths, Tracer
 from ssilang.kernel.continuation.arc import Point as Solution
 from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
-from ssilang.kernel.continuation.floquet import exponents, unstable
-from ssilang.kernel.continuation.harmonics import basis_of
+from ssilang.kernel.continuation.harmonics import basis_of, exponents, unstable
 from ssilang.kernel.matrices import assembly
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer

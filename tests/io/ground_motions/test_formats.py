@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 
 from ssilang.io.errors import InputError
-from ssilang.io.ground_motions.cosmos import read_cosmos
-from ssilang.io.ground_motions.databases import read_esm, read_peer
+from ssilang.io.ground_motions.formats import read_cosmos, read_esm, read_peer, read_titled
 from ssilang.io.ground_motions.record import GroundMotion, plain_unit, quantity_of
 from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named
-from ssilang.io.ground_motions.titled import read_titled
 
 REALS = [0.0] * 33 + [0.02] + [9.0] * 66
 
@@ -52,7 +50,7 @@ def test_the_first_motion_of_a_file(tmp_path, name):
 
 
 def test_two_records_of_one_file(tmp_path):
-    from ssilang.io.ground_motions.cosmos import read_cosmos
+    from ssilang.io.ground_motions.formats import read_cosmos
 
     second = COSMOS.replace("NEAR", "FAR").replace("7 veloc", "5 displ")
     second = second.replace("2.000000E-02", "5.000000E-02")

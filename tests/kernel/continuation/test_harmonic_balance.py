@@ -10,8 +10,14 @@ from scipy.sparse import csr_array
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
-from ssilang.kernel.continuation.floquet import ONE, monodromy, unstable
-from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
+from ssilang.kernel.continuation.harmonics import (
+    ONE,
+    LinkForces,
+    Oscillators,
+    basis_of,
+    monodromy,
+    unstable,
+)
 from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
 from ssilang.kernel.modal import link_laws as law
 from ssilang.kernel.modal.links import Link, link_arrays

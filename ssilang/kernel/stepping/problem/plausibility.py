@@ -23,10 +23,9 @@ from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, translation
-from ssilang.kernel.stepping.problem.equilibrium import closed_forces, closed_stiffness
 from ssilang.kernel.stepping.problem.initial import admissible_velocity
 from ssilang.kernel.stepping.problem.loading import nodal_terms
-from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, closed_forces, closed_stiffness
 from ssilang.kernel.waves.shaken import accelerations, axes_of, shares, translations
 
 MOST_BODIES = 20  # beyond, joints and relations are a material

@@ -8,7 +8,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.follower import pressure_stiffness
 from ssilang.kernel.elements.loads.loads import pipe_pressure, pressure_vectors, shell_load
-from ssilang.kernel.elements.results.equivalent_section import section_equivalent
+from ssilang.kernel.elements.results.tensors import section_equivalent
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of

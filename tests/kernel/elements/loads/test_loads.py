@@ -6,7 +6,7 @@ from together import together
 
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.absorbing import absorbing_boundary
+from ssilang.kernel.elements.boundary import absorbing_boundary
 from ssilang.kernel.elements.loads.loads import body_force, pressure
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField

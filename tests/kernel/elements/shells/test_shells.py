@@ -11,8 +11,8 @@ from scipy.sparse.linalg import spsolve
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.loads import shell_load
-from ssilang.kernel.elements.results.equivalent_section import section_equivalent
 from ssilang.kernel.elements.results.skin import shell_skin, shell_tensor
+from ssilang.kernel.elements.results.tensors import section_equivalent
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone

@@ -18,8 +18,7 @@ from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
-from ssilang.kernel.stepping.problem.equilibrium import keep_reactions, supports_are_still
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, supports_are_still
 from ssilang.kernel.stepping.rests.modal.diagonal import sweep_of
 from ssilang.kernel.stepping.rests.modal.one_mode import Mode, Spring, carry, run_one_mode
 from ssilang.kernel.stepping.rests.modal.springs import OnSprings, run_springs, springs_of

@@ -20,14 +20,13 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
-from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
     initial_acceleration,
     joint_state,
 )
 from ssilang.kernel.stepping.problem.moving_supports import MOST, Columns, MovingSupports
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, closed_stiffness
 from ssilang.kernel.stepping.rests.reduced.damping import States, split
 from ssilang.kernel.stepping.state import Motion
 from ssilang.messages.message import Refusal, Sentence

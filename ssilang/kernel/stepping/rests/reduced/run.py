@@ -20,8 +20,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.keeping import digest
-from ssilang.kernel.stepping.problem.equilibrium import reactions
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, reactions
 from ssilang.kernel.stepping.rests.reduced.basis import (
     Basis,
     NoReduction,

@@ -19,8 +19,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.stepping.effective import effective_matrix, ordering_of
 from ssilang.kernel.stepping.keeping import digest
-from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, closed_stiffness
 from ssilang.kernel.stepping.rests.reduced.basis import (
     HIGHEST_SHIFT,
     Basis,

@@ -12,7 +12,6 @@ from ssilang.kernel.solvers.cholesky.triangular import longest
 from ssilang.kernel.stepping.effective import Effective, RootResponse
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import split_damping
-from ssilang.kernel.stepping.problem.equilibrium import keep_reactions, react
 from ssilang.kernel.stepping.problem.moving_supports import (
     MOST,
     Columns,
@@ -20,7 +19,7 @@ from ssilang.kernel.stepping.problem.moving_supports import (
     MovingSupports,
     Start,
 )
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import (
     BOTH,
     DOWN,

@@ -11,7 +11,7 @@ from references.whole_and_reduced import both, check, relative
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark_of
 from ssilang.kernel.stepping.problem.constraints import EliminatedConstraints
-from ssilang.kernel.stepping.problem.equilibrium import closed_stiffness
+from ssilang.kernel.stepping.problem.problem import closed_stiffness
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.damping import States, split, square_roots
 from ssilang.kernel.stepping.rests.reduced.loop import Reduced, reduced_step
