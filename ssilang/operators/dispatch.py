@@ -21,6 +21,7 @@ COUL = shared("COUL", "objects", full_name="COULEUR")
 INVE = shared("INVE", "objects", full_name="INVERSE")
 UNIQ = shared("UNIQ", "objects", full_name="UNIQUE")
 INTG = shared("INTG", "fields")
+COMP = shared("COMP", "stress", full_name="COMPORTEMENT")
 
 PSCA = shared("PSCA", "fields", full_name="PSCAL")
 PVEC = shared("PVEC", "fields")

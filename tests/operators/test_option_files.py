@@ -43,3 +43,34 @@ def test_scripts_of_other_folders_are_refused(name: str, tmp_path: Path) -> None
     (tmp_path / "deck" / "deck.ssi").write_text(f"OPTI DONN '{name}' ;")
     result = run_file(tmp_path / "deck" / "deck.ssi", RunOptions(output_directory=tmp_path / "out"))
     assert result.errors[0].code == "forbidden-path"
+
+
+@pytest.mark.parametrize("folder", ["/home/of/another/machine", "../gone/below"])
+def test_what_goes_to_a_folder_that_is_not_here_is_in_the_output_folder(
+    folder: str, tmp_path: Path
+) -> None:
+    deck = tmp_path / "deck" / "deck.ssi"
+    deck.parent.mkdir()
+    deck.write_text(
+        f"OPTI DIME 2 ELEM SEG2 SAUV '{folder}/kept' ; L = DROI 3 (0. 0.) (1. 0.) ; SAUV L ; "
+        f"OPTI SORT '{folder}/told.txt' ; SORT 'CHAI' 'here' ; N = 0 ; OUBL L ; "
+        f"OPTI REST '{folder}/kept' ; REST ; N = NBEL L ;"
+    )
+    result = run_file(deck, RunOptions(output_directory=tmp_path / "out"))
+    assert result.exit_code == 0, result.message
+    assert result.session.root.find("N") == 3
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["kept", "told.txt"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["deck", "out"]
+    assert [w.code for w in result.session.warnings] == ["io.folder-not-here"] * 2
+
+
+def test_a_folder_that_is_here_is_written_to_when_allowed_alone(tmp_path: Path) -> None:
+    deck, other = tmp_path / "deck" / "deck.ssi", tmp_path / "other"
+    deck.parent.mkdir()
+    other.mkdir()
+    deck.write_text(f"OPTI SORT '{other}/a.txt' ; SORT 'CHAI' 'x' ;")
+    result = run_file(deck, RunOptions(output_directory=tmp_path / "out"))
+    assert [e.code for e in result.errors] == ["forbidden-path"]
+    assert list(other.iterdir()) == []
+    run_file(deck, RunOptions(output_directory=tmp_path / "out", allowed=[other]))
+    assert (other / "a.txt").read_text() == "x\n"

@@ -59,8 +59,8 @@ FAMILIES: dict[str, Family] = {
     "TET4": Family("SEG2", "TRI3", "TET4"),
     "TE10": Family("SEG3", "TRI6", "TE10"),
     "PYR5": Family("SEG2", "QUA4", "PYR5"),
-    "PRI6": Family("SEG2", "TRI3", "PRI6"),
-    "PR15": Family("SEG3", "TRI6", "PR15"),
+    "PRI6": Family("SEG2", "QUA4", "PRI6"),
+    "PR15": Family("SEG3", "QUA8", "PR15"),
     "CUB8": Family("SEG2", "QUA4", "CUB8"),
     "CU20": Family("SEG3", "QUA8", "CU20"),
 }

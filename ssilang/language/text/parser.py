@@ -92,7 +92,7 @@ def decimal_commas(source: Source) -> list[SsiError]:
 
 
 _FIRST_WORD = re.compile(r"\s*'?(\w+)'?")
-_LAST_STATEMENT = re.compile(r"\s*(?:FIN|'FIN')\s*;", re.IGNORECASE)
+_LAST_STATEMENT = re.compile(r"\s*(?:FIN|'FIN')\s*(?:\(\s*\)\s*)?;", re.IGNORECASE)
 _DEEPER = frozenset({"SI", "REPE", "DEBP", "DEBM"})
 _HIGHER = frozenset({"FINS", "FIN", "FINP", "FINM"})
 

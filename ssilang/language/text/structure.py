@@ -78,8 +78,9 @@ def structure(statements: list[Statement], source: Source) -> Script:
     for statement in map(_without_strays, statements):
         strays += _inside(stack, statement)
         word = control_word(statement)
-        if word == "FIN" and len(statement.items) == 1:
-            word = ""  # FIN alone stops the run
+        if word == "FIN" and not any(getattr(i, "items", i) for i in statement.items[1:]):
+            word = ""  # FIN alone stops the run, with empty parentheses, too
+            statement = Statement((), statement.items[:1], statement.span)
         try:
             _STEPS.get(word, _plain)(stack, statement)
         except SsiError as error:
@@ -88,8 +89,8 @@ def structure(statements: list[Statement], source: Source) -> Script:
             late = error.code == "stray-block-end" and str(error.data["word"])[:4] in {
                 c[:4] for c in crossed
             }
-            if error.code == "stray-block-end" and word == "FINS" and len(stack) == 1 and not late:
-                # outside of all blocks it ends nothing
+            if error.code == "stray-block-end" and word == "FINS" and not late:
+                # with no SI open in its block it ends nothing
                 strays.append(SsiError("finsi-without-si", error.span, **error.data))
                 strays[-1].warns = True
             elif not late:
@@ -147,7 +148,7 @@ def _inside(stack: list[_Open], statement: Statement) -> list[SsiError]:
         word = _CONTROL.get(item.text[:4], "")
         loop = word == "FIN" and [getattr(x, "text", "").upper() for x in statement.items[i + 1 :]]
         if word in ("SINO", "FINS", "FINP") or (loop and loop[0] in {o.name for o in stack[1:]}):
-            found.append(SsiError("block-word-inside", item.span, word=item.text))
+            found.append(SsiError("block-word-inside", item.span, word=item.span.text))
             found[-1].warns = True
     return found
 

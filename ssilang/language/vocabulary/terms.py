@@ -175,8 +175,8 @@ ANY_NUMBER = Range(open_low=True, open_high=True)
 CARRIED = Range(open_low=True, open_high=True, carried=True)
 """What came with a warning when a list was divided by zero goes on: values of lists."""
 NOT_ZERO = Range(zero=False)
-CELLS_ALONG = Range(-1e7, 1e7, zero=False)
-"""Elements of a line, layers of a body, graded if negative; more would not fit in memory."""
+CELLS_ALONG = Range(-1e7, 1e7)
+"""Elements of a line, layers of a body, graded if negative, by the sizes if 0; more do not fit."""
 POSITIVE = Range(0.0, open_low=True)
 NOT_NEGATIVE = Range(0.0)
 RISING = Range(0.0, increasing=True)

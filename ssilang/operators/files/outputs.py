@@ -1,5 +1,6 @@
 """The files that operators read and write: where they may be, what the options call them."""
 
+import os
 from pathlib import Path
 
 from ssilang.io.atomic import fault_on_windows, portable
@@ -32,6 +33,8 @@ def digests_of_read(session: Session) -> dict[str, str]:
 def output_path(call: Call, name: str) -> Path:
     """Where a file is written: below the output folder.
 
+    What is meant for a folder that this machine does not have goes there, too, with a warning.
+
     Raises
     ------
     SsiError
@@ -40,10 +43,20 @@ def output_path(call: Call, name: str) -> Path:
     output = run_output(call.session)
     path = output.target(name)
     if path is None:
-        raise _forbidden(call, name, output.directory)
+        path = _elsewhere(output, name)
+        if path is None:
+            raise _forbidden(call, name, output.directory)
+        if path not in output.files:
+            call.warn("io.folder-not-here", name=name.strip(), file=path.name)
     if path not in output.files and (reason := fault_on_windows(name)):
         call.warn("io.name-stays-here", name=name.strip(), reason=reason)
     return path
+
+
+def _elsewhere(output: RunOutput, name: str) -> Path | None:
+    """Where a file is written that is meant for a folder of another machine; None if here."""
+    meant = output.directory / portable(name)
+    return None if os.path.isdir(meant.parent) else output.target(meant.name)
 
 
 def input_path(call: Call, name: str) -> Path:
@@ -54,12 +67,13 @@ def input_path(call: Call, name: str) -> Path:
     SsiError
         'forbidden-path' outside of them, 'missing-file' if there is no such file.
     """
-    path = run_output(call.session).source(name)
-    if path is None:
+    output = run_output(call.session)
+    path = output.source(name)
+    if path is None and (path := _elsewhere(output, name)) not in output.files:
         raise forbidden_path(call, name)
     if not path.is_file():
         raise call.error("missing-file", name, path=str(path), reason="")
-    if run_output(call.session).is_foreign(path):
+    if output.is_foreign(path):
         call.session.warn("other-case", call.span, path=str(path))
     return path
 

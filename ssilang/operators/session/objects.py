@@ -169,6 +169,11 @@ def detr(objects: tuple[Any, ...] = Many("*", "TEXTE", en="objects no longer use
     """Accept and ignore."""
 
 
+@operator("DEBU", family="objects", full_name="DEBUT")
+def debu() -> None:
+    """Accept and ignore."""
+
+
 @operator("MENA", family="objects", full_name="MENAGE")
 def mena(
     forced: bool = Flag("OBLI", en="at once"),

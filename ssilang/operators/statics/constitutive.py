@@ -13,6 +13,7 @@ from ssilang.kernel.statics.constitutive import (
     respond,
 )
 from ssilang.kernel.statics.yielding import criterion, tangent_modulus
+from ssilang.operators.dispatch import COMP
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL
@@ -84,7 +85,7 @@ _VARIABLES = arg("variables", "MCHAML", en="internal variables")
 _MATERIAL = many("material", "MCHAML", at_least=1, en="parameters")
 
 
-@operator("COMP", *_TWO_STATES, family="stress", full_name="COMPORTEMENT")
+@COMP.form(*_TWO_STATES)
 def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellField:
     """Integrate the laws."""
     step = _Step(start, end)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Name, Number, Quoted, Symbol
@@ -115,3 +116,27 @@ def test_a_dot_before_a_sign_of_product_separates_nothing(run):
         " e = t.1.*2. ; f = 2.*a ;"
     )
     assert [script[n] for n in "abcdef"] == [3.0, 6.0, 1.5, 6.0, 6.0, 6.0]
+
+
+@pytest.mark.parametrize("end", [".;", ". ;", ".\n  ;"])
+def test_a_dot_before_an_end_separates_nothing(run, end):
+    script = run(f"a = 3. ; b = (2. * a.) - (1.) ; c = b{end} t = TABL ; t.1 = c ; d = t.1{end}")
+    assert [script[n] for n in "bcd"] == [5.0, 5.0, 5.0]
+    made = run(f"OPTI DIME 3 ; l = 4. ; p = 0. 0. l{end} q = (l. / 2.) (l.) l{end}")
+    assert list(made["p"].coordinates) == [0.0, 0.0, 4.0]
+    assert list(made["q"].coordinates) == [2.0, 4.0, 4.0]
+
+
+def test_a_dot_behind_a_blank_wants_an_index():
+    with pytest.raises(SeveralErrors) as told:
+        items("x = t . ;")
+    assert [e.code for e in told.value.errors] == ["nothing-behind"]
+
+
+def test_an_old_script_begins_with_its_beginning(run):
+    assert run("DEBUT ; OPTI DIME 2 ; a = 1 ;")["a"] == 1
+
+
+@pytest.mark.parametrize("end", ["FIN() ;", "'FIN' ( ) ;"])
+def test_the_end_of_a_script_may_have_empty_parentheses(run, end):
+    assert run(f"a = 1 ; {end} a = 2 ;")["a"] == 1

@@ -21,10 +21,10 @@ SLIPS = [
 SOUND = [
     "a = 1 ;", "TITR 'text ; (' ;", "* a comment with ' and (\nb = 2 ;", ";", "c = 'l''axe' ;",
     "MESS 'two\n  lines' ;", "SI VRAI ; d = 1 ; SINON ; d = 2 ; FINSI ;", "x y = P (1) ;",
-    "REPE b1 2 ; e = 3 ;\nFIN b1 ;", "t . 1 . 'A' = -.5 ;", "DEBP P1 x*ENTIER ; FINP x ;",
+    "REPE b1 2 ; e = 3 ;\nFINSI ; FIN b1 ;", "t . 1 . 'A' = -.5 ;", "DEBP P1 x*ENTIER ; FINP x ;",
 ]  # fmt: skip
 BLOCKS = [
-    ("REPE b2 2 ; «FINSI» ; FIN b2 ;", "stray-block-end"), ("«FIN nobody» ;", "stray-block-end"),
+    ("REPE b2 2 ; «SINON» ; FIN b2 ;", "stray-block-end"), ("«FIN nobody» ;", "stray-block-end"),
     ("REPE b2 2 ; FIN «b3» ;", "wrong-loop-name"), ("«SINON» ;", "stray-block-end"),
     ("«FINP x» ;", "stray-block-end"), ("SI VRAI ; «SINON (VRAI)» ; FINSI ;", "sinon-condition"),
     ("SI VRAI ; SINON ; «SINON» ; FINSI ;", "second-sinon"),

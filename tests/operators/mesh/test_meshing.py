@@ -97,6 +97,100 @@ def test_broken_line_from_lists_points_and_meshes() -> None:
 # ---- surfaces and volumes -----------------------------------------------------------------
 
 
+@pytest.mark.parametrize("line", ["QUA4", "QUA8"])
+@pytest.mark.parametrize(("end", "corners"), [("K", [(2, 1), (0, 1)]), ("E", [(0.5, 2)])])
+def test_a_seam_keeps_its_sides_around_it(line: str, end: str, corners: list) -> None:
+    base = f"OPTI DIME 2 ELEM {line} ; O = 0. 0. ; A = 1. 0. ; E = 0.5 2. ; "
+    base += f"L = O D 3 A ; K = DROI 5 (0. 1.) (2. 1.) ; S = COUT L {end} ; "
+    run = ran(base)
+    seam = run.session.root.find("S")
+    assert run.session.root.find("L") is seam.sides[0]
+    walked = [xy(side) for side in seam.sides]
+    ends = [(0, 0), (1, 0), *corners, (0, 0)]
+    assert [tuple(w[0]) for w in walked] == ends[:-1]
+    assert [tuple(w[-1]) for w in walked] == ends[1:]
+    skin = {n for side in seam.sides for n in line_chain(side)}
+    assert skin == set(value(base + "X = CONT S ;").node_ids)
+    assert [s.n_cells for s in seam.sides] == [3, 1, 5, 1] if end == "K" else [3, 1, 1]
+
+
+@pytest.mark.parametrize(
+    ("phrase", "cells"),
+    [("O D {} A", 3), ("L TRAN {} (0. 2.)", 12), ("L REGL {} (L PLUS (0. 1.5))", 9)],
+)
+def test_a_number_of_zero_leaves_the_cuts_to_the_sizes(phrase: str, cells: int) -> None:
+    base = "OPTI DIME 2 ELEM QUA4 DENS 0.5 ; O = 0. 0. ; A = 1.5 0. ; L = O D A ; X = "
+    zero, without = (value(base + phrase.format(n) + " ;") for n in ("0", ""))
+    assert zero.n_cells == cells
+    assert zero.single_block().coordinates == pytest.approx(without.single_block().coordinates)
+
+
+def test_a_line_between_two_points_is_had_by_its_old_operator_too() -> None:
+    base = PLANE + "L = O D 4 A D 3 B ; P = L POIN 2 ; Q = L POIN 6 ; X = "
+    parts = [xy(value(base + f"{p} ;")) for p in ("L COMP P Q", "ELEM L 'COMPRIS' P Q")]
+    assert parts[0] == pytest.approx(parts[1])
+    assert len(parts[0]) == 5
+
+
+def test_cells_that_are_sound_keep_their_faces() -> None:
+    base = SPACE + "L = O D 2 A ; V = (L TRAN 1 (0. 1. 0.)) VOLU 3 'TRAN' Z ; X = "
+    faces = [value(f"{base} {v} FACE 2 ;") for v in ("V", "(REGE V)", "((REGE V) TOUR 30. O Z)")]
+    assert [f.n_cells for f in faces] == [2, 2, 2]
+    assert faces[1].single_block().coordinates[..., 2] == pytest.approx(np.ones((2, 4)))
+
+
+@pytest.mark.parametrize(
+    ("cell", "kinds"),
+    [("TRI3", {"PRI6", "PYR5", "TET4"}), ("TRI6", {"PR15", "PY13", "TE10"})],
+)
+def test_prisms_about_an_axis_become_pyramids_and_tetrahedra(cell: str, kinds: set[str]) -> None:
+    base = f"OPTI DIME 3 ELEM {cell} ; O = 0. 0. 0. ; Z = 0. 0. 2. ; L = O D 2 Z ; "
+    base += "S = L TRAN 3 (1.5 0. 0.) ; V = S VOLU 4 'ROTA' 60. O Z ; ELIM V 1.E-6 ; W = REGE V ; "
+    made = value(base + "X = W ;")
+    assert {b.cell_type for b in made.blocks} == kinds
+    assert all(len(set(row)) == len(row) for b in made.blocks for row in b.connectivity.tolist())
+    before, after = value(base + "X = MESU V ;"), value(base + "X = MESU W ;")
+    assert after == pytest.approx(before, rel=1e-3 if cell == "TRI6" else 1e-12)
+    if cell == "TRI3":  # layers of the angle a hold sin(a) times the moment of the section
+        assert after == pytest.approx(4 * np.sin(np.radians(15.0)) * 2 * 1.5**2 / 2)
+    # each cell is the right way round
+    parts = "".join(f"X = X + (ABS (MESU (W ELEM {k}))) ; " for k in kinds)
+    assert value(f"{base} X = 0. ; {parts}") == pytest.approx(after)
+
+
+@pytest.mark.parametrize(("prism", "side"), [("PRI6", "QUA4"), ("PR15", "QUA8")])
+def test_lines_sweep_quadrangles_where_prisms_are_chosen(prism: str, side: str) -> None:
+    base = f"OPTI DIME 3 ELEM {prism} ; O = 0. 0. 0. ; A = 1. 0. 0. ; L = O D 2 A ; "
+    made = value(base + "X = L TRAN 3 (0. 2. 0.) ;").single_block()
+    assert (made.cell_type, len(made)) == (side, 6)
+
+
+def test_six_faces_come_in_any_order() -> None:
+    base = SPACE + "".join(f"P{k} = {k % 2} {k // 2 % 2} {k // 4} ; " for k in range(8))
+    edges = [(a, a | bit) for bit in (1, 2, 4) for a in range(8) if not a & bit]
+    base += "".join(f"L{a}{b} = P{a} D {1 + (b - a)} P{b} ; " for a, b in edges)
+    for bit in (1, 2, 4):
+        u, v = (b for b in (1, 2, 4) if b != bit)
+        for k in (0, bit):
+            a, b, c, d = k, k | u, k | u | v, k | v
+            base += f"F{bit}{k} = DALL L{a}{b} L{b}{c} L{d}{c} L{a}{d} 'PLAN' ; "
+    pairs = ["F10 F11 F20 F22 F40 F44", "F10 F20 F40 F22 F44 F11", "F20 F44 F10 F11 F22 F40"]
+    for faces in pairs:
+        made = value(f"{base} X = PAVE {faces} ;")
+        assert made.n_cells == 2 * 3 * 5
+        assert value(f"{base} X = MESU (PAVE {faces}) ;") == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("order", ["B1 B2 B3 B4", "B1 B4 B2 B3", "B3 B1 B4 B2", "B2 B4 B1 B3"])
+def test_four_sides_of_a_grid_come_in_any_order(order: str) -> None:
+    base = PLANE + "C = 0. 1. ; B1 = O D 2 A ; B2 = A D 3 B ; B3 = C D 2 B ; B4 = C D 3 O ; "
+    made = value(f"{base} X = DALL {order} 'PLAN' ;")
+    assert made.n_cells == 6
+    assert value(f"{base} S = DALL {order} ; X = MESU S ;") == pytest.approx(1.0)
+    middles = {tuple(x) for x in made.single_block().coordinates.mean(axis=1)[:, :2].round(6)}
+    assert middles == {(i / 4, round(j / 6, 6)) for i in (1, 3) for j in (1, 3, 5)}
+
+
 @together(
     "phrase, cells",
     [

@@ -140,6 +140,7 @@ def test_points_move_alike_whatever_the_order(row: str) -> None:
     first, *others = (result(f"{PLANE}{motion} ;", "P") for motion in row.split(" | "))
     assert others == [first] * len(others)
     assert first != result(PLANE, "P")
+    assert result(f"{PLANE}Q = {row.split(' | ')[0]} ;", "Q") == first
 
 
 @together(

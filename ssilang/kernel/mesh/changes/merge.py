@@ -129,6 +129,40 @@ def _quadratic_brick_collapses() -> _Collapse:
     return rules
 
 
+def _prism_collapses(kind: str, tetrahedron: str, pyramid: str) -> _Collapse:
+    """A prism on an axis: with two upright edges or a triangle vanished a tetrahedron.
+
+    With one upright edge vanished it is a pyramid.
+    """
+    corner = CELL_TYPES[kind].corners
+    curved = CELL_TYPES[kind].degree > 1
+    middle = {frozenset((a, b)): m for m, a, b in middle_places(kind) if curved}
+    rules: _Collapse = {}
+
+    def becomes(name: str, kept: tuple[int, ...], *pairs: tuple[int, int]) -> None:
+        same = {a: {a, *(b for pair in pairs if a in pair for b in pair)} for a in kept}
+        new = CELL_TYPES[name]
+        of = dict(zip(new.corners, kept, strict=True))
+        local = {i: corner[k] for i, k in of.items()}
+        for m, i, j in middle_places(name) if curved else []:
+            ways = (frozenset((corner[a], corner[b])) for a in same[of[i]] for b in same[of[j]])
+            local[m] = next(middle[way] for way in ways if way in middle)
+        vanished = tuple((corner[a], corner[b]) for a, b in pairs)
+        rules[vanished] = name, tuple(local[m] for m in range(new.n_nodes))
+
+    for low, high in ((0, 3), (3, 0)):
+        turn = (0, 1, 2) if low == 0 else (0, 2, 1)
+        kept = (*(low + k for k in turn), high)
+        becomes(tetrahedron, kept, *((high + a, high + b) for a, b in ((0, 1), (0, 2))))
+    for k in range(3):
+        a, b, c = k, (k + 1) % 3, (k + 2) % 3
+        becomes(tetrahedron, (a, b, c, c + 3), (a, a + 3), (b, b + 3))
+    for k in range(3):
+        a, b, c = k, (k + 1) % 3, (k + 2) % 3
+        becomes(pyramid, (b, b + 3, c + 3, c, a), (a, a + 3))
+    return rules
+
+
 _COLLAPSES: dict[str, _Collapse] = {
     "SEG2": {((0, 1),): ("POI1", (0,))},
     "SEG3": {
@@ -144,6 +178,8 @@ _COLLAPSES: dict[str, _Collapse] = {
     "QUA9": _polygon_collapses(4, 2, "TRI6"),
     "CUB8": _brick_collapses(),
     "CU20": _quadratic_brick_collapses(),
+    "PRI6": _prism_collapses("PRI6", "TET4", "PYR5"),
+    "PR15": _prism_collapses("PR15", "TE10", "PY13"),
 }
 
 
@@ -152,7 +188,9 @@ def regenerate(mesh: Mesh) -> Mesh:
     parts = []
     for block in mesh.blocks:
         parts += [Mesh(mesh.nodes, (b,)) for b in _regenerated(block)]
-    return union(*parts, as_given=True) if parts else mesh
+    made = union(*parts, as_given=True) if parts else mesh
+    same = [b.cell_type for b in made.blocks] == [b.cell_type for b in mesh.blocks]
+    return mesh if same else made
 
 
 def _regenerated(block: CellBlock) -> list[CellBlock]:

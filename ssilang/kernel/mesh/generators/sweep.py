@@ -349,6 +349,7 @@ def stitch(first: Mesh, second: Mesh, colour: int = 0) -> Mesh:
     """Triangles between two lines described in the same sense, whatever their numbers of cells.
 
     SEG3 give TRI6. At each step the line goes on whose new triangle has the shorter new side.
+    The sides go round: the first line, across, the second line back, across.
     """
     nodes = first.nodes
     a, b = (line_chain(linear(m)) for m in (first, second))
@@ -357,9 +358,23 @@ def stitch(first: Mesh, second: Mesh, colour: int = 0) -> Mesh:
     ids = ids[(ids != np.roll(ids, 1, axis=1)).all(axis=1)]  # the lines may share their ends
     if not len(ids):
         raise MeshError("kernel.mesh.two-lines-same-nothing")
-    made = Mesh.of(nodes, "TRI3", ids, colour)
-    lines = union(first, second, as_given=True)
-    return quadratic(made, lines) if first.single_block().cell_type == "SEG3" else made
+    return _sewn(Mesh.of(nodes, "TRI3", ids, colour), (first, reversed_line(second)))
+
+
+def _sewn(made: Mesh, lines: tuple[Mesh, ...], apex: int | None = None) -> Mesh:
+    """A seam of TRI3, or of TRI6 along SEG3, with the lines and what leads across as its sides."""
+    ends = [line_chain(line)[[0, -1]] for line in lines] + [[apex, apex]] * (apex is not None)
+    across = [[ends[k][1], ends[k + 1 - len(ends)][0]] for k in range(len(ends))]
+    closed = any(a == b for a, b in across)
+    links = Mesh.of(made.nodes, "SEG2", np.array(across), made.blocks[0].colours[0])
+    if lines[0].single_block().cell_type == "SEG3":
+        links = quadratic(links)
+        made = quadratic(made, union(*lines, *[links] * (not closed), as_given=True))
+    if closed:
+        return made
+    ways = [take(links, lambda _, k=k: np.arange(len(across)) == k) for k in range(len(across))]
+    sides = [side for pair in zip([*lines, None], ways, strict=False) for side in pair if side]
+    return Mesh(made.nodes, made.blocks, tuple(sides))
 
 
 def _zip(a: FloatArray, b: FloatArray) -> IntArray:
@@ -379,10 +394,15 @@ def _zip(a: FloatArray, b: FloatArray) -> IntArray:
     return np.array(rows, dtype=np.int64)
 
 
+def _follows(cells: IntArray) -> bool:
+    return bool((cells[1:, 0] == cells[:-1, -1]).all())
+
+
 def cone(mesh: Mesh, apex: int) -> Mesh:
     """Cells of `mesh` joined to a node: POI1 to SEG2, SEG2 to TRI3, TRI3 to TET4, QUA4 to PYR5.
 
-    SEG3 give TRI6, whose new sides are straight. Cells that hold the node are left out.
+    SEG3 give TRI6, whose new sides are straight. Cells that hold the node are left out. A line's
+    triangles keep it and the two ways to the node as their sides.
 
     Raises
     ------
@@ -390,6 +410,11 @@ def cone(mesh: Mesh, apex: int) -> Mesh:
         For other types of cells, or when nothing is left.
     """
     away = take(mesh, lambda b: ~(b.connectivity == apex).any(axis=1))
+    if away.dimension == 1 and len(away.blocks) == 1 and _follows(away.blocks[0].connectivity):
+        flat = linear(away).single_block()
+        table = np.column_stack([flat.connectivity, np.full(len(flat), apex)])
+        made = Mesh.of(mesh.nodes, "TRI3", table, flat.colours)
+        return _sewn(made, (mesh if len(flat) == mesh.n_cells else away,), apex)
     parts = []
     for block in away.blocks:
         if block.cell_type == "SEG3":

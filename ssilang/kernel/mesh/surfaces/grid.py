@@ -1,6 +1,7 @@
 """Grids of quadrangles on four sides (transfinite interpolation)."""
 
 from collections.abc import Sequence
+from itertools import permutations, product
 
 import numpy as np
 
@@ -13,18 +14,19 @@ from ssilang.kernel.mesh.surfaces.charts import Chart
 
 
 def sides_in_order(sides: Sequence[Mesh]) -> tuple[Mesh, Mesh, Mesh, Mesh]:
-    """Four lines turned so that each starts where the one before it ends.
+    """Four lines turned, and put in order, so that each starts where the one before it ends.
 
-    The first line keeps its sense unless only its reverse fits.
+    The first line keeps its sense, and the others their order, unless only others fit.
 
     Raises
     ------
     MeshError
         If they do not close.
     """
-    for first in (sides[0], reversed_line(sides[0])):
+    firsts = sides[0], reversed_line(sides[0])
+    for others, first in product(permutations(sides[1:]), firsts):
         made = [first]
-        for line in sides[1:]:
+        for line in others:
             end = line_chain(made[-1])[-1]
             chain = line_chain(line)
             if chain[0] == end:

@@ -11,7 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 
 
 def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:
-    """CUB8 (faces of QUA4) or CU20 (faces of QUA8) inside six faces, opposite ones in pairs.
+    """CUB8 (faces of QUA4) or CU20 (faces of QUA8) inside six faces.
 
     Raises
     ------
@@ -23,6 +23,7 @@ def fill_block(faces: Sequence[Mesh], colour: int = 0) -> Mesh:
     if kinds not in ({"QUA4"}, {"QUA8"}):
         raise MeshError("kernel.mesh.six-faces-qua4-qua8", kinds=sorted(kinds))
     flat = [linear(f).single_block().connectivity for f in faces]
+    flat[1:] = sorted(flat[1:], key=lambda t: bool(np.isin(t, flat[0]).any()))  # opposite first
     bottom = _grid(flat[0])
     sides = [_grid(t) for t in flat[2:]]
     layers = _rim_layers(bottom, sides, set(flat[1].ravel().tolist()))

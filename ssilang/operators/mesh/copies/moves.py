@@ -1,4 +1,4 @@
-"""Nodes moved in place: DEPL."""
+"""Nodes moved in place: DEPL, which gives back what it has moved."""
 
 from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.mesh.changes import transform
@@ -16,43 +16,46 @@ _MOVED_MESH = arg("moved", "MAILLAGE", en="what is moved")
 _MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved")
 
 
-def _ids(moved: Mesh | Point) -> IntArray:
+_Moved = Mesh | Point
+
+
+def _ids(moved: _Moved) -> IntArray:
     return np.array([moved.node]) if isinstance(moved, Point) else moved.node_ids
 
 
-def _move(moved: Mesh | Point, image: transform.PointMap) -> None:
+def _move(moved: _Moved, image: transform.PointMap) -> _Moved:
     transform.move(moved.nodes, _ids(moved), image)
+    return moved
 
 
 @operator("DEPL", said("PLUS", "MOINS"), family="mesh", full_name="DEPLACER")
 def depl(
     word: str,
-    moved: Mesh | Point = _MOVED,
+    moved: _Moved = _MOVED,
     by: Point | NodeField = Arg("POINT", "CHPOINT", en="vector, or displacements", unit="m"),
-) -> None:
+) -> _Moved:
     """Move nodes by a vector or by displacements."""
     sign = 1.0 if word == "PLUS" else -1.0
     if isinstance(by, Point):
-        _move(moved, transform.shift(sign * by.coordinates.copy()))
-        return
+        return _move(moved, transform.shift(sign * by.coordinates.copy()))
     ids = np.unique(_ids(moved))
     moved.nodes.coordinates[ids] += sign * displacements(by, ids)
+    return moved
 
 
 @depl.form(said("TOUR"))
 def turned(
     call: Call,
-    moved: Mesh | Point = _MOVED,
+    moved: _Moved = _MOVED,
     angle: NodeField | float = Arg(
         "CHPOINT", "FLOTTANT", en="angle, or one for each node", unit="deg", range=ANY_NUMBER
     ),
     axis: Sequence[Point] = AXIS,
-) -> None:
+) -> _Moved:
     """Turn nodes."""
     origin, direction = axis_of(call, axis)
     if not isinstance(angle, NodeField):
-        _move(moved, transform.turn(angle, origin, direction))
-        return
+        return _move(moved, transform.turn(angle, origin, direction))
     size = float(np.linalg.norm(direction))
     if size == 0.0:
         raise MeshError("operators.mesh.axis-without-length")
@@ -62,34 +65,35 @@ def turned(
     for value in np.unique(degrees):
         rows = ids[degrees == value]
         place[rows] = rotate(place[rows].copy(), float(np.radians(value)), origin, direction / size)
+    return moved
 
 
 @depl.form(said("HOMO"))
-def scaled(moved: Mesh | Point = _MOVED, ratio: float = RATIO, fixed: Point = FIXED) -> None:
+def scaled(moved: _Moved = _MOVED, ratio: float = RATIO, fixed: Point = FIXED) -> _Moved:
     """Scale about a point."""
-    _move(moved, transform.scaling(ratio, fixed.coordinates.copy()))
+    return _move(moved, transform.scaling(ratio, fixed.coordinates.copy()))
 
 
 @depl.form(said("AFFI"))
 def stretched(
-    moved: Mesh | Point = _MOVED,
+    moved: _Moved = _MOVED,
     ratio: float = RATIO,
     fixed: Point = FIXED,
     towards: Point = DIRECTION,
-) -> None:
+) -> _Moved:
     """Stretch along a direction."""
-    _move(moved, transform.affinity(ratio, *positions((fixed, towards))))
+    return _move(moved, transform.affinity(ratio, *positions((fixed, towards))))
 
 
 @depl.form(said("SYME"))
 def mirrored(
     call: Call,
     about: str = Choice(tuple(MIRRORS), optional=False, en="what is mirrored about"),
-    moved: Mesh | Point = _MOVED,
+    moved: _Moved = _MOVED,
     points: Sequence[Point] = Many("POINT", en="its points"),
-) -> None:
+) -> _Moved:
     """Mirror about a point, a line or a plane."""
-    _move(moved, _MIRRORS[about](*_exactly(call, points, len(MIRRORS[about]))))
+    return _move(moved, _MIRRORS[about](*_exactly(call, points, len(MIRRORS[about]))))
 
 
 def _exactly(call: Call, points: Sequence[Point], count: int) -> list[FloatArray]:
@@ -104,15 +108,15 @@ def _exactly(call: Call, points: Sequence[Point], count: int) -> list[FloatArray
 
 
 @depl.form(said("PROJ"), _MOVED, *RAYS)
-def projected(moved: Mesh | Point, rays: tuple[str, Point], surface: Chosen) -> None:
+def projected(moved: _Moved, rays: tuple[str, Point], surface: Chosen) -> _Moved:
     """Project, as it is said how the rays go."""
-    _move(moved, projection_of(*rays, surface))
+    return _move(moved, projection_of(*rays, surface))
 
 
 @depl.form(said("PROJ"), _MOVED, *VECTOR)
-def projected_along(moved: Mesh | Point, vector: Point, surface: Chosen) -> None:
+def projected_along(moved: _Moved, vector: Point, surface: Chosen) -> _Moved:
     """Project along a vector."""
-    _move(moved, projection_of("CYLI", vector, surface))
+    return _move(moved, projection_of("CYLI", vector, surface))
 
 
 @depl.form(said("COOR"))
@@ -121,31 +125,31 @@ def changed_coordinates(
     coordinates: str = Choice(
         ("CYLI", "CART"), optional=False, en="to cylindrical coordinates, or back"
     ),
-    moved: Mesh | Point = _MOVED,
+    moved: _Moved = _MOVED,
     points: Sequence[Point] = Many(
         "POINT",
         en="origin (in space another point of the axis) and a point of angle 0, with 'CYLI'",
     ),
-) -> None:
+) -> _Moved:
     """Take cylindrical coordinates for cartesian ones, or the reverse."""
     if coordinates == "CART":
         _exactly(call, points, 0)
-        _move(moved, transform.from_cylindrical)
-        return
+        return _move(moved, transform.from_cylindrical)
     if workspace(call.session).dimension < 3:
         origin, second = _exactly(call, points, 2)
         axis, zero = np.array([0.0, 0.0, 1.0]), second - origin
     else:
         origin, second, third = _exactly(call, points, 3)
         axis, zero = second - origin, third - origin
-    _move(moved, transform.to_cylindrical(origin, axis, zero))
+    return _move(moved, transform.to_cylindrical(origin, axis, zero))
 
 
 @depl.form(said("MILI"))
-def straightened(moved: Mesh | Point = _MOVED) -> None:
+def straightened(moved: _Moved = _MOVED) -> _Moved:
     """Put middle nodes onto the mediator planes of their edges."""
     if isinstance(moved, Mesh):
         transform.straighten_middles(moved)
+    return moved
 
 
 @depl.form(said("BARS"))
@@ -158,20 +162,21 @@ def quartered(
         default=0.495,
         en="place of the middle node, 0 in the middle, 1 at the tip",
     ),
-) -> None:
+) -> _Moved:
     """Put middle nodes of cells at a crack near the quarter of their sides."""
     transform.quarter_middles(moved, _ids(tip), at)
+    return moved
 
 
 @depl.form(said("DEDU"))
 def deduced(
     call: Call,
-    moved: Mesh | Point = _MOVED,
+    moved: _Moved = _MOVED,
     by: Mesh | NodeField | Point = Arg(
         "MAILLAGE", "CHPOINT", "POINT", en="points before, or displacements of some"
     ),
     goal: Mesh | Point | None = Opt("MAILLAGE", "POINT", en="points after"),
-) -> None:
+) -> _Moved:
     """Move by the affine map between two sets of points."""
     if isinstance(by, NodeField):
         ids = by.node_ids
@@ -181,4 +186,4 @@ def deduced(
         if goal is None:
             raise call.missing(("MAILLAGE", "POINT"))
         old, new = (m.nodes.coordinates[_ids(m)].copy() for m in (by, goal))
-    _move(moved, transform.affine_through(old, new, workspace(call.session).dimension))
+    return _move(moved, transform.affine_through(old, new, workspace(call.session).dimension))

@@ -12,6 +12,7 @@ from ssilang.kernel.mesh.combine import (
 from ssilang.kernel.mesh.lines.lines import network_of_lines, shortest_line
 from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
 from ssilang.language.registry import find_operator
+from ssilang.operators.dispatch import COMP
 from ssilang.operators.mesh.points.picking import (
     ABSOLUTE,
     EXTREMES,
@@ -77,6 +78,7 @@ def types(mesh: Mesh = _MESH) -> ListMots:
     return ListMots(list(dict.fromkeys(names)))
 
 
+@COMP.form(of=("MAILLAGE",))
 @elem.form(said("COMPRIS"), of=("MAILLAGE",))  # type: ignore[no-redef]  # the name of its page
 def between(
     mesh: Mesh = _MESH,

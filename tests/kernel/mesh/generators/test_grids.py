@@ -109,7 +109,7 @@ def test_a_crooked_block_is_filled_on_its_trilinear_map(first, seed):
     [
         (lambda f: [*f[:5], f[4]], "side"),
         (lambda f: [f[0], f[0], *f[2:]], "faces|numbers"),
-        (lambda f: [f[0], f[2], f[1], *f[3:]], "side|faces|numbers"),
+        (lambda f: [f[0], f[2], f[2], *f[3:]], "side|faces|numbers"),
         (lambda f: [Mesh.of(f[0].nodes, "TRI3", np.array([[0, 1, 2]])), *f[1:]], "QUA4"),
         (lambda f: [Mesh.of(f[0].nodes, "QUA4", f[0].blocks[0].raw[:3]), *f[1:]], "grid"),
     ],
@@ -166,7 +166,7 @@ def test_a_grid_stands_on_the_bilinear_map_of_its_sides(quadratic):
 def test_sides_that_do_not_close_or_mix_degrees_are_refused():
     sides, others = four_sides(False)[4], four_sides(True)[4]
     with pytest.raises(MeshError, match="four"):
-        sides_in_order([sides[0], sides[2], sides[1], sides[3]])
+        sides_in_order([sides[0], sides[2], sides[1], sides[1]])
     mixed = [*sides_in_order(sides)[:3], others[3]]
     with pytest.raises(MeshError, match="same"):
         grid_surface(mixed, None)
