@@ -14,13 +14,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ssilang.io.atomic import (
-    fault_on_windows,
-    names_foreign_drive,
-    portable,
-    resolved,
-    write_text,
-)
+from ssilang.io import atomic
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.messages.message import Sentence
@@ -201,8 +195,8 @@ class RunOutput:
     _flushed_at: float = 0.0
 
     def __post_init__(self) -> None:
-        self.directory, self.inputs = resolved(self.directory), resolved(self.inputs)
-        self.allowed = tuple(map(resolved, self.allowed))
+        self.directory, self.inputs = atomic.resolved(self.directory), atomic.resolved(self.inputs)
+        self.allowed = tuple(map(atomic.resolved, self.allowed))
         self.pictures = Pictures(self.directory)
 
     def target(self, name: str) -> Path | None:
@@ -214,7 +208,7 @@ class RunOutput:
             For a name that no file can have, or if the output folder is gone.
         """
         path = _place(self.directory, name)
-        if not POSIX and (reason := fault_on_windows(name)):
+        if not POSIX and (reason := atomic.fault_on_windows(name)):
             raise OutputError("io.no-such-place", name=_shown(name), reason=reason)
         self.check()
         return path if self._within(path, (self.directory, *self.allowed)) else None
@@ -295,7 +289,7 @@ class RunOutput:
     def flush(self) -> None:
         """Write the text files that have grown."""
         for path in list(self._pending):
-            write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
+            atomic.write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
         self._flushed_at = monotonic()
 
     def begin_series(
@@ -366,10 +360,10 @@ class RunOutput:
 
 def _place(folder: Path, name: str) -> Path:
     """Where a name leads, through all links."""
-    if names_foreign_drive(name):
+    if atomic.names_foreign_drive(name):
         raise OutputError("io.no-such-place", name=_shown(name), reason=Sentence("io.reason-drive"))
     try:
-        path = (folder / portable(name)).resolve()
+        path = (folder / atomic.portable(name)).resolve()
         with suppress(FileNotFoundError, NotADirectoryError):
             os.lstat(path)
         if any(map(os.path.islink, (path, *path.parents))):  # what resolve leaves is a loop

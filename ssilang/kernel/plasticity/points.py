@@ -20,14 +20,9 @@ from ssilang.kernel.elements.zone_fields import (
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.materials.plastic import laws
 from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.held_stress import respond_held
-from ssilang.kernel.materials.plastic.laws import (
-    PlasticLaw,
-    check_parameters,
-    different_curves,
-    plastic_law,
-)
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 _PLANE, _SPACE = (0, 1, 2, 3), (0, 1, 2, 3, 4, 5)
@@ -92,7 +87,7 @@ class PlasticPoints:
     """
 
     zone: Zone
-    law: PlasticLaw
+    law: laws.PlasticLaw
     layout: Layout
     B: FloatArray
     weights: FloatArray
@@ -209,12 +204,12 @@ class PlasticPoints:
 def is_plastic(zone: Zone) -> bool:
     """Whether a zone of bodies has a plastic law."""
     family = ELEMENTS[zone.element].family
-    return family != "joint" and plastic_law(zone.behaviour) is not None
+    return family != "joint" and laws.plastic_law(zone.behaviour) is not None
 
 
 def variable_names(zone: Zone) -> tuple[str, ...]:
     """Internal variables of the plastic law of a zone of bodies, none without one."""
-    law = plastic_law(zone.behaviour) if is_plastic(zone) else None
+    law = laws.plastic_law(zone.behaviour) if is_plastic(zone) else None
     return () if law is None else law.variables
 
 
@@ -224,7 +219,7 @@ def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
     return tuple(z for z in zones if z.formulation == "MECANIQUE" and is_plastic(z))
 
 
-def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
+def law_parameters(zone: Zone, law: laws.PlasticLaw, given: ZoneField) -> PointParameters:
     """Parameters of a law at its points.
 
     Raises
@@ -248,7 +243,7 @@ def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParame
         )
     curves = {name: _curves(given, name, shape) for name in law.curves}
     found = PointParameters(values, curves)
-    check_parameters(law, found)
+    laws.check_parameters(law, found)
     return found
 
 
@@ -256,4 +251,4 @@ def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list[C
     """The different curves of a parameter, and which each point has."""
     if name not in given:
         raise missing_parameter(given.zone, name, given.names)
-    return different_curves(name, np.broadcast_to(given.raw(name)[0], shape).ravel())
+    return laws.different_curves(name, np.broadcast_to(given.raw(name)[0], shape).ravel())

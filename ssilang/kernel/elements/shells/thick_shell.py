@@ -9,12 +9,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements import family
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    Layout,
-    ShellFamily,
-    StrainOperator,
-)
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import (
@@ -71,7 +67,7 @@ def _areas(zone: Zone, rule: Rule) -> FloatArray:
     return np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
 
 
-class ThickShell(ShellFamily):
+class ThickShell(family.ShellFamily):
     """Curved shell with transverse shear."""
 
     strains = ("EPSS", "EPTT", "GAST", "GASN", "GATN")
@@ -141,7 +137,7 @@ class ThickShell(ShellFamily):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Local strains at points on both sides of the middle surface."""
         grad, weights = self._gradients(zone, parameters, support, cells)
         n, p, k = grad.shape[0], grad.shape[1], grad.shape[4]
@@ -155,7 +151,7 @@ class ThickShell(ShellFamily):
             ],
             axis=1,
         )
-        return StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
+        return family.StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the fibres, which the element lacks."""
@@ -177,7 +173,7 @@ class ThickShell(ShellFamily):
             values[cells] = np.matmul(along.reshape(rows).transpose(0, 2, 1), flux.reshape(rows))
         return values
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
         N, area = shape_functions(zone.cells.cell_type, rule.points), _areas(zone, rule)
