@@ -11,12 +11,12 @@ from ssilang.cli.checking.kinds import (
     UNKNOWN,
     Ambiguous,
     AnyWord,
+    Scope,
     kind_word,
     known_model,
     one_of,
     typed,
 )
-from ssilang.cli.checking.scope import Scope
 from ssilang.language import registry, vocabulary
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of

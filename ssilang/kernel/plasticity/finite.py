@@ -30,8 +30,14 @@ from ssilang.kernel.plasticity.finite_space_beam import (
     is_plane_beam,
     is_space_beam,
 )
-from ssilang.kernel.plasticity.large.carried import Array, Carried, CarriedShell, seen_and_held
-from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_shell
+from ssilang.kernel.plasticity.large.carried import (
+    Array,
+    Carried,
+    CarriedShell,
+    finite_plate,
+    is_facet_shell,
+    seen_and_held,
+)
 
 
 @dataclass(frozen=True, eq=False)
