@@ -21,13 +21,8 @@ from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import FIRST_FIT, Ordering, Solver
+from ssilang.kernel.statics import linear_motion
 from ssilang.kernel.statics.doubled import lying_on
-from ssilang.kernel.statics.linear_motion import (
-    named_motions,
-    rigid_motions,
-    singular,
-    tied,
-)
 from ssilang.kernel.waves.matched_layer import refuse_layer_at_rest
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -134,8 +129,10 @@ class LinearSystem:
         excited = np.abs(work) > BALANCED
         if excited.any():
             motions = self.free_motions[:, excited]
-            bodies = tied(self.numbering, self.rows.C, self.K)
-            raise singular("kernel.statics.loads-drive-motions", self.numbering, motions, bodies)
+            bodies = linear_motion.tied(self.numbering, self.rows.C, self.K)
+            raise linear_motion.singular(
+                "kernel.statics.loads-drive-motions", self.numbering, motions, bodies
+            )
         return b
 
     def _solve_contact(
@@ -173,8 +170,8 @@ class LinearSystem:
         """The failure with the motions that only contact holds."""
         if not self.inverse.singular:
             return failure
-        bodies = tied(self.numbering, self.rows.C[self.saddle], self.K)
-        named = named_motions(self.numbering, self.free_motions, bodies)
+        bodies = linear_motion.tied(self.numbering, self.rows.C[self.saddle], self.K)
+        named = linear_motion.named_motions(self.numbering, self.free_motions, bodies)
         return errors.ConvergenceError(
             "kernel.statics.held-by-contact-alone", failure=failure, motions=named
         )
@@ -239,7 +236,7 @@ def _ordering(
     if solver.name != MULTIGRID and not goes_to_petsc(solver, n) and not dissection_pays(n):
         return None
     nodes = numbering.nodes[elimination.masters]
-    rigid = rigid_motions(numbering)[elimination.masters]
+    rigid = linear_motion.rigid_motions(numbering)[elimination.masters]
     points = numbering.table.coordinates[nodes]
     return Ordering(points, np.zeros(0, np.int64), rigid, nodes, once)
 

@@ -18,12 +18,7 @@ from ssilang.kernel.elements.shapes.reference import (
     shape_functions,
     shape_gradients,
 )
-from ssilang.kernel.elements.shells.shell_section import (
-    drilled,
-    inertia_off_mesh,
-    material_moduli,
-    offset,
-)
+from ssilang.kernel.elements.shells import shell_section
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
@@ -75,7 +70,7 @@ class ThickShell(family.ShellFamily):
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Plane stress with transverse shear."""
-        return material_moduli(zone, parameters, support)
+        return shell_section.material_moduli(zone, parameters, support)
 
     def _placed(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
@@ -92,7 +87,7 @@ class ThickShell(family.ShellFamily):
         h = parameters.at("EPAI", "GRAVITE")
         h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
         arm = fibres(zone, cells) * (h / 2)[:, None, None]
-        e = offset(zone, parameters)
+        e = shell_section.offset(zone, parameters)
         height = zeta + (np.zeros((len(x), 1)) if e is None else (2 * e[cells] / h)[:, None])
         place = x[:, None] + height[:, :, None, None] * arm[:, None]
         J = np.empty((len(x), len(rule), 3, 3))
@@ -157,7 +152,9 @@ class ThickShell(family.ShellFamily):
         """The usual stiffness and a small one about the fibres, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
         h = parameters.at("EPAI", "GRAVITE")[:, 0]
-        return drilled(zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone))
+        return shell_section.drilled(
+            zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone)
+        )
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the stresses in the surface on the displacements' gradients along it."""
@@ -189,5 +186,5 @@ class ThickShell(family.ShellFamily):
         for i in range(3):
             values[:, :, i, :, i] = scalar
         values[:, :, 3:, :, 3:] = tangent * (h**2 / 12)[:, None, None, None, None]
-        whole = inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
+        whole = shell_section.inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
         return whole, self.layout(zone)

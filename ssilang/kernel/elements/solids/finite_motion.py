@@ -12,12 +12,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import node_major_layout
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor, components_at_home
 from ssilang.kernel.elements.shapes.geometry import chunks
-from ssilang.kernel.elements.solids import solid
-from ssilang.kernel.elements.solids.gradients import (
-    gradient_names,
-    gradient_tensor,
-    gradient_values,
-)
+from ssilang.kernel.elements.solids import gradients, solid
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
@@ -32,7 +27,7 @@ def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> Float
     """
     if zone.mode in solid.REVOLUTION and harmonic(zone):
         raise FieldError("kernel.elements.finite-motions-not-exist")
-    F = gradient_tensor(zone, flat)
+    F = gradients.gradient_tensor(zone, flat)
     if of_displacement:
         return F + np.eye(3)
     first = len(solid.kinematics(zone).unknowns) + (zone.mode is Mode.AXISYMMETRIC)
@@ -71,7 +66,7 @@ def motion_of(zone: Zone, displacement: NodeField, support: Support) -> FloatArr
         zone.element, "STRESSES"
     ):
         raise FieldError("kernel.elements.field-stands-wanted-stresses", support=support)
-    return transformation(zone, gradient_values(zone, displacement), True)
+    return transformation(zone, gradients.gradient_values(zone, displacement), True)
 
 
 def carried(
@@ -115,10 +110,10 @@ def carried(
 def work(zone: Zone, stress: CellField, gradient: CellField) -> tuple[FloatArray, Support]:
     """Trace of stress times gradient (n_cells, n_points)."""
     sigma, support = components_at_home(zone, stress, solid.kinematics(zone).stresses)
-    G, other = components_at_home(zone, gradient, gradient_names(zone))
+    G, other = components_at_home(zone, gradient, gradients.gradient_names(zone))
     if sigma.shape[2] != G.shape[2] and 1 not in (sigma.shape[2], G.shape[2]):
         raise FieldError("kernel.elements.stresses-stand-gradients", support=support, other=other)
-    H = gradient_tensor(zone, G)
+    H = gradients.gradient_tensor(zone, G)
     if zone.mode is Mode.FOURIER:
         raise FieldError("kernel.elements.work-no-gradients-fourier")
     return np.einsum("npij,npij->np", as_tensor(sigma, False), H), support
@@ -130,7 +125,9 @@ def gradient_forces(
     """Nodal forces whose work in v is the integral of S_ij du_k/dx_i dv_k/dx_j (FOFI)."""
     table = solid.kinematics(zone)
     sigma = as_tensor(zone_field(zone, stress).matrix(table.stresses, "STRESSES"), False)
-    H = gradient_tensor(zone, zone_field(zone, gradient).matrix(gradient_names(zone), "STRESSES"))
+    H = gradients.gradient_tensor(
+        zone, zone_field(zone, gradient).matrix(gradients.gradient_names(zone), "STRESSES")
+    )
     P = np.einsum("npij,npki->npkj", sigma, H)
     nu, d = len(table.unknowns), table.dimension
     layout = node_major_layout(zone, table.unknowns)
