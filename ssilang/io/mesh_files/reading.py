@@ -11,8 +11,7 @@ from ssilang.io.mesh_files import foreign
 from ssilang.io.mesh_files.abaqus import read_abaqus
 from ssilang.io.mesh_files.file_mesh import FileMesh
 from ssilang.io.mesh_files.geo import read_geo
-from ssilang.io.mesh_files.stl import read_stl
-from ssilang.io.mesh_files.unv import read_unv
+from ssilang.io.mesh_files.unv_stl import read_stl, read_unv
 
 
 @dataclass(frozen=True)
