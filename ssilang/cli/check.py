@@ -70,6 +70,9 @@ def typed_source(
     allow_nesting(session.limits.recursion)
     try:
         names = assigned_names(script.body) | session.frame.names() | session.library.standard_names
-        return [*script.warnings, *script.unclosed, *checker.check(script)], names, checker.types
+        before = [*script.warnings, *script.unclosed]
+        told = {e.span for e in before}
+        after = [e for e in checker.check(script) if e.span not in told]
+        return [*before, *after], names, checker.types
     except RecursionError:
         return [SsiError("nesting", None)], set(), {}

@@ -252,6 +252,13 @@ def test_raises_no_false_alarm(text):
     assert errors(Source("test", text)) == []
 
 
+@pytest.mark.parametrize("names", [("CO2", "CO3"), ("BAR", "JOI")])
+def test_a_name_that_a_keyword_takes_as_it_is_is_not_near_another(names):
+    made = [f"M{i} = MODE S 'MECANIQUE' 'ELASTIQUE' CONS {n} ;" for i, n in enumerate(names)]
+    assert "near-word" not in codes(f"DEBP P S ; {' '.join(made)} FINP M0 M1 ; X Y = P 1 ;")
+    assert "near-word" in codes("OPTI ELME SEG2 ;")
+
+
 _UNKNOWN = (
     "OPTI DIME 2 ; T = TABL ; T . 1 = 3. ; T . 2 = MOT 'DIME' ; A = 2. ; N = 2 ; W = MOT 'FOO' ; "
     "E = TEXT '1. 2.' ; F = TEXT '+ 1.' ; L = PROG 1. 2. ; "

@@ -61,7 +61,9 @@ class _Words:
                 yield from self.phrase(i for i in item.indices if isinstance(i, tree.Paren))
             elif isinstance(item, tree.Quoted | tree.Name) and item.text.upper() not in self.names:
                 word = item.text.upper().rstrip()
-                if operator is not None and _knows(operator.name, word):
+                if operator is not None and (
+                    _knows(operator.name, word) or _frees(operator.name, items[place - 1])
+                ):
                     continue
                 named = self._named(operator, word, isinstance(item, tree.Quoted))
                 if named is not None:
@@ -156,6 +158,18 @@ def _has_free(entries: Iterable[registry.Entry]) -> bool:
     """Whether a word of no list of the vocabulary is read, besides the values of keywords."""
     return any(
         isinstance(e, registry.Argument) and e.types == ("MOT",) and not e.kind for e in entries
+    )
+
+
+def _frees(name: str, before: tree.Item) -> bool:
+    """Whether a keyword stands before the word that takes any: the name of a constituent."""
+    found, said = registry.find_operator(name), getattr(before, "text", "").upper()
+    return any(
+        isinstance(k, registry.Keyword)
+        and _has_free(k.arguments[:1])
+        and said[: k.length] in {w[: k.length] for w in k.words}
+        for form in (found.forms if found is not None else ())
+        for k in registry.keywords_in(form.entries or ())
     )
 
 

@@ -167,8 +167,6 @@ def interface_of(
 
     Raises
     ------
-    FieldError
-        If the problem lacks a displacement of a joint's node.
     MeshError, MaterialError
         For joints without area, reversed, or with inadmissible parameters.
     """
@@ -303,12 +301,7 @@ def sliding_jumps(
 
 
 def _places(numbering: Numbering, node: int, names: tuple[str, ...]) -> list[int]:
-    found = [numbering.index_of(node, name) for name in names]
-    if min(found) < 0:
-        missing = names[found.index(min(found))]
-        told = {"missing": missing, "node": numbering.table.told(node)}
-        raise FieldError("kernel.interface.joint-needs-node-matrices", **told)
-    return found
+    return [numbering.index_of(node, name) for name in names]
 
 
 def _pairs(joints: list[JointCells]) -> tuple[IntArray, IntArray]:
@@ -340,10 +333,6 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
     n_pairs, d = len(keys), len(names)
     codes = np.array([numbering.code(name) for name in names])
     columns = numbering.index(keys[:, :, None], codes[None, None, :])  # (pairs, side, d)
-    if columns.size and columns.min() < 0:
-        pair, side, i = np.argwhere(columns < 0)[0]
-        told = {"missing": names[i], "node": numbering.table.told(keys[pair, side])}
-        raise FieldError("kernel.interface.joint-needs-node-matrices", **told)
     rows = np.broadcast_to(np.arange(n_pairs * d).reshape(n_pairs, 1, d), columns.shape)
     signs = np.broadcast_to(np.array([1.0, -1.0])[None, :, None], columns.shape)
     shape = (n_pairs * d, numbering.size)
@@ -357,7 +346,7 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
 def same_zone(a: Zone | None, b: Zone) -> bool:
     """Whether two zones are the same joints (the same element on the same cells)."""
     if a is None or a.element != b.element:
-        return a is b
+        return False
     return a.cells is b.cells or (
         a.cells.cell_type == b.cells.cell_type
         and np.array_equal(a.cells.connectivity, b.cells.connectivity)

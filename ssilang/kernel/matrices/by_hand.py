@@ -69,9 +69,9 @@ def column(
     names : mapping, optional
         Unknown of each component of the field, where it is not the usual one.
     """
-    blocks = []
+    blocks, names = [], names or {}
     for name, part in values.components.items():
-        primal = (names or {}).get(name) or PRIMAL_OF.get(name, name)
+        primal = names.get(name) or PRIMAL_OF.get(name, name)
         pairs = np.column_stack([np.full(len(part.nodes), node), part.nodes])
         terms = np.zeros((len(part.nodes), 2, 2))
         terms[(slice(None), 0, 1) if row else (slice(None), 1, 0)] = part.values[:, None].ravel()
@@ -79,7 +79,7 @@ def column(
             same = (part.nodes == node) & (primal == unknown)
             mirrored = np.where(same, 0.0, sign * part.values)
             terms[(slice(None), 1, 0) if row else (slice(None), 0, 1)] = mirrored
-        equation = name if name in PRIMAL_OF or names else dual_of(primal)
+        equation = name if name in PRIMAL_OF or name in names else dual_of(primal)
         blocks.append(
             ElementMatrices(
                 values.table,

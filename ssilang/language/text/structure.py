@@ -62,6 +62,7 @@ def structure(statements: list[tree.Statement], source: Source) -> tree.Script:
     strays: list[SsiError] = []
     crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
     for statement in map(_without_strays, statements):
+        strays += _inside(stack, statement)
         word = control_word(statement)
         if word == "FIN" and len(statement.items) == 1:
             word = ""  # FIN alone stops the run
@@ -81,7 +82,8 @@ def structure(statements: list[tree.Statement], source: Source) -> tree.Script:
                 errors.append(error)
     unclosed = [_unclosed(left) for left in reversed(stack[1:]) if not left.unnamed]
     if errors or (unclosed and not _ends_run(stack)):
-        raise SeveralErrors(errors + unclosed)
+        inside = [s for s in strays if s.code == "block-word-inside"]
+        raise SeveralErrors(errors + unclosed + inside)
     for left in unclosed:
         left.warns = True
     while len(stack) > 1:
@@ -120,6 +122,18 @@ def _without_strays(statement: tree.Statement) -> tree.Statement:
     at = next((i for i, item in enumerate(items) if not isinstance(item, tree.Number)), 0)
     rest = tree.Statement((), items[at:], statement.span)
     return rest if at and control_word(rest) in ("SINO", "FINS") else statement
+
+
+def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
+    """Words of blocks that a statement takes as operands, as its own end is missing."""
+    found = []
+    for i, item in enumerate(statement.items[1:], 1):
+        word = _CONTROL.get(item.text[:4], "") if isinstance(item, tree.Name) else ""
+        loop = word == "FIN" and [getattr(x, "text", "").upper() for x in statement.items[i + 1 :]]
+        if word in ("SINO", "FINS", "FINP") or (loop and loop[0] in {o.name for o in stack[1:]}):
+            found.append(SsiError("block-word-inside", item.span, word=item.text))
+            found[-1].warns = True
+    return found
 
 
 def _plain(stack: list[_Open], statement: tree.Statement) -> None:

@@ -50,6 +50,7 @@ def repeated(
 
 @MANU.form(said("RIGIDITE"), of=("CHPOINT",))
 def one_column(
+    call: Call,
     shape: str = Choice(("COLO", "LIGN"), optional=False, en="column or row"),
     kind: str | None = _KIND,
     sign: str | None = _sign(tuple(_SIGN)),
@@ -59,7 +60,8 @@ def one_column(
     field: NodeField = Arg("CHPOINT", en="terms"),
     point: Point = Arg("POINT", en="node of the unknown"),
     name: str = Arg("MOT", kind="component", en="unknown or equation"),
-    lists: tuple[ListMots, ...] = Many("LISTMOTS", en="other names of the field"),
+    names: ListMots | None = Opt("LISTMOTS", en="other names of the field"),
+    meant: ListMots | None = Opt("LISTMOTS", en="their unknowns"),
 ) -> Matrix:
     """The column, or the row, of one unknown."""
     told = name.upper().rstrip()
@@ -68,10 +70,13 @@ def one_column(
         unknown, dual = told, other or dual_of(told)
     else:
         unknown, dual = other or told, told if other else dual_of(told)
-    pairs = _names(lists)
-    names = dict(zip(*pairs, strict=True)) if len(pairs) == 2 else None
+    old, new = (() if x is None else x.values for x in (names, meant))
+    if len(old) != len(new):
+        told = {"n_first": len(old), "n_second": len(new)}
+        raise call.error("operators.numbers.list-lengths", names, **told)
+    pairs = dict(zip(*_names((names, meant)), strict=True)) if names and meant else None
     factor = _SIGN[sign or "QUEL"]
-    return column(field, point.node, unknown, dual, _kind(kind), factor, shape == "LIGN", names)
+    return column(field, point.node, unknown, dual, _kind(kind), factor, shape == "LIGN", pairs)
 
 
 @MANU.form(said("RIGIDITE"), of=("CHPOINT",))

@@ -107,7 +107,11 @@ def test_products_of_node_fields_by_names(table, seed):
     rng = np.random.default_rng(seed)
     a, b = drawn(table, rng, ("UX", "UY", "UZ"), title="a"), drawn(table, rng, ("FX", "FY", "FZ"))
     x, y = told(a), told(b)
-    pairs = (("UX", "RX", "UY", "UZ"), ("FZ", "FX", "FX", "FY"), ("P", "R", "Q", "P"))
+    pairs = (
+        ("UX", "RX", "UY", "UZ", "UY"),
+        ("FZ", "FX", "FX", "FY", "MX"),
+        ("P", "R", "Q", "P", "P"),
+    )
     for divide, run in ((False, np.multiply), (True, np.divide)):
         wanted = defaultdict(float)
         for left, right, name in zip(*pairs, strict=True):
@@ -122,7 +126,7 @@ def test_products_of_node_fields_by_names(table, seed):
         for n in range(12):
             if (left, n) in x and (right, n) in y:
                 total[n] += x[left, n] * y[right, n]
-    found = nodes.scalar_product(a, b, ("UX", "UZ", "RX"), ("FY", "FX", "FX"))
+    found = nodes.scalar_product(a, b, ("UX", "UZ", "RX", "UY"), ("FY", "FX", "FX", "MX"))
     assert dict(zip(found.nodes.tolist(), found.values, strict=True)) == pytest.approx(dict(total))
 
 
@@ -152,6 +156,9 @@ def test_parts_and_unions_of_node_fields(table, seed):
     apart = NodeField(table, {"UX": a.components["UX"]}, "DISCRET")
     second = NodeField(table, {"RZ": b.components["RZ"]}, "DISCRET")
     assert list(nodes.united(apart, second).components) == ["UX", "RZ"]
+    nothing = NodeField(table, {}, "DISCRET")
+    assert told(nodes.united(a, nothing)) == told(nodes.united(nothing, a)) == x
+    assert nodes.values_in_order(a, (), None).tolist() == []
     lumps = [NodeField(table, f.components, "DISCRET") for f in (a, b)]
     assert_is(nodes.united(*lumps), {k: x.get(k, 0.0) + y.get(k, 0.0) for k in x | y})
     with refusal(FieldError, "kernel.fields.fields-natures-cannot-joined"):
@@ -260,6 +267,8 @@ def test_sums_of_cell_fields(table, zones, factor):
     assert cells.same_cells(copy, zones[0])
     assert not cells.same_cells(CellBlock.make(table, "SEG2", zones[0].raw[::-1]), zones[0])
     assert not cells.same_cells(zones[0], zones[1])
+    four = [CellBlock.make(table, kind, np.array([[0, 1, 2, 3]])) for kind in ("QUA4", "TET4")]
+    assert not cells.same_cells(*four)
 
 
 def test_products_of_cell_fields(zones):
@@ -276,6 +285,9 @@ def test_products_of_cell_fields(zones):
     b = of_cells(rng, zones[1::-1], ("A", "B"))
     assert_equal(cells.multiplied(a, b), {k: v * values(b)[k] for k, v in x.items()})
     one, other = of_cells(rng, zones[:2], ("P",)), of_cells(rng, zones[:2], ("Q",))
+    assert_equal(
+        cells.multiplied(a, other), {k: v * values(other)[k[0], "Q"] for k, v in x.items()}
+    )
     assert_equal(cells.multiplied(one, other, divide=True),
                  {k: v / values(other)[k[0], "Q"] for k, v in values(one).items()})  # fmt: skip
     zero = cells.applied(b, lambda v: v * (np.arange(v.shape[1]) > 0), ["A"])
@@ -283,6 +295,7 @@ def test_products_of_cell_fields(zones):
     for wrong, code in (
         (lambda: cells.multiplied(a, zero, divide=True), "field-divide-zero"),
         (lambda: cells.multiplied(s, a), "zone-first-field-not"),
+        (lambda: cells.multiplied(two, a, divide=True), "cells-field-by-field-not-defined"),
         (lambda: cells.multiplied(a, of_cells(rng, zones[:2], ("A", "C"))),
          "cells-field-by-field-not-defined"),
     ):  # fmt: skip
@@ -310,7 +323,7 @@ def test_parts_and_unions_of_cell_fields(zones):
     a = of_cells(rng, zones[:2], ("B", "A"), title="mine")
     b = of_cells(rng, zones[1:], ("C",), points=1)
     assert_equal(cells.united(a, b), values(a) | values(b))
-    assert cells.united(a, b).title == "mine"
+    assert cells.united(a, b).title == cells.united(replace(b, title=""), a).title == "mine"
     close = cells.applied(a, lambda v: v * (1 + 4e-7))
     assert_equal(cells.united(a, close), values(a))
     with pytest.raises(FieldError) as caught:
@@ -318,6 +331,9 @@ def test_parts_and_unions_of_cell_fields(zones):
     assert (caught.value.code, caught.value.data) == (
         "kernel.fields.component-differs-between-two", {"name": "A"},
     )  # fmt: skip
+    fewer = CellField(tuple(cells.rebuilt(z, {"A": z.components["A"][:, :1]}) for z in a.blocks))
+    with refusal(FieldError, "kernel.fields.component-differs-between-two"):
+        cells.united(a, fewer)
     both = cells.united(a, b)
     assert cells.component_names(both) == ["B", "A", "C"]
     x = values(both)
@@ -333,15 +349,24 @@ def test_parts_and_unions_of_cell_fields(zones):
     assert [v.shape for v in cells.values_of(both, ("C", "A"))] == [(3, 2), (2, 2), (2, 1), (4, 1)]
     held = CellField((cells.rebuilt(a.blocks[0], {"O": np.array([["p"], ["q"], ["p"]], object)}),))
     assert cells.values_of(held) == []
-    for wrong in (lambda: cells.applied(held, abs), lambda: cells.added(held, held)):
+    number = CellField((cells.rebuilt(a.blocks[0], {"O": np.array([[2.0], [3.0], [5.0]])}),))
+    for wrong in (lambda: cells.applied(held, abs), lambda: cells.added(held, held),
+                  lambda: cells.added(number, held), lambda: cells.multiplied(number, held),
+                  lambda: cells.multiplied(held, number)):  # fmt: skip
         with refusal(FieldError, "kernel.fields.component-holds-objects-not"):
             wrong()
-    with_numbers = cells.multiplied(held, CellField((cells.rebuilt(
-        a.blocks[0], {"SCAL": np.array([[2.0], [3.0], [5.0]])}),)), True,
-        lambda sign, p, q: f"{p}{sign}{q}")  # fmt: skip
-    assert with_numbers.blocks[0].components["O"].ravel().tolist() == ["p/2.0", "q/3.0", "p/5.0"]
-    joined = cells.added(held, held, -1.0, lambda sign, p, q: p + sign + q)
-    assert joined.blocks[0].components["O"].ravel().tolist() == ["p-p", "q-q", "p-p"]
+    told_by = cells.applied(held, np.vectorize(str.upper), objects=True)
+    assert told_by.blocks[0].components["O"].ravel().tolist() == ["P", "Q", "P"]
+    for sign, run in (("+", lambda *p: cells.added(*p[:2], objects=p[2])),
+                      ("-", lambda *p: cells.added(*p[:2], -1.0, p[2])),
+                      ("*", lambda *p: cells.multiplied(*p[:2], False, p[2])),
+                      ("/", lambda *p: cells.multiplied(*p[:2], True, p[2]))):  # fmt: skip
+        for first, second in ((held, number), (number, held), (held, held)):
+            found = run(first, second, lambda s, p, q: f"{p}{s}{q}").blocks[0].components["O"]
+            pairs_of = zip(
+                *(f.blocks[0].components["O"].ravel() for f in (first, second)), strict=True
+            )
+            assert found.ravel().tolist() == [f"{p}{sign}{q}" for p, q in pairs_of]
     for kind in (float, int, np.float32, bool):
         y, taken = np.array([[2, 0, 2]], kind), []
         rule = lambda sign, p, q: f"{p}{sign}{taken.append(q) or q}"  # noqa: B023, E731
@@ -349,6 +374,8 @@ def test_parts_and_unions_of_cell_fields(zones):
         assert found.tolist() == [[f"{p}*{q}" for q in y[0]] for p in "pq"]
         assert len(taken) == 4
     assert cells.united(held, held).blocks[0].components["O"].shape == (3, 1)
+    with refusal(FieldError, "kernel.fields.component-differs-between-two"):
+        cells.united(number, held)
 
 
 def test_each_cell_has_the_curve_of_its_own_values(zones):

@@ -1,5 +1,6 @@
 """Matrices made, taken apart and condensed, against dense ones summed term by term."""
 
+import itertools
 from collections import defaultdict
 from dataclasses import replace
 
@@ -203,20 +204,36 @@ def test_a_condensed_body_is_the_body_that_its_masters_feel(inside):
         supers.condense(matrix, np.array([99]), inside)
 
 
-def test_parts_of_a_matrix_are_its_terms():
-    matrix = body(symmetric=False)
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_parts_of_a_matrix_are_its_terms(symmetric):
+    matrix = body(symmetric=symmetric)
+    first, second = matrix.relations
+    first, second = replace(first, dual=second), replace(second, sense=np.array([1], np.int8))
+    matrix = replace(matrix, relations=(first, second), cache={})
     all_terms = terms(matrix)
     for sign in (1.0, -1.0):
         part = submatrices.symmetric_part(matrix, sign)
         K, exact = dense(part, matrix)[0], dense(matrix)[0]
         near(K, 0.5 * (exact + sign * exact.T))
         assert len(part.relations) == (2 if sign > 0 else 0)
-    assert submatrices.symmetric_part(body(), -1.0).blocks == ()
-    part = submatrices.named_part(matrix, {"UX"}, {"FY", "FLX"})
-    wanted = {k: v for k, v in all_terms.items() if k[0][1] == "FY" and k[1][1] == "UX"}
-    assert terms(part) == pytest.approx(wanted)
-    assert len(part.relations) == 2
-    assert not submatrices.named_part(matrix, {"UX"}, {"FX"}).relations
+        assert [b.symmetric for b in part.blocks] == [sign > 0] * (
+            0 if symmetric and sign < 0 else 2
+        )
+    for primal in ("", "UX", "UY LX", "UX UY", "RZ LX"):
+        for dual in ("", "FX", "FY", "FX FY FLX", "MZ"):
+            columns, rows = set(primal.split()), set(dual.split())
+            part = submatrices.named_part(matrix, columns, rows)
+            assert terms(part) == pytest.approx(
+                {k: v for k, v in all_terms.items() if k[0][1] in rows and k[1][1] in columns}
+            )
+            assert len(part.relations) == (2 if "LX" in primal or "FLX" in dual else 0)
+            alike = symmetric and (primal, dual) in (
+                ("UX", "FX"),
+                ("UX UY", "FX FY FLX"),
+                ("UY LX", "FY"),
+            )
+            assert all(b.symmetric == alike for b in part.blocks)
+            assert len(part.blocks) == 2 * bool({"UX", "UY"} & columns and {"FX", "FY"} & rows)
     mesh = Mesh.of(matrix.table, "SEG2", np.array([[1, 3], [0, 4], [0, 3]]))
     part = submatrices.on_mesh(matrix, mesh)
     assert [b.nodes.tolist() for b in part.blocks] == [[[3, 1]], [[4, 0]]]
@@ -227,6 +244,8 @@ def test_parts_of_a_matrix_are_its_terms():
         near(diagonal.values_at(name, np.array([node])), dense(matrix)[0][i, i])
     points = submatrices.multiplier_nodes(matrix)
     np.testing.assert_array_equal(diagonal.components["LX"].nodes, points)
+    (one,) = submatrices.multiplier_nodes(matrix, unilateral=True)
+    assert one == second.multipliers[0]
     assert submatrices.unknown_names(matrix) == ["UY", "UX", "LX"]
     assert submatrices.unknown_names(matrix, dual=True) == ["FY", "FX", "FLX"]
     np.testing.assert_array_equal(submatrices.relation_nodes(matrix), [0, 1, 2, 3, 4])
@@ -242,6 +261,8 @@ def test_parts_of_a_matrix_are_its_terms():
     assert (len(twice.relations), twice.kind) == (2, "RIGIDITE")
     own = submatrices.with_own_multipliers(matrix)
     assert not set(submatrices.multiplier_nodes(own)) & set(points)
+    assert own.relations[0].dual.multipliers.tolist() == own.relations[0].multipliers.tolist()
+    assert own.relations[1].dual is None
     assert [r.coefficients.tolist() for r in own.relations] == [
         r.coefficients.tolist() for r in matrix.relations
     ]
@@ -347,19 +368,20 @@ def test_matrices_written_by_hand():
         "FY": NodeValues(np.array([1, 2]), np.array([5.0, 6.0])),
     })  # fmt: skip
     own = (2, "UX"), (2, "FX")
-    at = {(0, "UX"): 3.0, (2, "UX"): 4.0, (1, "UY"): 5.0, (2, "UY"): 6.0}
-    for row in (False, True):
-        for sign in (None, 1.0, -1.0):
+    usual, other = {"UX": ("UX", "FX"), "FY": ("UY", "FY")}, {"UX": ("UX", "FX"), "FY": ("T", "FY")}
+    for meant, names in ((usual, None), (usual, {}), (other, {"FY": "T"})):
+        for row, sign in itertools.product((False, True), (None, 1.0, -1.0)):
             wanted = {}
-            for (node, u), value in at.items():
-                there, equation = (node, u), (node, DUAL[u])
-                first, second = ((own[1], there), (equation, own[0]))
-                if not row:
-                    first, second = second, first
-                wanted[first] = value
-                if sign is not None and there != own[0]:
-                    wanted[second] = sign * value
-            found = by_hand.column(field, 2, "UX", "FX", "MASSE", sign, row)
+            for name, part in field.components.items():
+                unknown, equation = meant[name]
+                for node, value in zip(part.nodes.tolist(), part.values, strict=True):
+                    first, second = (own[1], (node, unknown)), ((node, equation), own[0])
+                    if not row:
+                        first, second = second, first
+                    wanted[first] = value
+                    if sign is not None and (node, unknown) != own[0]:
+                        wanted[second] = sign * value
+            found = by_hand.column(field, 2, "UX", "FX", "MASSE", sign, row, names)
             assert {found.kind, *(b.kind for b in found.blocks)} == {"MASSE"}
             assert terms(found) == wanted
             assert all(b.symmetric == (sign == 1.0) for b in found.blocks)

@@ -78,6 +78,23 @@ def test_inside_of_other_blocks_it_is_refused(script, fails):
     assert fails(script) == "stray-block-end"
 
 
+@pytest.mark.parametrize(
+    ("script", "words"),
+    [
+        ("SI FAUX ; MESS 'a' «SINON» ; MESS 'b' ; FINSI ;", ["SINON"]),
+        ("SI VRAI ; X = 2 * 3 «FINSI» ; FINSI ;", ["FINSI"]),
+        ("REPE B 2 ; Y = &B + 1 «FIN» B ; FIN B ;", ["FIN"]),
+        ("SI VRAI ; MESS 'SINON' ; FINSI ; B = 'FIN' ; MESS B ;", []),
+        ("T = TABL ; T . FIN = 2 ; REPE B 1 ; X = T . FIN B ; FIN B ;", []),
+    ],
+)
+def test_a_word_of_a_block_inside_a_statement_is_told(script, words):
+    result = run_text(script.replace("«", "").replace("»", ""))
+    told = [w for w in result.session.warnings if w.code == "block-word-inside"]
+    assert [w.data["word"] for w in told] == words
+    assert [w.span.start for w in told] == [script.find("«")] * len(words)
+
+
 @pytest.mark.parametrize("script", ["X = 2,5 ;", "L = PROG 1. -2,5 ;", "X = (2,5E3 * 2) ;"])
 def test_a_decimal_comma_is_refused_before_anything_runs(script):
     result = run_text(f"MESS 'begun' ; {script}")
