@@ -34,7 +34,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
 from ssilang.kernel.mesh.surfaces import charts, surface
 from ssilang.kernel.modal import explicit, links, oscillator
-from ssilang.kernel.records import filters, inelastic, matching, modulated, power, signals
+from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power, signals
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
 from ssilang.kernel.solvers.active_set.contact_methods import augmented, penalty, uzawa
 from ssilang.kernel.waves import layered_half_space as waves
@@ -54,7 +54,7 @@ POINTS = Mesh.of(TABLE, "POI1", np.array([[0], [4]]))
 JOINT = Zone(CellBlock.make(TABLE, "RAC2", np.array([[0, 1, 3, 4]])), "MECANIQUE", ELASTIC, "JOI2",
              PLANE)  # fmt: skip
 SOIL = SoilColumn(TWO, TWO, TWO, TWO * 0.1, 1.0, 2.0)
-FLOOR = power.Storey(TWO, TWO * 0.1, TWO)
+FLOOR = floors.Storey(TWO, TWO * 0.1, TWO)
 SPACE = waves.HalfSpace(ONE, TWO, TWO, 2.0 * TWO, TWO * 0.1)
 WAVE = waves.PlaneWave("SH", 0.0, "INCIDENTE", 0.0, 0.1, np.arange(3.0))
 SIGNAL = modulated.ModulatedSignal(TWO, TWO, TWO, (TWO,), (TWO,))
@@ -84,7 +84,7 @@ modulation = by(
     ), periods=ONE, damping=0.1, processes=1, instants=1, precision=0.1,
 )  # fmt: skip
 floor = by(
-    power.floor_spectrum, storey=FLOOR, power=FLAT, envelope=FLAT, frequencies=ONE, damping=0.1
+    floors.floor_spectrum, storey=FLOOR, power=FLAT, envelope=FLAT, frequencies=ONE, damping=0.1
 )
 yielding = by(inelastic.yielding_peaks, times=TIMES, signal=TIMES, frequencies=ONE, damping=0.1,
               law="CINE", hardening=0.1, limits=ONE)  # fmt: skip

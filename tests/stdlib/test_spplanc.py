@@ -5,12 +5,12 @@ import pytest
 from scipy.linalg import expm
 from script_runs import ran, refused
 
+from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.modulated import (
     ModulatedSignal,
     Resolution,
     modulated_response_spectrum,
 )
-from ssilang.kernel.records.power import Storey, floor_spectrum
 
 POWER = (np.array([0.2, 1.0, 5.0, 25.0]), np.array([0.1, 1.0, 0.8, 0.05]))
 ENVELOPE = (np.array([0.0, 2.0, 8.0, 10.0]), np.array([0.0, 1.0, 1.0, 0.0]))

@@ -30,18 +30,19 @@ from ssilang.kernel.plasticity.finite_space_beam import (
     is_plane_beam,
     is_space_beam,
 )
-from ssilang.kernel.plasticity.large import carried
+from ssilang.kernel.plasticity.large.carried import Array, Carried, CarriedShell, seen_and_held
+from ssilang.kernel.plasticity.large.finite_plate import finite_plate, is_facet_shell
 
 
 @dataclass(frozen=True, eq=False)
-class FinitePlaneShell(carried.CarriedShell, FiniteBeam):
+class FinitePlaneShell(CarriedShell, FiniteBeam):
     """Strips that are carried by their chords like beams of the plane."""
 
 
 def finite_plane_shell(zone: Zone, material: CellField, points: int) -> FinitePlaneShell:
     """A zone of shells without stress."""
     turn = beam_frame(zone, zone_field(zone, material)).rotation(zone)
-    seen, held = carried.seen_and_held(zone, material, points, np.swapaxes(turn, 1, 2) @ CARRIED)
+    seen, held = seen_and_held(zone, material, points, np.swapaxes(turn, 1, 2) @ CARRIED)
     chord, start = finite_beam(zone, material, points), np.zeros(seen.shape[:3])
     return FinitePlaneShell(zone, chord.stiffness, start, points, chord.span, seen, held)
 
@@ -153,12 +154,12 @@ class FiniteSolid:
 
 
 @dataclass(frozen=True, eq=False)
-class FiniteBar(carried.Carried):
+class FiniteBar(Carried):
     """Bars: their lengthening; span (n, d) from end to end at rest."""
 
     span: FloatArray
 
-    def _measured(self, u: carried.Array) -> tuple[carried.Array, carried.Array]:
+    def _measured(self, u: Array) -> tuple[Array, Array]:
         d = self.span.shape[1]
         now = self.span + u[:, d:] - u[:, :d]
         length = np.linalg.norm(now, axis=1)
@@ -200,8 +201,8 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     plane = zone.mode in (Mode.PLANE_STRAIN, Mode.PLANE_STRESS)
     if plane and ELEMENTS[zone.element].family == "meridian":
         return finite_plane_shell(zone, material, weights.shape[1])
-    if carried.is_facet_shell(zone):
-        return carried.finite_plate(zone, material, weights.shape[1])
+    if is_facet_shell(zone):
+        return finite_plate(zone, material, weights.shape[1])
     moduli = moduli_of(zone, parameters, "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))

@@ -128,7 +128,9 @@ def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     """Words of blocks that a statement takes as operands, as its own end is missing."""
     found = []
     for i, item in enumerate(statement.items[1:], 1):
-        word = _CONTROL.get(item.text[:4], "") if isinstance(item, tree.Name) else ""
+        if not isinstance(item, tree.Name):
+            continue
+        word = _CONTROL.get(item.text[:4], "")
         loop = word == "FIN" and [getattr(x, "text", "").upper() for x in statement.items[i + 1 :]]
         if word in ("SINO", "FINS", "FINP") or (loop and loop[0] in {o.name for o in stack[1:]}):
             found.append(SsiError("block-word-inside", item.span, word=item.text))

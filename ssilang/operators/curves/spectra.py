@@ -2,7 +2,7 @@
 
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
-from ssilang.kernel.records.power import Storey, floor_spectrum
+from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.signals import rotated_spectra
 from ssilang.operators.curves.words import *
 from ssilang.operators.mesh.selection.boundaries import enve

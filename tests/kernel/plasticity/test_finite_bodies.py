@@ -8,7 +8,7 @@ from together import together
 
 from ssilang.kernel.plasticity.finite import finite_zone
 from ssilang.kernel.plasticity.finite_space_beam import finite_beam, finite_space_beam
-from ssilang.kernel.plasticity.large.carried import finite_plate
+from ssilang.kernel.plasticity.large.finite_plate import finite_plate
 
 MESH = {
     "plane": "OPTI DIME 2 MODE PLAN DEFO ELEM QUA8 ; S = TRAN 1 (DROI 1 (0 0) (1 0)) (0.3 1.) ;",

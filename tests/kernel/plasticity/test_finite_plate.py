@@ -5,7 +5,7 @@ import pytest
 from script_runs import finder
 
 from ssilang.kernel.plasticity.finite_space_beam import rotation
-from ssilang.kernel.plasticity.large.carried import finite_plate
+from ssilang.kernel.plasticity.large.finite_plate import finite_plate
 
 SHELL = """
 OPTI DIME 3 MODE TRID ELEM TRI3 ;

@@ -6,7 +6,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records import filters, modulated, power, signals
+from ssilang.kernel.records import filters, floors, modulated, power, signals
 
 F = np.array([0.4, 0.9, 1.6, 3.0, 5.0])
 DENSITY = np.array([0.2, 1.1, 0.7, 0.9, 0.1])
@@ -79,13 +79,13 @@ def test_largest_values_follow_their_laws():
         np.testing.assert_allclose(found, expected)
 
 
-STOREY = power.Storey(np.array([1.1, 2.7]), np.array([0.06, 0.03]), np.array([1.3, -0.4]))
+STOREY = floors.Storey(np.array([1.1, 2.7]), np.array([0.06, 0.03]), np.array([1.3, -0.4]))
 
 
 def test_an_oscillator_on_a_floor_moves_as_step_by_step():
     """Under a sum of all frequencies of the density, each integrated in time by small steps."""
     envelope = (np.array([1.0, 2.5, 4.0]), np.array([0.0, 1.0, 0.4]))
-    times, moments = power.floor_evolution(STOREY, (F, DENSITY), envelope, 1.9, 0.04)
+    times, moments = floors.floor_evolution(STOREY, (F, DENSITY), envelope, 1.9, 0.04)
     f = np.linspace(F[0], F[-1], 121)
     w, dt = 2 * np.pi * f, 0.004
     n, x, c = 2 * np.pi * STOREY.frequencies, STOREY.dampings, STOREY.participations
@@ -120,7 +120,7 @@ def test_an_oscillator_on_a_floor_moves_as_step_by_step():
         np.testing.assert_allclose(found, own, atol=0.03 * own.max())
     cross = np.trapezoid((np.conj(z) * zv).imag * density, f, axis=1)
     np.testing.assert_allclose(np.interp(t, times, moments[:, 1]), cross, atol=0.03 * cross.max())
-    found, factors = power.floor_spectrum(STOREY, (F, DENSITY), envelope, np.array([1.9]), 0.04)
+    found, factors = floors.floor_spectrum(STOREY, (F, DENSITY), envelope, np.array([1.9]), 0.04)
     assert found[0] == pytest.approx(np.sqrt(moments[:, 0].max()))
     assert 1.0 < factors[0] < 4.0
 

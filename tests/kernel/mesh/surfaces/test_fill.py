@@ -10,14 +10,13 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.surfaces import fill
-from ssilang.kernel.mesh.surfaces.triangulate import (
+from ssilang.kernel.mesh.surfaces.constrained import (
     delaunay_mesh,
-    doubled_areas,
     is_closed,
     refined_triangles,
-    triangulate_inside,
     triangulated_with_lines,
 )
+from ssilang.kernel.mesh.surfaces.triangulate import doubled_areas, triangulate_inside
 
 
 def ring(n, first=0):
