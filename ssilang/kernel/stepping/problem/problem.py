@@ -1,8 +1,6 @@
 """A time-stepping problem: linear matrices, conditions, loads, joints, initial state, times.
 
 Forces of the conditions at instants of a motion, from its balance; closed joints' stiffness.
-
-Mass taken off contact nodes (Khenous, Laborde and Renard 2008), by static condensation.
 """
 
 from dataclasses import dataclass, field, replace
@@ -11,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
+from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.modified_mass import without_contact_mass
 from ssilang.kernel.contact.rows import (
     ContactRows,
     Friction,
@@ -39,42 +38,12 @@ from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem.constraints import Constraints, check_values, constraints_of
 from ssilang.kernel.stepping.problem.loading import Loading, loading_of
 from ssilang.kernel.stepping.state import Motion, Recorder
 from ssilang.kernel.waves.matched_layer import HISTORIES, refuse_parts_of_layer
-
-
-def without_contact_mass(M: sp.csr_array, K: sp.csr_array, G: sp.csr_array) -> sp.csr_array:
-    """The mass taken off the unknowns of contact rows and given to their neighbours.
-
-    The unknowns that G (m, n) touches follow the others by statics, `u_c = -K_cc^-1 K_cn u_n`;
-    rigid motions, and with them total mass, centre and inertia, are kept.
-
-    Raises
-    ------
-    SingularMatrixError
-        If no stiffness ties the contact unknowns to others.
-    """
-    n = K.shape[0]
-    touched = np.zeros(n, bool)
-    touched[np.unique(G.indices)] = True
-    stiff = K.diagonal() > 0.0
-    c, rest = np.flatnonzero(touched & stiff), np.flatnonzero(~(touched & stiff))
-    inverse = invert(sp.csr_array(K[c][:, c]), True)
-    if inverse.singular:
-        raise SingularMatrixError("kernel.contact.mass-contact-nodes-cannot")
-    follow = -inverse.solve(K[c][:, rest].toarray())
-    P = sp.lil_array((n, n))
-    P[rest, rest] = 1.0
-    row, column = np.nonzero(follow)
-    placed = (follow[row, column], (c[row], rest[column]))
-    full = sp.csr_array(P) + sp.csr_array(placed, shape=(n, n))
-    return sp.csr_array(full.T @ M @ full)
-
 
 SMALL = 160
 """Motions that supports leave, up to which all modes are made and loops on them are used."""
