@@ -143,15 +143,23 @@ def run_program(home, **environment):
     return made.stdout.split()
 
 
-@pytest.mark.parametrize("variable", ["XDG_CACHE_HOME", "NUMBA_CACHE_DIR"])
-def test_prepared_code_is_not_loaded(home, variable):
+def test_prepared_code_is_not_loaded(home):
     # the folder is filled by the user himself and then opened: it is as if others had filled it
-    given = {variable: str(home / "caches")}
-    code = home / "caches" if variable == "NUMBA_CACHE_DIR" else kept(home / "caches")
+    given = {"XDG_CACHE_HOME": str(home / "caches")}
     assert run_program(home, **given) == ["8.0", "0"]  # compiled
     assert run_program(home, **given) == ["8.0", "1"]  # loaded
-    code.chmod(0o777)
+    kept(home / "caches").chmod(0o777)
     assert run_program(home, **given) == ["8.0", "0"]
+
+
+def test_a_folder_that_the_user_names_for_code_is_checked_too(home, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(home / "named"))
+    monkeypatch.setattr(private, "REFUSED", [])
+    assert cache._given.__wrapped__(str(home / "named")) == home / "named"
+    assert cache._folder() == home / "named"
+    (home / "named").chmod(0o777)
+    assert home not in cache._given.__wrapped__(str(home / "named")).parents
+    assert [(home / "named", home / "named")] == private.REFUSED
 
 
 @pytest.mark.parametrize(("mode", "first"), [(0o700, 0), (0o777, 1)])
@@ -255,9 +263,18 @@ def test_a_link_in_the_place_of_what_is_kept_is_not_followed(home):
 @pytest.mark.parametrize(
     "environment", [{"HOME": ""}, {"HOME": "~"}, {"HOME": "some/where"}, {"XDG_CACHE_HOME": "near"}]
 )
-def test_without_a_home_nothing_is_kept_beside_the_deck(home, environment):
-    temporary = tempfile.mkdtemp(dir=home)
-    run_script(home, "MESS 1 ;", **{"HOME": "none", "TMPDIR": temporary, **environment})
+def test_without_a_home_nothing_is_kept_beside_the_deck(monkeypatch, environment):
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+    monkeypatch.delenv("HOME", raising=False)
+    for name, value in ({"HOME": "none"} | environment).items():
+        monkeypatch.setenv(name, value) if value else monkeypatch.delenv(name, False)
+    found = private.places("started")
+    assert all(p.is_absolute() for p in found)
+    assert len(found) == 1 + ("HOME" in environment and not environment["HOME"])
+
+
+def test_a_run_without_a_home_leaves_nothing_beside_the_deck(home):
+    run_script(home, "MESS 1 ;", HOME="none", TMPDIR=tempfile.mkdtemp(dir=home))
 
 
 def test_a_user_without_a_name_keeps_things_in_a_temporary_folder(home, monkeypatch):

@@ -109,12 +109,19 @@ def dependent() -> tuple[str, ...]:
 
 
 def type_errors(platform: str, bad: Path) -> list[str]:
-    """What mypy finds on a system in modules that use what differs, each by itself alone."""
+    """What mypy finds on a system in modules that use what differs, each by itself alone.
+
+    What Linux has and Windows lacks is told there: of a third system those modules are looked at
+    which ask for the name of theirs, and so have lines that are never Windows'.
+    """
+    files = dependent()
+    if platform == "darwin":
+        files = tuple(f for f in files if "sys.platform" in Path(f).read_text(encoding="utf-8"))
     done = subprocess.run(
         [sys.executable, "-m", "mypy", "--config-file", str(bad.with_name("mypy.ini")),
          "--platform", platform, "--follow-imports", "skip", "--ignore-missing-imports",
          "--check-untyped-defs", "--python-version", "3.11", "--cache-dir", os.devnull,
-         "--no-error-summary", *dependent(), str(bad)],
+         "--no-error-summary", *files, str(bad)],
         cwd=_ROOT.parent, capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode in (0, 1), done.stderr

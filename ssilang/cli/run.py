@@ -284,7 +284,8 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     result = RunResult(code, session, errors=errors, message=message, seconds=seconds)
     if not refused:
         _tell_imbalance(session)
-    if summary and not refused:  # what stands there is the other run's
+    gone = any(e.code == "io.output-folder-gone" for e in errors)
+    if summary and not refused and not gone:  # what stands there is another's
         _summarise(result, source, err, options.quiet, again["warning"])
         if options.report:
             _report(result, err, options.quiet)
@@ -295,8 +296,10 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
 def _link_to_results(session: Session) -> Path | None:
     """A link where results go that the user has not named: nothing is written where it leads."""
     from ssilang.io.run_output import link_to
+    from ssilang.operators.files.outputs import run_output
 
-    return link_to(Path(session.output_directory))
+    named, used = Path.cwd() / session.output_directory, run_output(session).directory
+    return None if used == named else link_to(Path(session.output_directory)) or used
 
 
 def _take_down(session: Session, source: Source) -> None:

@@ -38,12 +38,15 @@ class RunLock:
     handle: int
 
     def is_held(self) -> bool:
-        """Whether the folder is still the one in which the run began."""
+        """Whether the folder is still the one in which the run began, and no link leads there."""
         try:
             there = self.path.stat()
         except OSError:
             return False
-        return os.path.samestat(there, os.fstat(self.handle))
+        return (
+            os.path.samestat(there, os.fstat(self.handle))
+            and atomic.resolved(self.path) == self.path
+        )
 
     def release(self) -> None:
         """Let another run have the folder."""
@@ -68,11 +71,13 @@ def hold(folder: Path) -> RunLock | None:
     Raises
     ------
     OutputError
-        If another run holds it.
+        If another run holds it, or a link has taken its place.
     """
     path = folder / NAME
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
+    if atomic.resolved(folder) != folder:
+        raise OutputError("io.output-folder-gone", folder=folder)
     for _ in range(_TRIES):
         try:
             handle = os.open(path, os.O_RDWR | os.O_CREAT | GUARDED | AT_ONCE, 0o666)

@@ -6,7 +6,7 @@ VTK's files are read by VTK, meshes of other programs by the door that scripts h
 import io
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -85,7 +85,7 @@ class Series:
                 self._reader = pyvista.get_reader(str(self.path))
                 self.times = list(self._reader.time_values) or [0.0]
             elif ending in (*RESULTS, *PICTURES, "stl", "ply", "obj"):
-                self._one = pyvista.read(str(self.path))
+                self._one = self._sound(lambda: pyvista.read(str(self.path)))
             else:
                 kind = ENDINGS.get(f".{ending}")
                 read = mesh_with_fields(self.path, kind) if kind else _other(self.path)
@@ -101,6 +101,14 @@ class Series:
         if self.at(0).n_points == 0:
             raise InputError("io.not-viewed-no-points", path=self.path)
 
+    def _sound(self, read: Callable[[], Any]) -> Any:
+        """What a reader of VTK gives, if it found no fault."""
+        with silent() as faulty:
+            found = read()
+        if faulty():
+            raise InputError("io.not-viewed-no-points", path=self.path)
+        return found
+
     @silent()
     def at(self, row: int) -> Any:
         """The data set of an instant, parts together, from 0."""
@@ -110,7 +118,7 @@ class Series:
             return self._one
         try:
             self._reader.set_active_time_point(row)
-            found = self._reader.read()
+            found = self._sound(self._reader.read)
         except (RuntimeError, OSError) as problem:  # a file of the series is gone, or damaged
             raise InputError("io.not-viewed-no-points", path=self.path) from problem
         return found.combine() if isinstance(found, pyvista.MultiBlock) else found

@@ -26,7 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         from ssilang.jupyter.kernel import GibianeKernel
 
-        IPKernelApp.launch_instance(argv=words, kernel_class=GibianeKernel)
+        IPKernelApp.launch_instance(argv=words, kernel_class=GibianeKernel, ignore_cwd=True)
     except ModuleNotFoundError as missing:
         if str(missing.name).partition(".")[0] not in ("ipykernel", "jupyter_client"):
             raise

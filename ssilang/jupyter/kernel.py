@@ -117,6 +117,10 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         "codemirror_mode": "text",
     }
     banner = f"ssilang {__version__}"
+    # one session: no second console whose cells run in a thread beside, no debugger of Python
+    control_msg_types = [  # noqa: RUF012
+        t for t in Kernel.control_msg_types if "subshell" not in t and t != "debug_request"
+    ]
 
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -132,6 +136,11 @@ class GibianeKernel(Kernel):  # type: ignore[misc]
         self.gibiane.on_warning = lambda w: self._stream("stderr", self._told(w) + "\n")
         follow_loops(self.gibiane, cast(TextIO, self._progress))
         self._pictures = 0
+
+    @property
+    def kernel_info(self) -> Reply:
+        """What a client is told of the kernel, without what it has not."""
+        return super().kernel_info | {"supported_features": []}
 
     # ---- cells ---------------------------------------------------------------------------------
 

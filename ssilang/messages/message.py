@@ -47,6 +47,7 @@ _BETWEEN = {
 name_of_type: list[Callable[[object], str]] = []
 """Names what has no text of its own, an object of the language: by its type word."""
 _ONE_WORD = ("name", "word", "label", "group")  # fields that lay out nothing
+_MANY, _SOME = 60, 20  # words of a collection: beyond, so many are told, and how many more
 _LONGEST = 40  # letters of a value that has not the form it should be shown in
 COLON = {"en": ": ", "fr": " : "}
 # all but the tab and the line end, which lay out text; those of eight bits steer as ESC does, and
@@ -311,6 +312,9 @@ def _shown(value: object, spec: str, language: str) -> str:
     if joint not in _LAST and joint not in _BETWEEN:
         joint, form = "", spec
     words = [_shown(v, form, language).replace("\n", "\\n") for v in value]
+    if len(words) > _MANY:  # whoever has 3 000 notes among the motions reads the rest of the screen
+        words = [*words[:_SOME], f"... (+{len(words) - _SOME})"]
+        joint *= joint not in _LAST
     if joint in _LAST and len(words) > 1:
         return ", ".join(words[:-1]) + _LAST[joint][language] + words[-1]
     return _BETWEEN.get(joint, _BETWEEN[""])[language].join(words)

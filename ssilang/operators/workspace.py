@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from ssilang.kernel.matrices.matrix import Matrix
     from ssilang.kernel.solvers.petsc.client import PetscServer
 
+_FEWEST, _SAME = 100, 1e-6
+"""Values by which a record is known again, and by what part of the largest they may differ."""
 MULTIGRID_WORD = "MULTIGRILLE"
 TOLERANCE = "SOLV TOLERANCE"
 """Where the number behind OPTI 'SOLVEUR' 'MULTIGRILLE' stands among the options."""
@@ -54,6 +56,8 @@ class Workspace:
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
+    records : mapping of str to (step, values over the largest)
+        What LIRE read of ground motions, by their files.
     masses : mapping of int to (nodes, masses)
         What MASS gave cells and points along the vertical: what loads of statics are held to.
     """
@@ -71,6 +75,24 @@ class Workspace:
     petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
+    records: dict[str, tuple[float, FloatArray]] = field(default_factory=dict)
+
+    def record(self, times: FloatArray, values: FloatArray, file: str = "") -> tuple[str, float]:
+        """The file and the step of a record that has these values, whatever scales them.
+
+        That of `file` is remembered. ('', 0.) of few values, and where nothing is known.
+        """
+        if len(values) < _FEWEST or not (len(self.records) or file) or not values.any():
+            return "", 0.0
+        shape = values / values[np.abs(values).argmax()]
+        if file:
+            self.records[file] = float(np.median(np.diff(times))), shape
+        known = [
+            (name, step)
+            for name, (step, own) in self.records.items()
+            if len(own) == len(shape) and np.abs(own - shape).max() < _SAME
+        ]
+        return known[-1] if known else ("", 0.0)
 
     @property
     def units(self) -> UnitSystem | None:

@@ -7,7 +7,7 @@ import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -108,6 +108,11 @@ _FEWEST = 5
 _APART = 8.0
 """Times another intensity: less than g over m/s2, more than most records of a suite differ by."""
 _CURVE = 101
+_FAR = 30.0
+"""Times the demand that comes nearest: degrees over radians, and no line goes on so far."""
+_GOES = 0.7
+"""Correlation of logarithms by which a demand goes one way with the intensity."""
+_TELL_LEVEL = "kernel.records.fragility-separated", "kernel.records.fragility-no-scatter"
 _METHODS = {"counts": "report.fragility-counts", "cloud": "report.fragility-cloud"}
 _HEADS = (
     "report.fragility-limit", "report.fragility-intensity", "report.fragility-method",
@@ -235,6 +240,29 @@ def _fit(sweep: Sweep, limit: Limit, intensity: str, method: str) -> Fit:
     return Fit(limit, intensity, method, found, problem, worst, int(beyond.sum()), len(rows))
 
 
+def amiss(sweep: Sweep, fits: Sequence[Fit]) -> Iterator[Refusal]:
+    """Limits far from what any run demands, and those for which neither method has found a fit.
+
+    But for those whose median lies between two runs, which is told with them.
+    """
+    for counts, cloud in zip(fits[::2], fits[1::2], strict=True):
+        limit, name = counts.limit, counts.intensity
+        _, x, d = _sample(sweep, limit.figure, name) if counts.runs else ([], *np.ones((2, 0)))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            off = np.abs(np.log(d / limit.value))
+            goes = float(np.corrcoef(np.log(x), np.log(d))[0, 1]) if len(x) > 1 else 0.0
+        told = {"limit": str(limit), "figure": limit.figure, "intensity": name}
+        known = [fit.problem.code for fit in (counts, cloud) if fit.problem is not None]
+        far = limit.value > 0.0 and np.log(_FAR) < off.min(initial=np.inf) < np.inf
+        if far and counts.exceeded in (0, counts.runs) and (goes < 0.0) == limit.below:
+            yield Refusal("report.fragility-far", **told, nearest=float(d[off.argmin()]))
+        elif len(d) and len(known) == 2 and not {*known} & {*_TELL_LEVEL}:
+            turned = str(replace(limit, below=not limit.below)) * (abs(goes) > _GOES)
+            turned *= (goes < 0.0) != limit.below
+            told |= {"reason": counts.problem, "turned": turned, "grows": goes > 0.0}
+            yield Refusal("report.fragility-not-found", **told)
+
+
 def _sample(
     sweep: Sweep, figure: str, intensity: str
 ) -> tuple[list[dict[str, str]], FloatArray, FloatArray]:
@@ -311,8 +339,8 @@ def _notes(sweep: Sweep, fits: list[Fit], told: Teller) -> Iterator[str]:
                 yield told("report.fragility-apart", run=run, name=name, ratio=ratio)
             judged = [name, *(fit.limit.figure for fit in fits)]
             done = [row for row in sweep.rows if row["exit_code"] == "0"]
-            for _, swept in unscaled(sweep.folder, done, sweep.swept, judged, [name]):
-                yield told("report.fragility-still", name=name, swept=swept)
+            for code, data in unscaled(sweep.folder, done, sweep.swept, judged, [name]):
+                yield told(code, **data)
 
 
 def _apart(sweep: Sweep, name: str) -> Iterator[tuple[str, float]]:

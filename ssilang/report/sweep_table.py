@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import takewhile
+from itertools import product, takewhile
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -138,22 +138,27 @@ def unscaled(
     swept: Sequence[str],
     figures: Sequence[str],
     intensities: Sequence[str],
-) -> Iterator[tuple[str, str]]:
-    """Intensities that a swept value leaves as they are, which scales the motions and the rest."""
-    asked = [
-        (figure, name)
-        for figure in intensities
-        for name in swept
-        if name != MOTION
-        and is_still(rows, swept, name, [figure])
-        and not is_still(rows, swept, name, figures)
-    ]
+) -> Iterator[tuple[str, dict[str, object]]]:
+    """Intensities that a swept value alone leaves as they are, or alone scales.
+
+    Codes with their data: motions and other figures change with it where the one does not, or
+    neither do.
+    """
+    asked, others = list[tuple[bool, str, str]](), [n for n in figures if n not in intensities]
+    for figure, name in product(intensities, [n for n in swept if n != MOTION]):
+        still = is_still(rows, swept, name, [figure])
+        idle = is_still(rows, swept, name, figures if still else others)
+        asked += [(still, figure, name)] if still != idle and (still or others) else []
     made = []
     for row in rows if asked else ():
         told = summary_of(folder, row["folder"]).get("statistics", {}).get("calculations", [])
         made.append({**row, MOTIONS: [c.get("motions") for c in told]})
     known = any(any(row[MOTIONS]) for row in made)
-    yield from (a for a in asked if not known or not is_still(made, swept, a[1], [MOTIONS]))
+    for still, figure, name in asked:
+        shaken = not is_still(made, swept, name, [MOTIONS]) if known else still
+        if shaken == still:
+            code = "report.fragility-still" if still else "report.fragility-alone"
+            yield code, {"name": figure, "swept": name}
 
 
 def link_to(folder: Path, run: str) -> str:

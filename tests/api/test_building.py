@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 import ssilang
 from ssilang import Builder
@@ -22,9 +23,8 @@ def test_a_block_at_rest_carries_its_weight_in_its_joint():
     assert np.ptp(motion.history("DEPL", "UY", (1, 1), of=block).y) < 1e-9
 
 
-@pytest.mark.parametrize(
-    ("dimension", "corners", "unknown"),
-    [(2, ((0, 0), (1, 2)), "UY"), (3, ((0, 0, 0), (1, 2, 1)), "UZ")],
+@together(
+    "dimension, corners, unknown", [(2, ((0, 0), (1, 2)), "UY"), (3, ((0, 0, 0), (1, 2, 1)), "UZ")]
 )
 def test_a_block_thrown_upwards_flies_as_a_stone(dimension, corners, unknown):
     b = Builder(dimension)
@@ -77,8 +77,8 @@ def test_a_shaken_block_on_soil_moves_as_in_the_deck():
     assert ours.y == pytest.approx(theirs.y, abs=1e-9 * abs(theirs.y).max())
 
 
-@pytest.mark.parametrize(
-    ("wrong", "said"),
+@together(
+    "wrong, said",
     [
         (lambda b, p: b.block((0, 0), (0, 1), size=1.0, **STONE), "no corners of a block"),
         (lambda b, p: b.block((0, 0, 0), (1, 1, 1), size=1.0, **STONE), "no corners of a block"),

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 import ssilang
 from ssilang.cli.main import main
@@ -42,9 +43,8 @@ def test_a_series_of_pandas_is_an_evolution_over_its_index():
     assert r["ACCE"].series().equals(record)
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [({"AGG": 1.0}, "did you mean AG?"), ({"langage": "fr"}, "its names are AG")],
+@together(
+    "given, said", [({"AGG": 1.0}, "did you mean AG?"), ({"langage": "fr"}, "its names are AG")]
 )
 def test_a_parameter_that_the_script_has_not_is_refused(given, said):
     with refusal(ssilang.Error, "cli.no-such-parameter") as caught:

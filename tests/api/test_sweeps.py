@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from together import together
 
 import ssilang
 
@@ -48,8 +49,8 @@ def test_a_script_without_a_guard_gets_a_frame_and_leaves_nothing(tmp_path):
     assert {p.name for p in tmp_path.iterdir()} == before
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
+@together(
+    "given, said",
     [
         ({"AGG": [1.0]}, "did you mean AG"),
         ({"AG": [None]}, "AG takes numbers, words, True or False in a sweep, not NoneType"),

@@ -175,6 +175,32 @@ def test_a_one_that_belongs_to_what_follows_is_noted(text, wrong, meant):
     assert (note.data["wrong"], note.data["meant"]) == (wrong, meant)
 
 
+CONES = "OPTI DIME 2 ; P = 0. 0. ; K = TABL ; K . 'UX' = 2. ; K . 'UY' = 3. ; K . 'RZ' = 4. ; "
+TURNED = CONES.replace("DIME 2", "DIME 3").replace("0. 0.", "0. 0. 0.")
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        (CONES + "MESS (APPU 'UX' (K . 'UY') P) ;", "spring-of-another"),
+        (CONES + "MESS ((AMOR 'UY' K . 'UY' P) ET (AMOR 'RZ' K . 'UX' P)) ;", "spring-of-another"),
+        (TURNED + "MESS (APPU 'UZ' (K . 'UX') P) ;", "spring-of-another"),
+        (CONES + "K . 'FREQUENCE' = 2. * PI * 1.5 ; MESS K ;", "pulsation-for-frequency"),
+        (CONES + "K . 'FREQUENCES' = PI * 2 * (PROG 1. 2.) ; MESS K ;", "pulsation-for-frequency"),
+        (CONES + "MESS (APPU 'UX' (K . 'UX') P) ; C = AMOR 'UX' 'RZ' (K . 'UX') P ; MESS C ;", ""),
+        (CONES + "MESS (APPU 'UX' (2. * (K . 'UY')) P) ;", ""),
+        (CONES + "I = 'UY' ; MESS (APPU 'UX' (K . I) P) ;", ""),
+        (TURNED + "MESS ((APPU 'UX' (K . 'UY') P) ET (APPU 'UY' (K . 'UX') P)) ;", ""),
+        (CONES + "W = 9. ; K . 'FREQUENCE' = W / (2. * PI) ; MESS K ;", ""),
+        (CONES + "K . 'PULSATION' = 2. * PI * 1.5 ; K . 'FREQUENCE' = 1.5 ; MESS K ;", ""),
+        (CONES + "W = 2. * PI * 1.5 ; K . 'FREQUENCES' = (2. * PI * W) / 39.478 ; MESS K ;", ""),
+    ],
+)  # fmt: skip
+def test_springs_by_the_number_of_another_way_and_pulsations_are_told(text, code):
+    found = [p.code for p in check_source(Source("test", text))[0]]
+    assert {*found} - {"left-to-right", "unused-name"} == {*([code] if code else [])}
+
+
 @pytest.mark.parametrize(
     "text",
     [

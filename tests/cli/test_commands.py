@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from references.small_motions import OSCILLATOR
+from together import together
 
 from ssilang.cli.main import _compile_ahead
 from ssilang.kernel.base.compiled import beside, cache
@@ -169,7 +170,7 @@ def test_version(process):
     assert process("--version").out.startswith("ssilang ")
 
 
-@pytest.mark.parametrize("arguments", [["check"], ["run"], ["--nonsense"]])
+@together("arguments", [["check"], ["run"], ["--nonsense"]])
 def test_wrong_usage_gives_exit_code_2(arguments):
     from ssilang.cli.main import main
 
@@ -203,8 +204,8 @@ def test_one_line_closes_a_run_that_leaves_something(ssilang, script, tmp_path):
     assert summary["figures"] == []
 
 
-@pytest.mark.parametrize(
-    ("script", "kept", "begun"),
+@together(
+    "script, kept, begun",
     [
         ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'joint' ;\nPASAPAS T1 ;", False, ["interface"]),
         ("J1 = MODE S1 'MECANIQUE' 'ELASTIQUE' 'JOINT' ;\nDYNAMIC T1 ;", True, []),

@@ -3,7 +3,6 @@
 import re
 from pathlib import Path
 
-import pytest
 from together import together
 
 from ssilang.cli.check import check_source
@@ -36,7 +35,7 @@ def test_the_deck_itself_is_sound():
     assert _said(_text()) == []
 
 
-@pytest.mark.parametrize("kind", _SLIPS)
+@together("kind", _SLIPS)
 def test_one_slip_is_found_where_it_stands(kind):
     right, wrong, word, meant = _SLIPS[kind]
     assert _text().count(right) == 1

@@ -55,6 +55,10 @@ def start(folder: Path, *words: str, **environment: str) -> subprocess.Completed
 
 COMMAND = str(Path(sys.executable).parent / "ssilang")
 SAFE = (sys.executable, "-P", "-m", "ssilang.cli.main")
+TWO = (
+    "import sys; from ssilang.cli.main import main; "
+    "sys.exit(main(['check', 'case.ssi']) or main(['help', 'DYNAMIC']))"
+)
 
 
 def test_what_is_planted_runs_where_the_folder_is_searched(folder: Path) -> None:
@@ -66,14 +70,12 @@ def test_what_is_planted_runs_where_the_folder_is_searched(folder: Path) -> None
 @pytest.mark.parametrize(
     "words",
     [
-        (COMMAND, "case.ssi"),
         (*SAFE, "case.ssi"),
-        (*SAFE, "check", "case.ssi"),
-        (*SAFE, "help", "DYNAMIC"),
+        (*SAFE[:2], "-c", TWO),
         (COMMAND, "sweep", "case.ssi", "--set", "X=1,2,3", "--jobs", "2", "--out", "swept"),
         (COMMAND, "sweep", "case.ssi", "--set", "X=1,2,3,4,5", "--jobs", "1", "--out", "grown"),
     ],
-    ids=["command", "module", "check", "help", "sweep", "sweep from one"],
+    ids=["module", "check and help", "sweep", "sweep from one"],
 )
 def test_a_start_in_a_strangers_folder(folder: Path, words: tuple[str, ...]) -> None:
     done = start(folder, *words)
@@ -111,6 +113,21 @@ def test_the_kernel_of_notebooks(folder: Path, tmp_path: Path) -> None:
     assert ran(folder) == []
 
 
+def test_the_kernel_of_notebooks_once_it_serves(folder: Path) -> None:
+    """Libraries of IPython that do not heed `-P` put the notebook's folder before all others."""
+    if find_spec("ipykernel") is None:
+        pytest.skip("ipykernel is not installed")
+    code = (
+        "import sys; sys.path.remove(''); from ipykernel.kernelapp import IPKernelApp as App; "
+        "from importlib.util import find_spec; App.start = lambda app: "
+        "print(find_spec('gmsh'), file=open('found.txt', 'w')); "
+        "from ssilang.jupyter.__main__ import main; main(['-f', 'made.json'])"
+    )
+    done = start(folder, sys.executable, "-c", code)
+    assert (folder / "found.txt").is_file(), done.stderr
+    assert str(folder) not in (folder / "found.txt").read_text()
+
+
 def test_the_second_compiler(folder: Path) -> None:
     """It is told the paths of the run; an empty one would be the working folder."""
     code = (
@@ -129,6 +146,7 @@ def test_the_process_of_gmsh(folder: Path) -> None:
     done = start(folder, COMMAND, "case.ssi")
     assert ran(folder) == []
     assert "Traceback" not in done.stderr
+    assert (folder / "results" / "case" / "summary.json").is_file()
     assert Path(gmsh_alone.__file__).is_file()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from script_runs import ran
 
+import ssilang.cli.run as run_module
 from ssilang.cli.main import main
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.text.source import Source
@@ -150,6 +151,26 @@ def test_results_that_lead_elsewhere_are_written_where_the_user_says_so(
     assert list((tmp_path / "elsewhere").iterdir()) == []
     assert main(["run", "d.ssi", "--out", link]) == 0
     assert (tmp_path / "elsewhere" / "a.csv").is_file()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+@pytest.mark.parametrize("link", ["results", "results/d"])
+def test_results_exchanged_for_a_link_between_look_and_use(tmp_path, monkeypatch, capsys, link):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "d.ssi").write_text("OPTI SORT 'a.csv' ; SORT 'EXCE' (PROG 1.) ;")
+    assert main(["run", "d.ssi"]) == 0
+    holds = run_module.hold_folder
+
+    def exchanged(session):
+        (tmp_path / link).rename(tmp_path / "aside")
+        (tmp_path / link).symlink_to(tmp_path / "elsewhere")
+        return holds(session)
+
+    monkeypatch.setattr(run_module, "hold_folder", exchanged)
+    assert main(["run", "d.ssi"]) == 1
+    assert "was removed or exchanged during the run" in capsys.readouterr().err
+    assert [p for p in (tmp_path / "elsewhere").rglob("*") if p.is_file()] == []
 
 
 @pytest.mark.parametrize(

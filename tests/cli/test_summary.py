@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, run_file, run_source
 from ssilang.cli.summary import plain
@@ -194,15 +195,12 @@ def closing(tmp_path: Path, deck: str, language: str = "en") -> tuple[str, dict[
     return told.getvalue(), json.loads((tmp_path / "summary.json").read_text())
 
 
-@pytest.mark.parametrize(
-    ("language", "expected"),
-    [
+@together("language, expected", [
         ("en", ("warning: DYNAMIC: energies are out of balance by ", "likely: a step too long for "
                 "the joint", "2 warnings, energies out of balance by ")),
         ("fr", ("avertissement : DYNAMIC : les énergies ont un écart de ", "sans doute : un pas "
                 "trop long pour le joint", "2 avertissements, écart des énergies de ")),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_motion_whose_energies_are_out_of_balance_ends_with_a_warning(
     tmp_path: Path, language: str, expected: tuple[str, ...]
 ) -> None:
@@ -218,9 +216,7 @@ def test_a_motion_whose_energies_are_out_of_balance_ends_with_a_warning(
     assert len(line["energy_imbalance_from"]) == 1
 
 
-@pytest.mark.parametrize(
-    ("step", "scheme"), [("2.E-5", ""), ("0.01", "T . 'CONSERVATIF' = VRAI ; ")]
-)
+@together("step, scheme", [("2.E-5", ""), ("0.01", "T . 'CONSERVATIF' = VRAI ; ")])
 def test_energies_in_balance_end_without_one(tmp_path: Path, step: str, scheme: str) -> None:
     told, made = closing(tmp_path, FALL.format(step=step, scheme=scheme))
     assert ", energy within " in told.splitlines()[-1]
@@ -234,7 +230,7 @@ def test_the_scheme_s_own_damping_is_named_beside_the_step(tmp_path: Path) -> No
     assert "the scheme's own damping (ALPHA_F, RHO_INF, GAMMA)" in told
 
 
-@pytest.mark.parametrize(("deck", "share"), [(PULL, 0.9), (SWAY, 0.5)])
+@together("deck, share", [(PULL, 0.9), (SWAY, 0.5)])
 def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path, deck, share) -> None:
     """Pressed by 10 N onto 1000 N/m, then pulled to 0.1 m of 100 N/m in one step.
 

@@ -1,6 +1,14 @@
-"""Every deck of `cases/` runs and passes; spoilt, it says so and the run fails."""
+"""Every deck of `cases/` runs and passes; spoilt, it says so and the run fails.
 
+That its checks can fail is a deck's own: what costs more than a glance is tried again when the deck
+changes, or what spoils it. `spoilt.toml` has the digest of those that failed as they should.
+"""
+
+import hashlib
+import json
+import os
 import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -100,6 +108,8 @@ SMALLER = {
         ("DUREE = 5.", "DUREE = 1.2"),
         ("NA0 = 4 ; NR0 = 3 ; NO0 = 5 ; NZ1 = 2", "NA0 = 3 ; NR0 = 2 ; NO0 = 4 ; NZ1 = 2"),
         ("NZ2 = 4 ; NW0 = 5 ;", "NZ2 = 3 ; NW0 = 4 ;"),
+        ("TLAG = MOUVOIR CHAQ DUR2 KLAG ; DYNAMIC TLAG ;", ""),  # no check looks at it
+        ("(DEFAUT TLAG) (DEFAUT TLCO)", "(DEFAUT TLCO)"),
         ("REPE BA 12 ;", "REPE BA 3 ;"),
         ("(&BA - 7)", "(&BA - 2)"),
     ],
@@ -174,20 +184,37 @@ def noted(name: str, value: float, expected: float, tolerance: float) -> Check:
     return Check(name, value, expected, tolerance)
 
 
+TRIED = Path(__file__).with_name("spoilt.toml")
+
+
+def digest(deck: str, changes: list[tuple[str, str]]) -> str:
+    """What a deck and its changes are known by."""
+    text = (CASES / deck).read_text(encoding="utf-8") + json.dumps(changes)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(("deck", "old", "new"), SPOILT, ids=lambda x: x if "/" in x else "")
 def test_spoilt_deck_fails_on_its_own_checks(
     deck: str, old: str, new: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):
     changes = [(old, new), *SMALLER.get(deck, []), *SHORTER.get(deck, [])]
+    tried, now = tomllib.loads(TRIED.read_text(encoding="utf-8")), digest(deck, changes)
+    if tried.get(deck) == now:
+        return
     if deck.startswith("basics/"):
         result = run_changed(CASES / deck, tmp_path, *changes)
         assert result.exit_code == 1
         assert "out of tolerance" in result.message
-        return
-    monkeypatch.setattr(writing, "Check", noted)
-    with pytest.raises(_NoticedError):
-        run_changed(CASES / deck, tmp_path, *changes)
+    else:
+        monkeypatch.setattr(writing, "Check", noted)
+        with pytest.raises(_NoticedError):
+            run_changed(CASES / deck, tmp_path, *changes)
+    if deck in tried and "SSILANG_UPDATE" in os.environ:
+        lines = (f'"{d}" = "{h}"\n' for d, h in (tried | {deck: now}).items())
+        TRIED.write_text("".join(lines), encoding="utf-8")
+    elif deck in tried:
+        pytest.fail(f"it failed as it should: SSILANG_UPDATE=1 writes {now} to {TRIED.name}")
 
 
 def test_every_deck_has_a_spoilt_twin():

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.io.checkpoint import Checkpoints, Deck, changed_names, digest_of_file
 from ssilang.io.errors import InputError
@@ -126,8 +127,8 @@ def test_a_new_run_leaves_nothing_of_the_old_one(tmp_path: Path) -> None:
     assert not anew.found
 
 
-@pytest.mark.parametrize(
-    ("deck", "code", "told"),
+@together(
+    "deck, code, told",
     [
         (Deck("1.3", "abc", DECK.given), "io.checkpoint-of-version", {"version": "1.2"}),
         (Deck("1.2", "other", DECK.given), "io.checkpoint-of-deck", {}),
@@ -147,8 +148,8 @@ def test_checkpoints_of_another_run(tmp_path: Path, deck: Deck, code: str, told:
         assert {n: caught.value.data[n] for n in told} == told
 
 
-@pytest.mark.parametrize("damaged", ["1.state", "1.rows"])
-@pytest.mark.parametrize("harm", [lambda held: held[:70], lambda held: held[:-3] + b"\1\2\3"])
+@together("damaged", ["1.state", "1.rows"])
+@together("harm", [lambda held: held[:70], lambda held: held[:-3] + b"\1\2\3"])
 def test_a_damaged_file_is_told(tmp_path: Path, damaged: str, harm) -> None:
     _kept(tmp_path)
     path = tmp_path / damaged

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io import tables
 from ssilang.io.errors import InputError
@@ -48,7 +49,7 @@ def test_blanks_separate_however_many(tmp_path: Path) -> None:
     assert read_csv(path, " ").tolist() == [[1.0, 2.0], [3.0, 4.0]]
 
 
-@pytest.mark.parametrize("end", ["", ";", '\n"7";8', "\n3;4;5", "\n\n9"])
+@together("end", ["", ";", '\n"7";8', "\n3;4;5", "\n\n9"])
 def test_uneven_and_even_rows_are_read_alike(tmp_path: Path, end: str) -> None:
     path = tmp_path / "x.csv"
     path.write_text("1;2\n3;4" + end)
@@ -61,7 +62,7 @@ def test_uneven_and_even_rows_are_read_alike(tmp_path: Path, end: str) -> None:
     }.get(end, [])
 
 
-@pytest.mark.parametrize("cell", ["nan", "inf", "-1E999"])
+@together("cell", ["nan", "inf", "-1E999"])
 def test_what_is_not_finite_is_refused_where_it_stands(tmp_path: Path, cell: str) -> None:
     path = tmp_path / "x.csv"
     path.write_text(f"1;2\n3;{cell}\n")
@@ -86,7 +87,7 @@ def test_digits_that_python_alone_reads_are_no_number(tmp_path: Path) -> None:
         read_csv(path)
 
 
-@pytest.mark.parametrize("separator", [";", " "])
+@together("separator", [";", " "])
 def test_a_line_of_too_many_columns_is_refused(
     separator: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

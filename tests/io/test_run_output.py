@@ -34,6 +34,32 @@ def test_a_link_does_not_lead_outside(output: RunOutput, tmp_path: Path) -> None
     assert output.target("out/x.csv") is None
 
 
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+@pytest.mark.parametrize("name", ["results", "results/case"])
+def test_a_link_put_there_since_the_look_is_no_folder(
+    output: RunOutput, tmp_path: Path, name: str
+) -> None:
+    (tmp_path / "elsewhere" / "case").mkdir(parents=True)
+    (tmp_path / name).parent.mkdir(exist_ok=True)
+    (tmp_path / name).symlink_to(tmp_path / "elsewhere")
+    with refusal(OutputError, "io.output-folder-gone"):
+        output.hold()
+    assert [p for p in (tmp_path / "elsewhere").rglob("*") if p.is_file()] == []
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+def test_a_link_to_the_folder_itself_moved_is_noticed(output: RunOutput, tmp_path: Path) -> None:
+    """The lock is the same file there: what differs is the way to it."""
+    output.hold()
+    try:
+        (tmp_path / "results").rename(tmp_path / "moved")
+        (tmp_path / "results").symlink_to(tmp_path / "moved")
+        with refusal(OutputError, "io.output-folder-gone"):
+            output.check()
+    finally:
+        output.release()
+
+
 def test_files_are_read_beside_the_script_or_from_the_output(output: RunOutput) -> None:
     (output.inputs / "in.csv").write_text("1")
     assert output.source("in.csv") == output.inputs / "in.csv"

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.errors import InputError
 from ssilang.io.training import TrainingFile
@@ -52,8 +53,8 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Trai
     return TrainingFile(path)
 
 
-@pytest.mark.parametrize(
-    ("arrays", "told"),
+@together(
+    "arrays, told",
     [
         ({"vectors": npy(np.eye(6, 2) + 1j)}, "complex128"),
         ({"vectors": npy(np.full((6, 2), "1"))}, "<U1"),

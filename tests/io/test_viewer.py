@@ -210,6 +210,24 @@ def test_words_of_a_damaged_file_reach_no_terminal(
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("share", [0.4, 0.7, 0.97])
+def test_a_cut_mesh_of_others_is_no_picture(tmp_path: Path, binary: bool, share: float) -> None:
+    """VTK shows what it has read, and noughts for the rest."""
+    pyvista = pytest.importorskip("pyvista")
+    mesh = pyvista.ImageData(dimensions=(4, 3, 2)).cast_to_unstructured_grid()
+    mesh.point_data["u"] = np.arange(3.0 * mesh.n_points).reshape(-1, 3)
+    path = tmp_path / "whole.vtk"
+    mesh.save(str(path), binary=binary)
+    draw(path, tmp_path / "whole.png", Wish())
+    cut = tmp_path / "cut.vtk"
+    cut.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
+    with pytest.raises(InputError) as told:
+        draw(cut, tmp_path / "cut.png", Wish())
+    assert told.value.code == "io.not-viewed-no-points"
+    assert not (tmp_path / "cut.png").exists()
+
+
 @pytest.mark.skipif(shutil.which("Xvfb") is None, reason="no X server without a screen (xvfb)")
 def test_a_window_opens_with_a_slider_over_instants(results: Path) -> None:
     """In a process of its own, on a screen in memory; the window is closed as soon as it stands."""

@@ -4,6 +4,7 @@ import asyncio
 import base64
 import json
 import os
+import queue
 import shutil
 import sys
 from pathlib import Path
@@ -218,6 +219,29 @@ def test_help_completion_and_inspection_know_the_session(ran):
     for code, status in (("SI VRAI ;", "incomplete"), ("X = 1 ;", "complete"), ("X = 1", "inc")):
         assert asyncio.run(kernel.do_is_complete(code))["status"].startswith(status)
     assert asyncio.run(kernel.do_is_complete("X = ) ;"))["status"] == "complete"
+
+
+def test_a_second_console_cannot_run_beside_a_cell(tmp_path, monkeypatch):
+    """The session is one: what a thread beside sets would stand in the middle of a procedure."""
+    asked = ("create_subshell_request", "debug_request")
+    assert not set(asked) & set(GibianeKernel.control_msg_types)
+    install(str(tmp_path), "en")
+    monkeypatch.setenv("JUPYTER_PATH", str(tmp_path / "share/jupyter"))
+    monkeypatch.setenv("PYTHONPATH", str(Path(ssilang.__file__).parents[1]))
+    client_of = pytest.importorskip("jupyter_client.manager").start_new_kernel
+    manager, client = client_of(kernel_name="gibiane", cwd=str(tmp_path))
+    try:
+        told = client.kernel_info(reply=True, timeout=30)["content"]
+        assert told["implementation"] == "ssilang"
+        assert told["supported_features"] == []
+        client.control_channel.send(client.session.msg(asked[0], {}))
+        with pytest.raises(queue.Empty):
+            client.control_channel.get_msg(timeout=1.5)
+        answer = client.execute_interactive("X = 1 ; MESS X ;", timeout=60, output_hook=list)
+        assert answer["content"]["status"] == "ok"
+    finally:
+        client.stop_channels()
+        manager.shutdown_kernel(now=True)
 
 
 def test_the_kernel_is_told_to_jupyter_with_its_language(tmp_path, capsys):

@@ -176,15 +176,12 @@ def test_the_tables_of_the_manual_have_a_row_for_each_entry(language, build):
         assert entry.said(language).replace("|", "\\|") in text
 
 
-@pytest.mark.parametrize(
-    ("name", "index", "given", "wanted"),
-    [
+@together("name, index, given, wanted", [
         ("DYNAMIC", "VITEUNIL", "MASSIQUE", "INERTIE"), ("DYNAMIC", "VITEUNIL", "raid", "RAIDEUR"),
         ("DYNAMIC", "VITEUNIL", "RIGI ", "RAIDEUR"), ("DYNAMIC", "VITEUNIL", "VITESSE", None),
         ("PASAPAS", "LAGRANGIEN", "REACTUALISE", "MI_PAS"),
         ("PASAPAS", "LAGRANGIEN", "TOTAL ", "TOTAL"), ("PASAPAS", "LAGRANGIEN", "TOTA", None),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_word_is_taken_as_declared_or_as_it_was_called_before(name, index, given, wanted):
     (entry,) = (e for e in DECLARED[name].entries if e.index == index)
     assert entry.word(given) == wanted

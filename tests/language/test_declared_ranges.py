@@ -88,11 +88,15 @@ def test_every_entry_with_a_range_refuses_what_is_outside_of_it():
     assert refused > 0.5 * tries
 
 
-@pytest.mark.parametrize(
-    ("values", "code"),
-    [([], "increasing"), ([1.0, 3.0, 2.0], "increasing"), ([1.0, 2.0, 2.0], "increasing"),
-     ([math.nan, 1.0], "finite")],
-)  # fmt: skip
+@together(
+    "values, code",
+    [
+        ([], "increasing"),
+        ([1.0, 3.0, 2.0], "increasing"),
+        ([1.0, 2.0, 2.0], "increasing"),
+        ([math.nan, 1.0], "finite"),
+    ],
+)
 def test_lists_that_must_increase_are_refused_where_they_do_not(values, code):
     session = open_session(Session())
     rising = [e for e in BOUNDED if e.range.increasing]
@@ -200,9 +204,7 @@ def test_what_is_no_number_is_refused_where_it_stands(text):
     )
 
 
-@pytest.mark.parametrize(
-    "text", ["MESS X ;", "Z = MASQ XL 'EGSUPE' 1. ;", "LIST XL ;", "Z = EVOL 'MANU' XL XL ;"]
-)
+@together("text", ["MESS X ;", "Z = MASQ XL 'EGSUPE' 1. ;", "LIST XL ;", "Z = EVOL 'MANU' XL XL ;"])
 def test_what_came_of_a_division_by_zero_may_be_looked_at(text):
     ran(NAN + text)
 
@@ -275,7 +277,7 @@ def test_senseless_numbers_are_told(model, line):
     assert "Traceback" not in said
 
 
-@pytest.mark.parametrize("model", PROBES)
+@together("model", PROBES)
 def test_the_models_themselves_are_told_nothing(model):
     result = ran(model + RUN.get(model, ""))
     assert not [w.code for w in result.session.warnings if "range" in w.code or "unusual" in w.code]

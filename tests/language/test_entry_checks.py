@@ -2,7 +2,6 @@
 
 import io
 
-import pytest
 from script_runs import failed, ran
 from together import together
 
@@ -33,15 +32,12 @@ def warnings(text: str, language: str = "en") -> list[str]:
     return [" = ".join(sentence(w, language)) for w in found]
 
 
-@pytest.mark.parametrize(
-    ("deck", "entry", "word"),
-    [
+@together("deck, entry, word", [
         (DYNAMIC, "T1 . 'VITEUNIL' = MOT 'FAUX' ;", "FAUX"),
         (PASAPAS, "T1 . 'GRANDS_DEPLACEMENTS' = 'vrai' ;", "VRAI"),
         (PASAPAS, "T1 . 'MES_SAUVEGARDES' = TABL ; T1 . 'MES_SAUVEGARDES' . 'DEFTO' = 'FAUX' ;",
          "FAUX"),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_word_for_a_logical_is_told_and_taken_as_it(deck, entry, word):
     script, call = deck
     result = ran(script + entry + call)
@@ -73,7 +69,7 @@ def test_an_entry_that_nobody_reads_is_a_warning_that_names_the_right_one(deck, 
     assert entry.split("'")[1] in said
 
 
-@pytest.mark.parametrize(
+@together(
     "more",
     [
         "T1 . 'CHARGEMENT' = C1 ; T1 . 'CHAR' = C1 ; MESS (TYPE (T1 . 'CHAR')) ;",
@@ -108,8 +104,8 @@ def test_warnings_speak_french():
     assert "vouliez-vous dire 'CHAR' ?" in said
 
 
-@pytest.mark.parametrize(
-    ("entry", "words"),
+@together(
+    "entry, words",
     [
         ("T1 . 'RIGI' = 3 ;", ["'RIGI' must be RIGIDITE, found ENTIER"]),
         ("OUBL T1 'RIGI' ;", ["the entry 'RIGI' is missing"]),
@@ -129,7 +125,7 @@ def test_documented_words_and_older_ones_work(value):
     assert warnings(OSCILLATOR + f"T1 . 'VITEUNIL' = {value} ; T2 = DYNAMIC T1 ;") == []
 
 
-@pytest.mark.parametrize("word", ["'TOUS'", "'tous'", "'FINAL'", "'FINA'"])
+@together("word", ["'TOUS'", "'tous'", "'FINAL'", "'FINA'"])
 def test_words_compare_on_four_letters(word):
     assert warnings(OSCILLATOR + f"T1 . 'PAS_SAUVES' = {word} ; T2 = DYNAMIC T1 ;") == []
 

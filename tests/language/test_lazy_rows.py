@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from together import together
 
 from ssilang.language.values import PENDING, LazyRows, LazyTable, Mot, Table, promises
 
@@ -99,7 +100,7 @@ def test_nothing_is_made_before_it_is_asked_for():
         made.clear()
 
 
-@pytest.mark.parametrize("listed", [False, True])
+@together("listed", [False, True])
 def test_rows_tell_what_waits(listed):
     table, _ = _rows([], listed)
     assert table.untouched
@@ -133,7 +134,7 @@ def test_a_stand_in_serves_for_what_is_not_made():
     assert LazyTable(str.lower, promises("TEMP")).glance("TEMP") == "temp"
 
 
-@pytest.mark.parametrize("subtype", ["", "MODAL", "A B"])
+@together("subtype", ["", "MODAL", "A B"])
 def test_a_subtype_is_an_entry(subtype):
     table = Table(subtype)
     assert table.subtype == subtype

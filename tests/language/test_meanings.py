@@ -1,11 +1,11 @@
 """A word's meanings: however it is typed, and whose they are."""
 
-import pytest
+from together import together
 
 from ssilang.language import vocabulary
 
 
-@pytest.mark.parametrize("word", ["YOUN", "PLAN", "KN", "CONT"])
+@together("word", ["YOUN", "PLAN", "KN", "CONT"])
 def test_meanings_do_not_depend_on_how_a_word_is_typed(word):
     found = vocabulary.all_meanings(word)
     assert found

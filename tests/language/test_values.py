@@ -1,7 +1,7 @@
 """Tables and lists of the language: keys by type, copies, entries made when they are asked for."""
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.language.values import (
     PENDING,
@@ -77,7 +77,7 @@ def test_values_that_wait_are_found_once_and_not_shared():
     assert asked == ["ZED", "AMP", "ZED", "AMP"]
 
 
-@pytest.mark.parametrize("source", [(), "xy"])
+@together("source", [(), "xy"])
 def test_rows_become_tables_when_they_are_asked_for(source):
     made = []
 

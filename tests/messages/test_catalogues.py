@@ -228,9 +228,7 @@ def test_codes_say_the_thing():
     assert not [c for c in catalogue() if re.search(r"-\d$", c)]
 
 
-@pytest.mark.parametrize(
-    "code", ["..messages.x", "kernel/mesh.x", "../language.x", "x.y", "kernel.x"]
-)
+@together("code", ["..messages.x", "kernel/mesh.x", "../language.x", "x.y", "kernel.x"])
 def test_a_code_without_a_message_is_a_defect(code):
     with pytest.raises(LookupError, match="no message has the code"):
         find(code)

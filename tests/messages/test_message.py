@@ -50,6 +50,17 @@ def test_no_digit_that_is_told_hangs_on_rounding(spec, value):
     assert len(said) == 1
 
 
+@pytest.mark.parametrize(
+    ("spec", "count", "end"),
+    [("", 3000, "n19, ... (+2980)"), (":and", 61, "n19, ... (+41)"),
+     (":words", 99, "n19 ... (+79)"), (":and", 60, "n58 and n59"), ("", 60, "n58, n59")],
+)  # fmt: skip
+def test_long_collections_are_told_by_their_first_words_and_how_many_more(spec, count, end):
+    told = filled(f"{{names{spec}}}", {"names": [f"n{k}" for k in range(count)]}, "en")
+    assert told.endswith(end)
+    assert told.startswith("n0")
+
+
 def test_an_error_inside_of_another_is_told_in_the_language_asked_for():
     inner = Sentence("recursion", limit=3)
     assert filled("at 2: {problem}", {"problem": inner}, "en").startswith("at 2: procedures call")

@@ -4,7 +4,6 @@ import io
 import re
 from pathlib import Path
 
-import pytest
 from together import together
 
 from ssilang.cli.check import check_source
@@ -67,7 +66,7 @@ def test_a_run_speaks_its_language(script: str, language: str, tmp_path: Path) -
     assert foreign(text, other), "no word that tells the language"
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@together("language", ["en", "fr"])
 def test_warnings_speak_the_language(language: str) -> None:
     problems, _ = check_source(Source("script", "A = 3 / 2 ; DENS = 4. ; MESS A ;"))
     assert [p.severity for p in problems].count("warning") >= 2
@@ -76,8 +75,8 @@ def test_warnings_speak_the_language(language: str) -> None:
     assert text.count({"en": "warning:", "fr": "avertissement :"}[language]) >= 2
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
-@pytest.mark.parametrize("word", ["", "DENS", "JOINT_SDM", "ACTI3", "qqqqq"])
+@together("language", ["en", "fr"])
+@together("word", ["", "DENS", "JOINT_SDM", "ACTI3", "qqqqq"])
 def test_help_speaks_its_language(word: str, language: str) -> None:
     out = io.StringIO()
     show_help(word, language, out)

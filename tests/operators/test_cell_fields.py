@@ -1,8 +1,8 @@
 """Fields in cells: making, algebra, components, masks."""
 
 import numpy as np
-import pytest
 from script_runs import ran
+from together import together
 
 LINE = (
     "OPTI DIME 2 ELEM SEG2 ; PA = 0. 0. ; PB = 4. 0. ; L = DROI 4 PA PB ; "
@@ -37,8 +37,8 @@ def test_type_and_constituent_change(found):
     assert field.blocks[0].constituent == "AB"
 
 
-@pytest.mark.parametrize(
-    ("other", "told"),
+@together(
+    "other, told",
     [("C", []), ("C * 2.", [["A", "B"]]), ("CHAN 'CONS' (C * 2.) 'W'", []), ("S", [])],
 )
 def test_other_values_of_a_component_in_the_same_cells_are_told(other, told):

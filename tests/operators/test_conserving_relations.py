@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.language.say.diagnostics import sentence
@@ -44,8 +45,8 @@ def test_a_velocity_correction_beside_it_has_no_effect_and_is_warned_of(entry, w
     assert ("'VITEUNIL' has no effect" in said) is warned
 
 
-@pytest.mark.parametrize(
-    ("entries", "told"),
+@together(
+    "entries, told",
     [
         ("", False),
         ("T . 'CONSERVATIF' = VRAI ; ", False),

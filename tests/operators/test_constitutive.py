@@ -81,6 +81,16 @@ def test_tangent_of_a_bar_is_elastic_inside_and_hardening_on_the_surface(found):
     np.testing.assert_allclose(k3, expected, rtol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("law", "given"),
+    [("BETON_BAEL", "'FC' 30."), ("PARFAIT_UNI", "'SIGY' 2. 'H' 0."), ("PARFAIT", "'SIGY' 2.")],
+)
+def test_tangent_of_a_bar_that_bears_nothing_is_its_stiffness(found, law, given):
+    script = BAR.replace("CINEMATIQUE", law).replace("'SIGY' 2. 'H' 250.", given)
+    k0, k1 = map(matrix, found(script + "K0 = RIGI M A ; K1 = KTAN M S0 V0 A ;", "K0", "K1"))
+    np.testing.assert_allclose(k1, k0)
+
+
 LINES = "OPTI DIME 3 MODE TRID ELEM {} ; L = DROI 2 (0. 0. 0.) (1. 2. .5) ; "
 SHELL = LINES.format("TRI3") + "L = TRAN 1 L (0. .3 1.) ; "
 HELD = {
@@ -269,3 +279,145 @@ def test_a_point_joint_slips_in_space_beside_its_springs_of_rotation(found):
     answer = respond(zone, a, np.zeros((1, 6, 1)), none, jumps[None, :, None])
     wanted = np.array([(exact(jumps + h) - exact(jumps - h)) / (2 * h.max()) for h in small]).T
     np.testing.assert_allclose(answer.tangent[0, 0], wanted, rtol=1e-5, atol=1.0)
+
+
+# --- what laws say of themselves ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("strength", "push"), [(4.0, 10.0), (0.0, 25.0)])
+def test_cone_of_a_dilating_joint_has_its_apex_at_the_tensile_strength(found, strength, push):
+    given = f"'PHI' 30. 'MU' 12. 'FTRC' {strength}"
+    script = JOINT.format(law="PLASTIQUE JOINT_DILATANT", more=given) + (
+        f"F = MANU 'CHPO' T 2 'UX' 1.E-3 'UY' {-push / 1e6} 'NATURE' 'DIFFUS' ; "
+        "C = COMP M (A ET Z) (A ET (EPSI M F A)) ; "
+    )
+    c = found(script, "C")
+    pressed = -component(c, "SMN")
+    assert (pressed > push).all()  # slip lifts the faces, which are held
+    bound = (strength + pressed) * np.tan(np.radians(30))
+    np.testing.assert_allclose(component(c, "SMSN"), bound, rtol=1e-9)
+
+
+@pytest.mark.parametrize(("dimension", "angle"), [(2, 25.0), (3, 70.0)])
+def test_anisotropic_body_shears_as_it_is_heated(found, dimension, angle):
+    mesh = (
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0 0) (1 0) ; S = TRAN 1 L (0. 1.) ; "
+        if dimension == 2
+        else "OPTI DIME 3 ELEM CUB8 ; L = DROI 1 (0 0 0) (1 0 0) ; "
+        "S = (TRAN 1 L (0. 1. 0.)) VOLU 1 TRAN (0. 0. 1.) ; "
+    )
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    n = 4 if dimension == 2 else 6
+    D = np.diag(np.arange(1.0, n + 1)) + 0.1
+    rates = np.array([1.0, 2.0, 3.0, 0.5, -0.7, 0.9])[:n]
+    axes = f"({c} {s}) " if dimension == 2 else f"({c} {s} 0.) ({-s} {c} 0.) "
+    terms = " ".join(f"'D{i + 1}{j + 1}' {D[i, j]}" for i in range(n) for j in range(i + 1))
+    names = ("ALP1", "ALP2", "ALP3", "AL12", "AL13", "AL23")
+    script = mesh + (
+        "M = MODE S MECANIQUE ELASTIQUE ANISOTROPE ; "
+        f"A = MATE M DIRECTION {axes} {terms} "
+        + " ".join(f"'{name}' {rate}" for name, rate in zip(names, rates, strict=False))
+        + " ; H = EPTH M A (MANU 'CHPO' S 1 'T' 2. 'NATURE' 'DIFFUS') ; "
+    )
+    local = np.diag(rates[:3])
+    for (i, j), rate in zip(((0, 1), (0, 2), (1, 2)), rates[3:], strict=False):
+        local[i, j] = local[j, i] = rate / 2
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+    whole = 2.0 * turn @ local @ turn.T
+    h = found(script, "H")
+    shown = {"EPXX": whole[0, 0], "EPYY": whole[1, 1], "GAXY": 2 * whole[0, 1]}
+    if dimension == 3:
+        shown |= {"GAXZ": 2 * whole[0, 2], "GAYZ": 2 * whole[1, 2]}
+    for name, value in shown.items():
+        np.testing.assert_allclose(component(h, name), value, rtol=1e-9, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("script", "more"),
+    [
+        (PLATE + MISES, ()),
+        (BAR, ()),
+        (JOINT.format(law="PLASTIQUE COULOMB", more="'FRIC' 30. 'COHE' 10."), ("STAT",)),
+    ],
+)
+def test_names_that_a_model_and_zeros_have_are_those_of_the_law_s_answer(found, script, more):
+    script += (
+        "Y = ZERO M 'DEFORMATIONS' ; W = ZERO M 'CONTRAINTES' ; "
+        "C = COMP M (A ET W ET Y) (A ET Y) ; "
+        "N = EXTR (ZERO M 'DEFINELA') 'COMP' ; V = EXTR M 'VARI' ; E = EXTR C 'COMP' ; "
+        "S = EXTR M 'CONT' ; O = EXTR (ZERO M 'VARINTER') 'COMP' ; "
+    )
+    lists = found(script, "N", "V", "E", "S", "O")
+    inelastic, inner, answered, stresses, zeros = (x.values for x in lists)
+    assert set(inelastic) | set(inner) | set(stresses) == set(answered)
+    assert set(zeros) == set(inner) >= {"EPSE", *more}
+
+
+def test_variables_of_layers_are_named_by_the_model(found):
+    script = (
+        "OPTI DIME 3 ELEM TRI3 ; S = MANU 'TRI3' (0. 0. 0.) (1. 0. 0.) (0. 1. 0.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT DKT INTEGRE 5 ; "
+        "A = MATE M 'YOUN' 1. 'NU' 0.3 'SIGY' 1. 'EPAI' 0.1 ; V = EXTR M 'VARI' ; "
+        "B = BLOQ 'DEPL' 'ROTA' S ; T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
+        "T . 'BLOCAGES_MECANIQUES' = B ; T . 'TEMPS_CALCULES' = PROG 1. ; "
+        "T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B 0.) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "PASAPAS T ; W = EXTR (T . 'VARIABLES_INTERNES' . 1) 'COMP' ; "
+    )
+    names, shown = found(script, "V", "W")
+    assert list(names.values) == list(shown.values) == ["EPSE", "SMSS", "SMTT", "SMST"]
+
+
+@pytest.mark.parametrize(("duration", "age"), [(3.0, 1.0), (0.5, 0.5)])
+def test_creep_answers_over_the_time_between_two_states(found, duration, age):
+    rate, young = 1e-6, 1e3
+    script = (
+        BAR.split("M = MODE")[0] + "M = MODE L MECANIQUE ELASTIQUE FLUAGE NORTON BARR ; "
+        f"A = MATE M 'YOUN' {young} 'NU' 0. 'AF1' {rate} 'AF2' 2. 'AF3' {age} 'SECT' 3. ; "
+        "D0 = MANU 'CHML' M 'TEMP' 1. 'TYPE' 'SCALAIRE' 'STRESSES' ; "
+        f"D1 = MANU 'CHML' M 'TEMP' {1 + duration} 'TYPE' 'SCALAIRE' 'STRESSES' ; "
+        "S0 = MANU 'CHML' M 'EFFX' 60. 'TYPE' 'CONTRAINTES' 'STRESSES' ; V0 = ZERO M 'VARINTER' ; "
+        "E0 = ZERO M 'DEFORMATIONS' ; C = COMP M (A ET S0 ET V0 ET E0 ET D0) (A ET E0 ET D1) ; "
+        f"K = KTAN M S0 V0 A 'DT' {duration} ; "
+    )
+    c, k = found(script, "C", "K")
+    stress, crept = component(c, "EFFX") / 3.0, component(c, "EPSE")
+    # held: what the stress loses the creep has gained, by the law of the stress at the end
+    np.testing.assert_allclose(crept, rate * stress**2 * duration**age, rtol=1e-9)
+    np.testing.assert_allclose(20.0 - stress, young * crept, rtol=1e-9)
+    assert crept[0] > 1e-4
+    slope = 2 * rate * stress[0] * duration**age
+    top = np.abs(matrix(k)).max()
+    assert top == pytest.approx(3.0 * young / (1 + young * slope), rel=1e-9)
+
+
+@pytest.mark.parametrize(("element", "cell"), [("COQ8", "QUA8"), ("COQ6", "TRI6")])
+def test_thick_shells_that_yield_answer_point_by_point_as_in_time(found, element, cell):
+    script = (
+        f"OPTI DIME 3 ELEM {cell} ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = L TRAN 1 (0. 1. .3) ; "
+        f"M = MODE S MECANIQUE ELASTIQUE PLASTIQUE CINEMATIQUE {element} ; "
+        "A = MATE M 'YOUN' 2.E3 'NU' .3 'SIGY' 1. 'H' 300. 'EPAI' .2 ; X = COOR 1 S ; "
+        "U = (NOMC 'UX' (2.E-3 * X) 'NATU' 'DIFFUS') ET (NOMC 'UZ' (3.E-3 * X * X) 'NATU' 'DIFFUS')"
+        " ET (NOMC 'RY' (-1.E-3 * X) 'NATU' 'DIFFUS') ; "
+        + ZEROS
+        + "BX = BLOQ 'UX' S ; BZ = BLOQ 'UZ' S ; BR = BLOQ 'RY' S ; "
+        "D = (DEPI BX (EXCO 'UX' U 'UX')) ET (DEPI BZ (EXCO 'UZ' U 'UZ')) ET "
+        "(DEPI BR (EXCO 'RY' U 'RY')) ; "
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
+        "T . 'TEMPS_CALCULES' = PROG 1. ; "
+        "T . 'BLOCAGES_MECANIQUES' = BX ET BZ ET BR ET (BLOQ 'UY' 'RX' 'RZ' S) ; "
+        "T . 'CHARGEMENT' = CHAR 'DIMP' D (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; PASAPAS T ; "
+        "C = COMP M (A ET Z) (A ET (EPSI M U A)) ; S1 = T . 'CONTRAINTES' . 1 ; "
+        "LC = EXTR S1 'COMP' ; LV = EXTR M 'VARI' ; S2 = EXCO LC C LC ; V2 = EXCO LV C LV ; "
+        "E1 = MAXI 'ABS' (S1 - S2) ; E0 = MAXI 'ABS' (EXCO 'SMSN' S1) ; "
+        "S3 V3 E3 = ECOU M S2 V2 (EPSI M (1.E-5 * U) A) A ; K = KTAN M S2 V2 A ; "
+        "F = (BSIG M S3 A) - (BSIG M S2 A) ; W = 1.E-5 * U ; G = RIGI M A ; "
+        "X1 = MAXI (F - (K * W)) 'ABS' ; X2 = MAXI F 'ABS' ; X3 = MAXI (F - (G * W)) 'ABS' ; "
+        "K0 = KTAN M S0 V0 A ; X4 = MAXI ((K0 * U) - (G * U)) 'ABS' ; X5 = MAXI (G * U) 'ABS' ; "
+    )
+    names = ("E1", "E0", "X1", "X2", "X3", "X4", "X5")
+    off, shear, error, size, elastic, unlike, whole = found(script, *names)
+    assert shear > 0.1
+    assert off < 1e-9
+    assert unlike < 1e-9 * whole
+    assert error < 5e-3 * size
+    assert elastic > 0.1 * size

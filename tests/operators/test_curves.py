@@ -1,6 +1,7 @@
 """EVOL in its kinds, parts of curves, arithmetic, interpolation, integrals."""
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -26,7 +27,7 @@ def test_integrals_of_one_curve_are_read_as_a_list_and_as_a_number(found):
     assert list(more.values) == [16.0, 8.0]
 
 
-@pytest.mark.parametrize("phrase", ["EXTR 2.5 2", "EXTR (INTG C) 2"])
+@together("phrase", ["EXTR 2.5 2", "EXTR (INTG C) 2"])
 def test_a_number_has_no_second_item(phrase):
     result = run_text(f"C = EVOL 'MANU' (PROG 0. 1.) (PROG 2. 2.) ; X = {phrase} ;")
     assert [e.code for e in result.errors] == ["operators.lists.no-such-place"]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 FREE_MASS = """OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; T1 = TABL ;
 T1 . 'RIGI' = (APPU 'DEPL' 1.E-9 P) ; T1 . 'MASS' = MASS 'DEPL' 1. P ;
@@ -12,7 +13,7 @@ T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; T1 . 'PAS_SAUVES' = 'TOUS' ;
 T2 = DYNAMIC T1 ;"""
 
 
-@pytest.mark.parametrize(("word", "last"), [("'DEPL'", 3.0), ("'VITE'", 3.0), ("", 3.0)])
+@together("word, last", [("'DEPL'", 3.0), ("'VITE'", 3.0), ("", 3.0)])
 def test_quantity_of_the_steps_is_drawn_in_time(word, last):
     result = ran(
         f"{FREE_MASS} E = EVOL 'TEMP' T2 {word} 'UX' P ; LT = EXTR E 'ABSC' ; LU = EXTR E 'ORDO' ;"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.masing import Masing, polygon
 from references.soil_column import Column, bundle
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -48,8 +49,8 @@ def test_a_sheared_cell_follows_masings_rules(found, body):
     assert found(body + material() + CYCLED, *NAMES) == pytest.approx(wanted(), rel=1e-9)
 
 
-@pytest.mark.parametrize("body", [SQUARE, CUBE], ids=["plane", "space"])
-@pytest.mark.parametrize(("last", "told"), [(5e-3, False), (3.9e-3, True), (1.5e-3, True)])
+@together("body", [SQUARE, CUBE])
+@together("last, told", [(5e-3, False), (3.9e-3, True), (1.5e-3, True)])
 def test_strains_beyond_the_last_point_of_a_curve_are_told(body, last, told):
     """Also where the path has come back; what an earlier calculation reached is not told again."""
     given = f"'GGAM' (EVOL 'MANU' (PROG 1.E-5 1.E-4 {last}) (PROG 1. 0.8 0.1))"
@@ -92,7 +93,7 @@ def test_a_cell_under_a_shaken_base_moves_as_masses_on_springs(found):
     assert balance < 1e-9
 
 
-@pytest.mark.parametrize(
+@together(
     "given",
     [
         "'GAMR' 0.05",

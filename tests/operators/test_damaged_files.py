@@ -95,7 +95,7 @@ _UNV = """    -1
 """
 
 
-@pytest.mark.parametrize("second", ["9", "2 2", "x", "99999999999999999999999"])
+@together("second", ["9", "2 2", "x", "99999999999999999999999"])
 def test_a_cell_of_a_universal_file_that_has_not_its_nodes(second, tmp_path):
     (tmp_path / "line.unv").write_text(_UNV.format(second=second))
     result = run("OPTI DIME 3 ; T = LIRE 'UNV' 'line.unv' ;", tmp_path)
@@ -104,8 +104,8 @@ def test_a_cell_of_a_universal_file_that_has_not_its_nodes(second, tmp_path):
     assert run("OPTI DIME 3 ; T = LIRE 'UNV' 'line.unv' ;", tmp_path).exit_code == 0
 
 
-@pytest.mark.parametrize(
-    ("sizes", "values", "code"),
+@together(
+    "sizes, values, code",
     [
         ("NPTS= 2, DT= .01 SEC", ".1 .2", ""),
         ("NPTS= 2, DT= E SEC", ".1 .2", "io.line-no-npts-dt"),

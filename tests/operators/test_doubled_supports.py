@@ -1,7 +1,7 @@
 """Supports on lines made twice."""
 
-import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -27,7 +27,7 @@ def test_a_line_made_twice_is_told() -> None:
     assert "0.5 0 0" in told
 
 
-@pytest.mark.parametrize(
+@together(
     "deck",
     [
         ONCE + SOLVE,
@@ -68,7 +68,7 @@ def test_a_grounded_joint_is_meant() -> None:
     assert not [w for w in warnings(deck) if "hold nothing" in w]
 
 
-@pytest.mark.parametrize(("place", "lost"), [("(2. 1.)", 1), ("P3", 0)])
+@together("place, lost", [("(2. 1.)", 1), ("P3", 0)])
 def test_a_velocity_beside_the_body_is_told(place: str, lost: int) -> None:
     deck = ONCE + (
         "T = TABL ; T . 'RIGI' = RI ET (BLOQ 'DEPL' BAS) ; T . 'MASS' = MASS MO MA ;"

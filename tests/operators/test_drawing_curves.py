@@ -1,5 +1,7 @@
 """DESS: what a statement makes of its words and table."""
 
+import itertools
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -8,6 +10,7 @@ from script_runs import ran, refused
 from together import together
 
 from ssilang.cli.run import RunResult, run_text
+from ssilang.language.registry import Keyword, Select, find_operator
 
 CURVES = (
     "E1 = EVOL 'MANU' 'BLEU' 't (s)' (PROG 0. 1. 2.) 'u' (PROG 0. 3. 1.) ; "
@@ -36,6 +39,48 @@ def test_a_curve_is_drawn_as_png_and_svg_under_its_name(tmp_path: Path) -> None:
 def test_options_stand_in_any_order(tmp_path: Path) -> None:
     run("DESS 'XBOR' 0. 5. 'TITX' 'abscissa' E 'GRIL' 'POIN' 'GRIS' 'MIMA' 'TITY' 'y' ;", tmp_path)
     assert {"abscissa", "y", "min 0    max 4"} <= set(words(tmp_path))
+
+
+# a way to say each optional word of DESS that is declared
+SAID = {
+    "log_x": "'LOGX'", "log_y": "'LOGY'", "grid": "'GRIL'", "square": "'CARR'",
+    "x_limits": "'XBOR' 0.2 1.5", "y_limits": "'YBOR' -2. 5.", "x_step": "'XGRA' 0.7",
+    "y_step": "'YGRA' 0.7", "extremes": "'MIMA'", "difference": "'ECAR'", "date": "'DATE'",
+    "separate": "'SEPA'", "chosen": "'CHOI' 2", "title": "'TITR' 'a'", "x_title": "'TITX' 'a'",
+    "y_title": "'TITY' 'a'", "x_place": "'POSX' 'EXCE'", "y_place": "'POSY' 'EXCE'",
+    "x_format": "'XFMT' '(F5.3)'", "y_format": "'YFMT' '(F5.3)'", "axes": "'AXES'",
+    "legend": "'LEGE' 'SO'",
+}  # fmt: skip
+IDLE = {"logo": "'LOGO'", "no_click": "'NCLK'"}  # as their help says
+FURTHER = ("'GRIL' 'POIN'", "'GRIL' 'GRIS'", "'LEGE' 'NE'", "'LEGE' 'XY' 0.5 2.", "'ECAR' FAUX")
+
+
+def drawn(folder: Path, text: str) -> list:
+    """What stands in a picture, without the numbers that are made anew each time."""
+    folder.mkdir()
+    ran(CURVES.replace("'BLEU'", "'BLEU' 'LEGE' 'p'") + text, folder)
+    (path,) = folder.glob("*.svg")
+    made = re.compile(r"(#|^)[a-z]\w*$|url")
+    return [
+        (e.tag, [v for v in e.attrib.values() if not made.search(v)], e.text)
+        for e in ElementTree.parse(path).getroot().iter()
+        if not e.tag.endswith("date")
+    ]
+
+
+def test_each_optional_word_changes_the_picture(tmp_path: Path) -> None:
+    plain = drawn(tmp_path / "plain", "DESS E ;")
+    entries = [e for e in find_operator("DESS").forms[0].entries if isinstance(e, Keyword | Select)]
+    assert {e.name for e in entries} == {*SAID, *IDLE}
+    for name, text in IDLE.items():
+        assert drawn(tmp_path / name, f"DESS E {text} ;") == plain
+    seen = [drawn(tmp_path / name, f"DESS E {text} ;") for name, text in SAID.items()]
+    seen += [drawn(tmp_path / f"{i}", f"DESS E {text} ;") for i, text in enumerate(FURTHER)]
+    told = dict(zip([*SAID.values(), *FURTHER], seen, strict=True))
+    alike = {t for t in told if told[t] == plain}
+    assert alike == {"'ECAR' FAUX"}  # never: two curves of other names have no difference anyway
+    for first, second in itertools.combinations(told, 2):
+        assert told[first] != told[second], (first, second)
 
 
 def test_the_title_in_force_is_used(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from script_runs import ran, refused
+from together import together
 
 from ssilang.cli.run import RunResult, run_text
 from ssilang.io.errors import NoGraphicsError
@@ -67,8 +68,8 @@ def test_forms_that_draw_one_picture(text: str, tmp_path: Path) -> None:
     assert result.session.workspace.output.files == [path]
 
 
-@pytest.mark.parametrize(
-    ("words", "text", "colour", "place"),
+@together(
+    "words, text, colour, place",
     [
         ("'N' 'top'", "top", "", "N"),
         ("'top' 'S'", "top", "", "S"),
@@ -160,8 +161,8 @@ def test_deformed_shape_keeps_what_is_given() -> None:
     assert first.arrows is result.session.root.find("V")
 
 
-@pytest.mark.parametrize(
-    ("words", "columns"),
+@together(
+    "words, columns",
     [("'DEPL'", "UX UY"), ("'UY' ' '", "UY"), ("(MOTS 'UX' 'UY')", "UX UY"), ("", "UX UY")],
 )
 def test_components_of_arrows(words: str, columns: str) -> None:
@@ -175,8 +176,8 @@ def test_components_of_arrows(words: str, columns: str) -> None:
     assert np.allclose(tip, expected)
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
+@together(
+    "text, said",
     [
         ("TRAC 'FACE' ;", "MAILLAGE"),
         ("TRAC S 'COUPE' (0. 0.) (1. 1.) (2. 2.) ;", "on a line"),

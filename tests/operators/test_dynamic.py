@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.small_motions import HOPPER, OSCILLATOR
 from script_runs import failed, ran
+from together import together
 
 from ssilang.cli.run import RunOptions
 from ssilang.language.say.diagnostics import sentence
@@ -28,8 +29,8 @@ def test_free_oscillation_and_the_default_cadence(tmp_path):
     assert value == pytest.approx(np.sin(2.0) / 2, abs=1e-4)
 
 
-@pytest.mark.parametrize(
-    ("entry", "times"),
+@together(
+    "entry, times",
     [
         ("T1 . 'PAS_SAUVES' = 30 ;", [0.0, 0.3, 0.6, 0.9, 1.0]),
         ("T1 . 'PAS_SAUVES' = 'FINAL' ;", [1.0]),
@@ -42,7 +43,7 @@ def test_saved_instants(entry, times, tmp_path):
     assert len(found) == len(times)
 
 
-@pytest.mark.parametrize(("entry", "step"), [("T1 . 'FREQ' = 100. ; ", 0.0025), ("", 0.5)])
+@together("entry, step", [("T1 . 'FREQ' = 100. ; ", 0.0025), ("", 0.5)])
 def test_older_entries_start_at_zero_and_keep_their_instants(entry, step, tmp_path):
     text = OSCILLATOR + "OUBL T1 'TEMPS_CALCULES' ; T1 . 'INST' = PROG 0.5 1. ;" + entry
     text += "T2 = DYNAMIC T1 ; E = T1 . 'ENERGIES' . 'TEMPS' ;"
@@ -162,8 +163,8 @@ def test_unresolved_contact_warns_with_the_step_to_use(tmp_path):
     assert not ran(HOPPER + "T2 = DYNAMIC T1 ;", tmp_path).session.warnings
 
 
-@pytest.mark.parametrize(
-    ("entry", "words"),
+@together(
+    "entry, words",
     [
         ("T1 . 'CHARMECA' = VRAI ;", ["no procedure", "CHARMECA", "DEBP CHARMECA"]),
         ("T1 . 'VITEUNIL' = 'TOTO' ;", ["VITEUNIL", "TOTO"]),

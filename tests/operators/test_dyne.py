@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran, refused
+from together import together
 
 BAR = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = 0. 0. ; B = 8. 0. ; L = DROI 8 A B ;
@@ -109,8 +110,8 @@ def test_lists_instead_of_fields(tmp_path):
     assert root.find("X") == pytest.approx(root.find("Y"))
 
 
-@pytest.mark.parametrize(
-    ("change", "sentence"),
+@together(
+    "change, sentence",
     [
         ("L1 . 'TYPE_LIAISON' = MOT 'PALIER_FLUIDE' ;", "it may be"),
         ("L1 . 'NORMALE' = 0. 0. ;", "has no length"),
@@ -177,7 +178,7 @@ def test_sliding_disc_slows_down_by_its_friction(tmp_path):
     np.testing.assert_allclose(np.abs(link.get("FORCE_DE_CHOC_NORMALE").values), 20.0, rtol=1e-9)
 
 
-@pytest.mark.parametrize("change", ["L1 . 'RAYON_SUPPORT' = 0. ;", "OUBL L1 'RAYON_SUPPORT' ;"])
+@together("change", ["L1 . 'RAYON_SUPPORT' = 0. ;", "OUBL L1 'RAYON_SUPPORT' ;"])
 def test_disc_on_a_plane_wants_its_radius(change, tmp_path):
     script = WHEEL + change + "R = DYNE 'DE_VOGELAERE' T TL C TI TS 3 1.E-4 ;"
     assert "RAYON_SUPPORT" in refused(script, tmp_path)
@@ -521,9 +522,8 @@ S . 'TEMPS_SAUVES' = PROG 0. 'PAS' 6.E-3 {cut} ; PASAPAS S ;
 )
 
 
-@pytest.mark.parametrize(
-    ("cut", "between"),
-    [(0.096, ""), (0.102, "OPTI SAUV 'r' ; SAUV ; OUBL S ; OPTI REST 'r' ; REST ;")],
+@together(
+    "cut, between", [(0.096, ""), (0.102, "OPTI SAUV 'r' ; SAUV ; OUBL S ; OPTI REST 'r' ; REST ;")]
 )
 def test_links_go_on_from_the_last_results_of_the_table(cut, between, tmp_path):
     """Two calls, the second in the midst of the contact, are one."""

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 STEP = 2e-4
 MASS = """
@@ -53,8 +54,8 @@ def moved(tmp_path, kind, entries, velocity=(0.5, -1.0), push=0.0, turn=0.0):
     return results.get(root.find("L1")), paths, pushes
 
 
-@pytest.mark.parametrize(
-    ("kind", "more", "away", "velocity"),
+@together(
+    "kind, more, away, velocity",
     [
         ("POINT_CERCLE", "", (0.02, -0.01), (0.5, -1.0)),
         ("POINT_CERCLE", "L1 . 'AMORTISSEMENT' = 30. ;", (0.02, -0.01), (0.5, -1.0)),
@@ -210,8 +211,8 @@ def test_yielding_links_follow_their_curve_and_unload_along_their_slope(
 COS, SIN = (f"L1 . 'FONCTION' = MOT '{word}' ;" for word in ("COS", "SIN"))
 
 
-@pytest.mark.parametrize(
-    ("kind", "entries", "expected"),
+@together(
+    "kind, entries, expected",
     [
         ("DEPLACEMENT", "", lambda x, v, t: x),
         ("VITESSE", "", lambda x, v, t: v),

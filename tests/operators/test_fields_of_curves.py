@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 FIELD = """
 OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ;
@@ -11,8 +12,8 @@ E1 = EVOL 'MANU' 'T' (PROG 0. 1. 3.) 'YOUN' (PROG 2. 4. 5.) ; A = MATE M 'YOUN' 
 """
 
 
-@pytest.mark.parametrize(
-    ("said", "run", "plain"),
+@together(
+    "said, run, plain",
     [
         ("A * 2.", lambda y: 2 * y, 0.6),
         ("3 - A", lambda y: 3 - y, 2.7),
@@ -33,7 +34,7 @@ def test_curves_in_cells_go_with_numbers(said, run, plain, tmp_path):
     assert find("X") == pytest.approx(plain)
 
 
-@pytest.mark.parametrize("mode", ["PLAN DEFO", "PLAN GENE"])
+@together("mode", ["PLAN DEFO", "PLAN GENE"])
 def test_a_spring_stands_on_a_point_as_on_its_cell(mode, tmp_path):
     result = ran(
         f"OPTI DIME 2 MODE {mode} ; P = 0. 0. ; K = 0. ; "
@@ -46,9 +47,7 @@ def test_a_spring_stands_on_a_point_as_on_its_cell(mode, tmp_path):
     assert result.session.root.find("X") == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
-    ("cells", "element"), [("TRI3", "DKT"), ("TRI3", "COQ3"), ("QUA4", "COQ4")]
-)
+@together("cells, element", [("TRI3", "DKT"), ("TRI3", "COQ3"), ("QUA4", "COQ4")])
 def test_least_squares_on_shells_keep_means_and_what_is_linear(cells, element, tmp_path):
     result = ran(
         f"""

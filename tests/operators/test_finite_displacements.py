@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from script_runs import finder, ran, refused
+from together import together
 
 from ssilang.operators.statics.bodies import warn_of_strains
 
@@ -202,8 +203,8 @@ def test_total_carries_strength_times_stretch_and_says_that_strains_are_too_larg
     assert told.data["strain"] == pytest.approx(0.5 * (1.08**2 - 1.0))
 
 
-@pytest.mark.parametrize(
-    ("finite", "word", "told"),
+@together(
+    "finite, word, told",
     [
         (True, "TOTAL", {"elastic-strains-large": 0.5 * (1.3**2 - 1), "small-strains-left": 0.22}),
         (True, "FIN_PAS", {"elastic-strains-large": 0.5 * (1.3**2 - 1)}),

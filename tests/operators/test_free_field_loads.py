@@ -1,6 +1,5 @@
 """Loads of a free field: a motion that is not known somewhere is no rest."""
 
-import pytest
 from script_runs import ran
 from together import together
 
@@ -21,8 +20,8 @@ LOADS = {
 WHOLE = "T . 'COLONNE' = COTE 2 S ; "
 
 
-@pytest.mark.parametrize("column", ["", WHOLE])
-@pytest.mark.parametrize("operator", LOADS)
+@together("column", ["", WHOLE])
+@together("operator", LOADS)
 def test_a_motion_that_is_known_everywhere_loads(operator, column):
     done = ran(
         f"{COLUMN}{LOADS[operator]}{column}C = {operator} T ; X = MAXI (RESU (TIRE C 2.)) 'ABS' ;"

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import finder, refused
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.statics.linear import product
@@ -143,8 +144,8 @@ T . 'RELATIONS_SAUVEES' . 'BOTH' = STOP ET SIDE ; R = DYNAMIC T ;
     assert np.allclose(found.get("BOTH").get("FX").values, -3.0, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("relations", "code"),
+@together(
+    "relations, code",
     [("BLOQ 'UX' P", "relations-not-in-stiffness"), ("RIGI M MA", "no-relations")],
 )
 def test_relations_that_the_stiffness_has_not_are_refused_by_name(relations, code):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import found
+from together import together
 
 RADIUS, YOUNG = 100.0, 20000.0
 RING = (
@@ -15,7 +16,7 @@ RING = (
 )
 
 
-@pytest.mark.parametrize("harmonic", [2, 3, 5])
+@together("harmonic", [2, 3, 5])
 def test_rings_buckle_under_dead_pressure(harmonic):
     """Inextensional modes turn by w (n^2 - 1) / (n R): p = n^2 E (h / R)^3 / 12."""
     frequency = found(
@@ -27,10 +28,7 @@ def test_rings_buckle_under_dead_pressure(harmonic):
     assert (2 * np.pi * frequency) ** 2 == pytest.approx(pressure, rel=0.015)
 
 
-@pytest.mark.parametrize(
-    ("harmonic", "motion"),
-    [(1, "'UR' 1. 'UZ' 0. 'UT' -1."), (0, "'UR' 0. 'UZ' 1. 'UT' 0.")],
-)
+@together("harmonic, motion", [(1, "'UR' 1. 'UZ' 0. 'UT' -1."), (0, "'UR' 0. 'UZ' 1. 'UT' 0.")])
 def test_translations_do_no_work_on_the_hoop_stress(harmonic, motion):
     work, scale = (
         found(

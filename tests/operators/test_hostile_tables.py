@@ -4,7 +4,6 @@ import importlib.util
 import sys
 from pathlib import Path
 
-import pytest
 from together import together
 
 from ssilang.cli.run import run_text
@@ -31,7 +30,7 @@ def refused(name: str, path: str, value: str | None, folder: Path) -> str:
     return result.message.split("-->")[0]
 
 
-@pytest.mark.parametrize("name", FUZZ.DECKS)
+@together("name", FUZZ.DECKS)
 def test_the_sound_decks_run(name, tmp_path):
     deck = FUZZ.DECKS[name]
     result = run_text(f"{deck.setup}\n{deck.call}\n", tmp_path)
@@ -88,8 +87,8 @@ def test_an_entry_that_cannot_be_used_is_named(name, path, value, says, tmp_path
         assert word in message, message
 
 
-@pytest.mark.parametrize(
-    ("name", "path", "value"),
+@together(
+    "name, path, value",
     [
         ("DYNAMIC with a joint", "T1 . 'MODELE'", "(VIDE 'MMODEL')"),
         ("PASAPAS in time", "T1 . 'MODELE'", "(VIDE 'MMODEL')"),

@@ -1,6 +1,5 @@
 """Numbers past what a calculation can hold are told, wherever they come in; results go on."""
 
-import pytest
 from script_runs import failed, ran
 from together import together
 
@@ -115,8 +114,8 @@ def test_a_result_past_all_reals_is_told_wherever_it_stands(text, code, tmp_path
     assert code_of(_LARGE + text, tmp_path) == code
 
 
-@pytest.mark.parametrize(
-    ("text", "told"),
+@together(
+    "text, told",
     [
         ("Z = (PROG 1. 2. 0.) / (PROG 1. 0. 0.) ;", {"count": 2, "item": 2, "sign": "/"}),
         ("Z = (PROG 2. 0.) ** -1 ;", {"count": 1, "item": 2, "sign": "**"}),
@@ -231,9 +230,7 @@ def test_flat_faces_are_no_partners_of_a_joint(tmp_path):
     assert code_of(text.format(0), tmp_path) not in ("", "internal")
 
 
-@pytest.mark.parametrize(
-    ("second", "code"), [("C * C", ""), ("2.", "operators.curves.fields-of-one-kind")]
-)
+@together("second, code", [("C * C", ""), ("2.", "operators.curves.fields-of-one-kind")])
 def test_a_table_is_interpolated_between_fields_of_one_kind(second, code, tmp_path):
     text = (
         "OPTI DIME 2 ; P = -1. 0. ; C = MANU 'CHPO' P 'T' 3. ; T = TABL 'RESULTAT' ;"

@@ -1,7 +1,7 @@
 """INFO, NOTI, AIDE, SOUC."""
 
-import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -82,8 +82,8 @@ SLAVES = (
 )
 
 
-@pytest.mark.parametrize(
-    ("phrase", "values"),
+@together(
+    "phrase, values",
     [
         ("X = ASSI 'TOUS' MAXI T 'ABS' ;", {1: 4.0, 3: 5.0}),
         ("X = 'ASSI' TOUS 'MAXI' 'ABS' T ;", {1: 4.0, 3: 5.0}),

@@ -340,13 +340,28 @@ def test_anisotropic_joint_of_two_points_gives_its_matrix_times_the_jump(dimensi
     u = random.normal(size=size)
     given = " ".join(f"'{n}' {v:.15E}" for n, v in zip(names, u, strict=True))
     duals = {"UX": "FX", "UY": "FY", "UZ": "FZ", "RX": "MX", "RY": "MY", "RZ": "MZ"}
+    coefficients = {3: ("ALP1", "ALP2", "ALQ3")}.get(
+        size, ("ALP1", "ALP2", "ALP3", "ALQ1", "ALQ2", "ALQ3")
+    )
+    grown = random.normal(size=size)
+    rates = " ".join(f"'{n}' {v:.15E}" for n, v in zip(coefficients, grown, strict=True))
     read = " ".join(f"F{i} = EXTR F '{duals[n]}' Q ;" for i, n in enumerate(names))
     result = ran(
         f"OPTI DIME {dimension} ELEM SEG2 ; {ends} L = MANU 'SEG2' P Q ; "
         "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ; "
         f"A = MATE M {terms} {axes} ; U = MANU 'CHPO' Q {given} ; F = (RIGI M A) * U ; "
         f"N = EXTR (SIGM M A U) 'EFFX' 1 1 1 ; B = MAXI (ABS (F - (BSIG M (SIGM M A U) A))) ; "
-        f"{read}",
+        "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; "
+        "T . 'TEMPS_CALCULES' = PROG 1. ; "
+        "T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; "
+        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' P ; PASAPAS T ; "
+        "V = RESO ((RIGI M A) ET (BLOQ 'DEPL' 'ROTA' P)) F ; "
+        "C = MAXI (ABS ((SIGM M A V) - (T . 'CONTRAINTES' . 1))) ; "
+        "G = MAXI (ABS (F - ((KTAN M (SIGM M A U) (ZERO M 'VARINTER') A) * U))) ; "
+        f"R = MATE M {terms} {axes} {rates} ; "
+        "H = THET M R (MANU 'CHML' M 'T' 2. 'STRESSES') ; LC = EXTR M 'CONT' ; "
+        + " ".join(f"H{i} = EXTR H (EXTR LC {i + 1}) 1 1 1 ;" for i in range(size))
+        + f"{read}",
         output_directory=tmp_path,
     )
     find = result.session.root.find
@@ -355,7 +370,9 @@ def test_anisotropic_joint_of_two_points_gives_its_matrix_times_the_jump(dimensi
         [find(f"F{i}") for i in range(size)], turn.T @ D @ strain, rtol=1e-12, atol=1e-12
     )
     assert find("N") == pytest.approx((D @ strain)[0])
-    assert find("B") < 1e-12
+    np.testing.assert_allclose([find(f"H{i}") for i in range(size)], 2.0 * D @ grown, rtol=1e-12)
+    assert max(find("B"), find("G")) < 1e-12
+    assert find("C") < 1e-9
 
 
 SHEARED = """

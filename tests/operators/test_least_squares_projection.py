@@ -1,8 +1,8 @@
 """PROI 'MINI': fields moved between meshes by least squares in each cell."""
 
 import numpy as np
-import pytest
 from script_runs import ran
+from together import together
 
 PLANE = (
     "OPTI DIME 2 MODE {mode} ELEM {kind} ; L = DROI {n} (0. 0.) (2. 0.) ; S = L TRAN {m} (0. 1.) ; "
@@ -18,8 +18,8 @@ def projected(text, kind="QUA4", mode="PLAN DEFO", n=8, m=4):
     return block.cells.coordinates[0], block.components["SCAL"][0]
 
 
-@pytest.mark.parametrize("kind", ["QUA4", "TRI3", "QUA8"])
-@pytest.mark.parametrize("mode", ["PLAN DEFO", "AXIS"])
+@together("kind", ["QUA4", "TRI3", "QUA8"])
+@together("mode", ["PLAN DEFO", "AXIS"])
 def test_what_the_coarse_cell_can_hold_is_found_again(kind, mode):
     x, values = projected(
         "C = CHAN 'CHAM' (NOMC 'SCAL' (1. + (2. * X) - Y)) M1 ; P = PROI M2 C 'MINI' ;", kind, mode
@@ -27,7 +27,7 @@ def test_what_the_coarse_cell_can_hold_is_found_again(kind, mode):
     np.testing.assert_allclose(values, 1 + 2 * x[:, 0] - x[:, 1], atol=1e-10)
 
 
-@pytest.mark.parametrize(("points", "n"), [("", 16), (" 8", 64)])
+@together("points, n", [("", 16), (" 8", 64)])
 def test_a_parabola_becomes_its_best_line(points, n):
     """Least squares of x^2 on [0, 2]: 2 x - 2/3; in axisymmetry the weight x makes 2.4 x - 1.2."""
     text = f"C = CHAN 'CHAM' (NOMC 'SCAL' (X * X)) M1 ; P = PROI M2 C 'MINI'{points} ;"
@@ -48,16 +48,13 @@ def test_the_integral_of_a_rough_field_is_kept_as_points_grow():
     np.testing.assert_allclose(values, 0.5 + 0.75 * (x[:, 0] - 1), atol=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("place", "count", "code"),
-    [
+@together("place, count, code", [
         ("(MANU 'POI1' (0.5 0.5)) ET (MANU 'POI1' (2.5 0.5)) ET (MANU 'POI1' (3. 0.))", 2,
          "projected-nowhere-outside"),
         ("M2", 2, "projected-zero-outside"),
         ("M2 'MINI'", 3, "projected-zero-outside"),
-    ],
-)  # fmt: skip
-@pytest.mark.parametrize(("tolerance", "told"), [("1.E-5", True), ("9.", False)])
+    ])  # fmt: skip
+@together("tolerance, told", [("1.E-5", True), ("9.", False)])
 def test_points_outside_are_told_and_raise_the_flag(place, count, code, tolerance, told):
     """M2 is twice as long as the field's mesh."""
     text = (

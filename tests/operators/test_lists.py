@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.operators.lists import progressions
@@ -30,7 +31,7 @@ def mots(words):
     return "(MOTS " + " ".join(f"'{w}'" for w in words) + ")"
 
 
-@pytest.mark.parametrize("steps", ["0. PAS -1. 5.", "5. PAS 1. 0.", "0. PAS 0. 1.",
+@together("steps", ["0. PAS -1. 5.", "5. PAS 1. 0.", "0. PAS 0. 1.",
                                    "0. PAS -1. GEOM 2. 8."])  # fmt: skip
 def test_steps_that_never_reach_their_end_leave_start_and_end(steps):
     start, end = steps.split()[0], steps.split()[-1]

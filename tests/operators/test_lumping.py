@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 PLANE = "OPTI DIME 2 MODE PLAN DEFO ELEM {cell} ; A = 0. 0. ; B = 3. 0. ; "
 BODY = PLANE + "L = DROI 3 A B ; S = TRAN 2 L (0. 2.) ; MO = MODE S 'MECANIQUE' 'ELASTIQUE' {el} ; "
@@ -29,7 +30,7 @@ BODIES = {
 AXES = {"3": ("UX", "UY", "UZ"), "2": ("UX", "UY")}
 
 
-@pytest.mark.parametrize("name", BODIES)
+@together("name", BODIES)
 def test_lumping_keeps_the_mass(name):
     body = BODIES[name]
     axes = AXES["3" if "DIME 3" in body else "2"]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran, refused
+from together import together
 
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 
@@ -17,10 +18,8 @@ def dense(made):
     return assemble(made, numbering_of(made)).toarray()
 
 
-@pytest.mark.parametrize(
-    "terms", ["(PROG 1. 2. 2. 5.)", "(PROG 1. 2. 5.)", "(PROG 1.) (PROG 2. 5.)",
-              "(PROG 1. 2.) (PROG 2. 5.)"],
-)  # fmt: skip
+@together("terms", ["(PROG 1. 2. 2. 5.)", "(PROG 1. 2. 5.)", "(PROG 1.) (PROG 2. 5.)",
+              "(PROG 1. 2.) (PROG 2. 5.)"])  # fmt: skip
 def test_symmetric_terms_in_all_their_writings(terms):
     made = matrix(f"R = MANU 'RIGI' 'TYPE' 'MASSE' P0 (MOTS 'UX' 'UY') {terms} ;")
     np.testing.assert_array_equal(dense(made), [[1.0, 2.0], [2.0, 5.0]])
@@ -71,7 +70,7 @@ ORDERS = [
 ]
 
 
-@pytest.mark.parametrize("order", ORDERS)
+@together("order", ORDERS)
 def test_a_copied_condition_stands_beside_its_model(order):
     """Lists of old and new names come by pairs or, as in the notice's example, old names first."""
     result = ran(

@@ -1,13 +1,14 @@
 """What a procedure of the standard library refuses, in both languages, at the script's line."""
 
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.say.diagnostics import render
 
 
-@pytest.mark.parametrize(
-    ("language", "told"),
+@together(
+    "language, told",
     [
         ("en", "error 308: CONVT: ZUT is no unit of time"),
         ("fr", "erreur 308 : CONVT : ZUT n'est pas une unité de temps"),
@@ -22,8 +23,8 @@ def test_a_procedure_refuses_in_the_language_of_the_run(language, told, tmp_path
     assert result.errors[0].code == "stdlib.convt-no-unit-time-fs"
 
 
-@pytest.mark.parametrize(
-    ("language", "told"),
+@together(
+    "language, told",
     [
         ("en", "warning: IMPEDSOL: KAUSEL for DISQUE is static"),
         ("fr", "avertissement : IMPEDSOL : KAUSEL pour DISQUE est statique"),

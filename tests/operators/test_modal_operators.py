@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from script_runs import found as objects
 from script_runs import ran, refused
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.fields.node_algebra import applied
@@ -26,10 +27,8 @@ def mode(table, i):
     return table.get("MODES").get(i)
 
 
-@pytest.mark.parametrize(
-    "words", ["'PROCHE' (PROG 0. 9.)", "'PROC' (PROG 0.1) (LECT 2)", "'SIMUL' 0. 2",
-              "'INTER' 0. 10.", "'IRAM' 0.2 2 'LM'"],
-)  # fmt: skip
+@together("words", ["'PROCHE' (PROG 0. 9.)", "'PROC' (PROG 0.1) (LECT 2)", "'SIMUL' 0. 2",
+              "'INTER' 0. 10.", "'IRAM' 0.2 2 'LM'"])  # fmt: skip
 def test_every_method_finds_both_modes(words):
     table = objects(TWO_MASSES + f"T = VIBR {words} K1 M1 ;", "T")
     assert table.subtype == "BASE_MODALE"
@@ -42,7 +41,7 @@ def test_every_method_finds_both_modes(words):
     assert modes.get(1).get("POINT_REPERE").node != modes.get(2).get("POINT_REPERE").node
 
 
-@pytest.mark.parametrize(("ends", "told"), [("3. 10.", True), ("0. 10.", False), ("-1. 0.", True)])
+@together("ends, told", [("3. 10.", True), ("0. 10.", False), ("-1. 0.", True)])
 def test_an_interval_without_a_mode_is_told(ends, told):
     result = ran(f"{TWO_MASSES} T = VIBR 'INTE' {ends} K1 M1 ; N = DIME (T . 'MODES') ;")
     assert (
@@ -61,8 +60,8 @@ FREE_BODIES = {
 }
 
 
-@pytest.mark.parametrize("ends", ["0. 1.", "0. 300.", "-1. 0.", "0.1 300."])
-@pytest.mark.parametrize("body", FREE_BODIES)
+@together("ends", ["0. 1.", "0. 300.", "-1. 0.", "0.1 300."])
+@together("body", FREE_BODIES)
 def test_an_interval_has_the_free_motions_at_its_edge(body, ends):
     """Whose eigenvalues rounding puts on either side of zero."""
     table = objects(f"{body} T = VIBR 'INTE' {ends} (RIGI M A) (MASS M A) ;", "T").get("MODES")
@@ -216,9 +215,9 @@ def dense(matrix):
     return block.values[0][np.ix_(order, order)]
 
 
-@pytest.mark.parametrize("order", ["TM TS", "TS TM"])
-@pytest.mark.parametrize("statics", [HELD, PUSHED])
-@pytest.mark.parametrize("fixed", ["K1", "(K1 ET B1)"])
+@together("order", ["TM TS", "TS TM"])
+@together("statics", [HELD, PUSHED])
+@together("fixed", ["K1", "(K1 ET B1)"])
 def test_modes_with_static_shapes_give_the_projected_matrices(order, statics, fixed):
     """The works of forces and reactions are X^T K X, coupling terms of free modes included."""
     script = statics + (
@@ -239,8 +238,8 @@ def test_static_shapes_alone_condense_the_stiffness_on_their_unknowns():
     np.testing.assert_allclose(ms, mp, rtol=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("last", "said"),
+@together(
+    "last, said",
     [
         ("B2 = BLOQ TS ; DEPI TS ; RESO (K1 ET B2) TS ; X = RIGI TS ;", "neither FORCE nor"),
         (PUSH + "X = MASS TS ;", "hold no mass"),

@@ -1,11 +1,11 @@
 """OPTI 'MODE' takes back what VALE 'MODE' says."""
 
-import pytest
 from script_runs import ran
+from together import together
 
 
-@pytest.mark.parametrize(
-    ("dimension", "mode", "said"),
+@together(
+    "dimension, mode, said",
     [
         (2, "PLAN CONT", "PLANCONT"),
         (2, "PLAN DEFO", "PLANDEFO"),
@@ -23,7 +23,7 @@ def test_mode_is_set_again_by_its_own_word(dimension, mode, said):
     assert result.session.root.find("L") is True
 
 
-@pytest.mark.parametrize(("word", "told"), [("JAUMANN", 1), ("'QUAD'", 1), ("LINEAIRE", 0)])
+@together("word, told", [("JAUMANN", 1), ("'QUAD'", 1), ("LINEAIRE", 0)])
 def test_a_measure_of_strains_that_changes_nothing_is_told(word, told):
     warnings = ran(f"OPTI EPSILON {word} ;").session.warnings
     assert [w.code for w in warnings] == ["operators.session.strain-measure-without-effect"] * told

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -89,9 +90,7 @@ def test_forces_are_zero_where_none_acts(found, refused):
     assert "RZ" in refused(start + "X = «EXTR» C 'RZ' R ;")
 
 
-@pytest.mark.parametrize(
-    ("power", "wanted"), [("0.5", [0.0, 0.0, 2.0]), ("-1.", [-1.0, 0.0, 0.25])]
-)
+@together("power, wanted", [("0.5", [0.0, 0.0, 2.0]), ("-1.", [-1.0, 0.0, 0.25])])
 def test_values_without_a_power_become_zero_and_are_told(power, wanted):
     text = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; "
     text += f"U = (MANU CHPO L 1 UX (PROG -1. 0. 4.)) ** {power} ; X = EXTR U 'VALE' L ; "

@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from script_runs import ran, refused
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -46,7 +47,7 @@ def test_random_values_follow_their_law_and_repeat():
     assert value("BRUI 'BLAN' 'GAUS' 2. 0.5 20000").values.tolist() == gauss.tolist()
 
 
-@pytest.mark.parametrize("base", ["-8.", "(PROG -8. 8.)"])
+@together("base", ["-8.", "(PROG -8. 8.)"])
 def test_other_roots_of_negative_values_are_refused(base: str) -> None:
     line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (-8. 0.) (8. 0.) ; "
     assert "0.5" in refused(line + f"X = ({base}) ** 0.5 ;")
@@ -78,7 +79,7 @@ def test_a_sum_of_a_list_may_be_longer_than_its_items():
     assert value("SOMM (LECT 9000000000000000000 9000000000000000000)") == 18 * 10**18
 
 
-@pytest.mark.parametrize(("mean", "count"), [(7, 400), (0, 3), (3, 0)])
+@together("mean, count", [(7, 400), (0, 3), (3, 0)])
 def test_noise_of_poisson_has_its_mean(mean, count):
     result = ran(f"L = BRUI 'BLAN' 'POIS' {mean} {count} ;")
     values = result.session.root.find("L").values
@@ -87,7 +88,7 @@ def test_noise_of_poisson_has_its_mean(mean, count):
     assert abs(values.sum() - mean * count) <= 6.0 * math.sqrt(mean * count)
 
 
-@pytest.mark.parametrize("words", ["-1 3", "1 -3"])
+@together("words", ["-1 3", "1 -3"])
 def test_noise_of_poisson_refuses_negative_counts(words):
     (error,) = run_text(f"L = BRUI 'BLAN' 'POIS' {words} ;").errors
     assert error.code == "out-of-range"

@@ -3,14 +3,14 @@
 import itertools
 
 import numpy as np
-import pytest
 from script_runs import found
+from together import together
 
 LISTS = "L = PROG 3. -1. 2. ; E = LECT 30 10 20 ; C = PROG 5. 1. 2. 1. 5. 3. 2. 2. 9. ; "
 
 
-@pytest.mark.parametrize(
-    ("phrase", "values"),
+@together(
+    "phrase, values",
     [
         ("'DECR' L", [3, 2, -1]),
         ("'ABSO' 'DECR' L", [3, 2, -1]),
@@ -23,9 +23,7 @@ def test_keywords_stand_before_the_lists_or_behind(phrase, values):
     assert list(found(f"{LISTS} X = ORDO {phrase} ;", "X").values) == values
 
 
-@pytest.mark.parametrize(
-    "phrase", ["'COUT' C L E", "L E 'COUT' C", "'COUT' C 'HONG' L E", "L 'COUT' C 'COMP' E"]
-)
+@together("phrase", ["'COUT' C L E", "L E 'COUT' C", "'COUT' C 'HONG' L E", "L 'COUT' C 'COMP' E"])
 def test_the_least_cost_is_that_of_all_permutations(phrase):
     text = f"{LISTS} X A B = ORDO {phrase} ;"
     costs, rows = np.array([[5, 1, 2], [1, 5, 3], [2, 2, 9.0]]), [0, 1, 2]
@@ -36,7 +34,7 @@ def test_the_least_cost_is_that_of_all_permutations(phrase):
     assert list(found(text, "B").values) == [np.array([30, 10, 20])[i] for i in best]
 
 
-@pytest.mark.parametrize("phrase", ["T E 'DECR'", "'DECR' T E"])
+@together("phrase", ["T E 'DECR'", "'DECR' T E"])
 def test_a_list_beside_the_table_sorts_those_of_its_length(phrase):
     text = f"{LISTS} T = TABL ; T . 'A' = L ; T . 1 = MOTS 'x' 'y' 'z' ; T . 2 = PROG 8. 7. ; "
     text += f"X = ORDO {phrase} ; A = X . 'A' ; B = X . 1 ; D = X . 2 ;"
@@ -45,7 +43,7 @@ def test_a_list_beside_the_table_sorts_those_of_its_length(phrase):
     assert list(found(text, "D").values) == [8, 7]
 
 
-@pytest.mark.parametrize(("kind", "size"), [("QUA4", (4, 3)), ("TRI3", (3, 2))])
+@together("kind, size", [("QUA4", (4, 3)), ("TRI3", (3, 2))])
 def test_each_cell_of_an_ordered_surface_has_a_neighbour_before_it(kind, size):
     text = (
         f"OPTI DIME 2 ELEM {kind} ; S = (DROI {size[0]} (0. 0.) (3. 0.)) TRAN {size[1]} (0. 1.) ; "

@@ -91,16 +91,17 @@ def test_a_warm_body_goes_on_from_the_stresses_of_its_time(tmp_path):
 
 @pytest.mark.parametrize(
     ("rate", "parts", "before", "moved"),
-    [("1.E-5", "T", 0.0, None), ("1.E-5", "T MECA", 0.0, None), ("1.E-5", "MECA", 0.0, -1.5),
+    [("1.E-2", "T", 0.0, 0.045), ("1.E-2", "T MECA", 0.0, -1.455), ("1.E-5", "MECA", 0.0, -1.5),
      ("0.", "MECA T", 0.0, -1.5), ("0.", "MECA", -5e3, -1.0), ("0.", "T MECA", 2e3, -1.7)],
 )  # fmt: skip
-def test_a_warm_elastic_joint_opens_by_forces_alone(rate, parts, before, moved):
+def test_a_warm_elastic_joint_opens(rate, parts, before, moved):
     """2 m of a joint of 1.E4 N/m3 below a stiff plate that 3.E4 N push and that may expand.
 
-    What stands in the joint `before` carries its share. The plate's own ALP1 is none of the joint.
+    What stands in the joint `before` carries its share. The plate's own ALP1 is none of the joint,
+    whose temperature is the mean of its sides: the ground's stays nought.
     """
     loads = {"MECA": "CHAR 'MECA' (FORC (0. -3.E4) P) EV"}
-    loads["T"] = "CHAR 'T' (MANU CHPO G 'T' 9.) EV"
+    loads["T"] = "CHAR 'T' ((MANU CHPO S 1 'T' 9.) ET (MANU CHPO B 1 'T' 0.)) EV"
     script = f"""OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
     A = DROI 2 (-1. 0.) (1. 0.) ; S = A TRAN 1 (0. 1.) ; B = A PLUS (0. 0.) ; J = RACC 1.E-6 A B ;
     MS = MODE S 'MECANIQUE' 'ELASTIQUE' ; MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOI2' ;
@@ -115,14 +116,11 @@ def test_a_warm_elastic_joint_opens_by_forces_alone(rate, parts, before, moved):
     T . 'CHARGEMENT' = {" ET ".join(f"({loads[part]})" for part in parts.split())} ;
     T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 1 ;
     L = EXTR (EVOL CHPO U UY A) 'ORDO' ;"""
-    if moved is None:
-        assert "ALPN would stay without effect" in refused(script)
-        return
     find = finder(script)
-    np.testing.assert_allclose(find("L").values, moved, rtol=1e-6)
+    np.testing.assert_allclose(find("L").values, moved, rtol=1e-6, atol=1e-6)
     blocks = find("T").get("CONTRAINTES").get(1).blocks
     (found,) = (b.components["SMN"] for b in blocks if "SMN" in b.components)
-    np.testing.assert_allclose(found, -1.5e4, rtol=1e-6)
+    np.testing.assert_allclose(found, -1.5e4 if "MECA" in parts else 0.0, rtol=1e-6, atol=0.01)
 
 
 def test_initial_stress_is_balanced_by_the_first_load(tmp_path):

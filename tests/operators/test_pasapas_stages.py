@@ -33,7 +33,7 @@ def stress(table, number):
     return [b.components["SMYY"].mean() for b in blocks if "SMYY" in b.components]
 
 
-@pytest.mark.parametrize("law", [ELASTIC, PLASTIC])
+@together("law", [ELASTIC, PLASTIC])
 def test_a_layer_built_on_a_loaded_one_comes_without_stress(law, tmp_path):
     text = (
         LAYERS
@@ -237,11 +237,13 @@ def test_a_spring_put_beside_a_loaded_one_takes_its_share_of_what_comes_after(tm
     assert found == pytest.approx([-1250.0, -750.0])
 
 
-@pytest.mark.parametrize(
-    ("element", "given", "stiffness", "held"),
-    [("JOI1", "'KS' 1.E4", "'KN'", "(BLOQ 'DEPL' 'ROTA' P) ET (BLOQ 'UX' 'RZ' Q)"),
-     ("BARR", "'NU' 0. 'SECT' 1.", "'YOUN'", "(BLOQ 'DEPL' P) ET (BLOQ 'UX' Q)")],
-)  # fmt: skip
+@together(
+    "element, given, stiffness, held",
+    [
+        ("JOI1", "'KS' 1.E4", "'KN'", "(BLOQ 'DEPL' 'ROTA' P) ET (BLOQ 'UX' 'RZ' Q)"),
+        ("BARR", "'NU' 0. 'SECT' 1.", "'YOUN'", "(BLOQ 'DEPL' P) ET (BLOQ 'UX' Q)"),
+    ],
+)
 def test_what_is_stiffer_from_now_on_keeps_what_it_carries(element, given, stiffness, held):
     """1.E3 N on 1.E4 N/m, then 1.E3 N more on 3.E4 N/m: of both only the second is by the new."""
     find = ran(f"""

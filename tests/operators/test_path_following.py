@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.language.say.diagnostics import sentence
 from ssilang.operators.statics.path_following import ends_of, strain_points
@@ -187,7 +188,7 @@ def test_three_plastic_bars_are_pulled_to_collapse_by_their_greatest_strain(tmp_
     assert eta[-1] == pytest.approx(SY * (1 + np.sqrt(2.0)))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@together("seed", range(6))
 def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
     """The greatest of lines `a + x b` is least where one that rises meets one that falls."""
     rng = np.random.default_rng(seed)
@@ -270,8 +271,8 @@ def test_piloindi_gives_the_factor_by_itself(tmp_path):
 # --- refusals --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("entries", "words"),
+@together(
+    "entries, words",
     [
         ("T . 'PILOTAGE_INDIRECT' = VRAI ;", "which load is controlled"),
         ("T . 'AUTOMATIQUE' = VRAI ; T . 'PILOTAGE_INDIRECT' = VRAI ;", "exclude"),

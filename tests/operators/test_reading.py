@@ -133,7 +133,7 @@ ACCELERATION TIME SERIES IN UNITS OF G
 """
 
 
-@pytest.mark.parametrize("sizes", ["NPTS=   6, DT=   .0050 SEC,", "    6    0.0050    NPTS, DT"])
+@together("sizes", ["NPTS=   6, DT=   .0050 SEC,", "    6    0.0050    NPTS, DT"])
 def test_a_record_of_peer_in_metres(tmp_path: Path, sizes: str) -> None:
     result = run("E = LIRE 'PEER' 'a.AT2' 10. ;", tmp_path, a_AT2=AT2.format(sizes=sizes))
     (curve,) = values(result, "E")
@@ -172,9 +172,8 @@ def test_a_record_of_esm_in_metres(tmp_path: Path) -> None:
     assert result.session.warnings == []
 
 
-@pytest.mark.parametrize(
-    ("unit", "code"),
-    [("cm/s^2", ["record-not-in-si"]), ("", ["record-without-unit"]), ("m/s^2", [])],
+@together(
+    "unit, code", [("cm/s^2", ["record-not-in-si"]), ("", ["record-without-unit"]), ("m/s^2", [])]
 )
 def test_units_of_a_record_of_esm_are_told(tmp_path: Path, unit: str, code: list[str]) -> None:
     content = ASC.format(count=3, unit=unit)
@@ -234,8 +233,8 @@ def test_several_records_of_cosmos(tmp_path: Path) -> None:
     assert [e.code for e in result.errors] == ["operators.files.no-such-channel"]
 
 
-@pytest.mark.parametrize(
-    ("content", "numbers", "names"),
+@together(
+    "content, numbers, names",
     [
         (
             "time (s);ax (cm/s2);vel_y [mm/s]\n0.;0.;0.\n0.1;5.;7.\n",

@@ -49,3 +49,19 @@ TOLD = [
 @together("script, code, said", TOLD)
 def test_it_is_told(script, code, said, tmp_path):
     assert_refused(script, code, said, tmp_path)
+
+
+SHOWN = {
+    "CHAN TYPE E": "CHAM2 = CHAN 'TYPE' CHAM1 MOT1",
+    "CHAN QUA8": "GEO2 = CHAN (TYPE) GEO1 (LENTI1)",
+    "MANU QUA4 LI": "GEO1 = MANU TYPE POIN1 POIN2 ...|GEO2 (COUL1)",
+    "INTE S C": "GEO3 = GEO1 INTE GEO2 ('NOVERIF')",
+    "EXTR M 3": "OBJ1 = EXTR MODL1 'MAIL' | 'ZONE'",
+    "MFIL S": "RIG1 = MFIL CHPO1 (X1 (X2 (X3))) (MOT1 (MOT2))",  # its only one
+}
+
+
+@together("script, syntax", SHOWN.items())
+def test_the_syntax_shown_is_that_of_the_form_that_was_begun(script, syntax, tmp_path):
+    message = script_runs.refused(f"{ROWS['before']} X = {script} ;", tmp_path)
+    assert message.endswith(f"  = {syntax} ;")

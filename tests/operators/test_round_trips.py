@@ -3,13 +3,15 @@
 import importlib.util
 import itertools
 import re
+from collections import defaultdict
 
 import numpy as np
 import pytest
 from script_runs import found, printed
 from together import together
 
-from ssilang.kernel.mesh.mesh import Mesh
+from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.mesh import Mesh, Point
 
 # cells of one node, of several kinds that share nodes, in no order; of both orders; one alone
 PLANE = {
@@ -21,6 +23,10 @@ PLANE = {
     "S = (MANU 'TRI3' P5 P1 P2) ET (MANU 'TRI3' P9 P2 P1) ;",
     "curved": "OPTI DIME 2 ELEM QUA8 ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
     "OPTI ELEM TRI6 ; S = ((DROI 1 (5. 0.) (6. 0.)) TRAN 2 (0.3 1.)) ET S ;",
+    "row": "OPTI DIME 2 ELEM QUA4 ; "
+    + "".join(f"P{i + 1} = {i % 5}. {i // 5}. ; " for i in range(10))
+    + "S = (MANU 'QUA4' P3 P4 P9 P8) ET (MANU 'QUA4' P1 P2 P7 P6) ET (MANU 'QUA4' P4 P5 P10 P9) ET "
+    "(MANU 'QUA4' P2 P3 P8 P7) ;",
     "one": "OPTI DIME 2 ELEM TRI3 ; S = MANU 'TRI3' (2. 0.) (2. 1.) (0. 0.) ;",
 }
 SPACE = {
@@ -69,6 +75,96 @@ def test_cells_come_back_as_they_were(file, mesh, tmp_path):
     script = f"{MESHES[mesh]} OPTI SORT {name} ; S1 = S ; {write} {read}"
     was, now = found(script, "S1", "S2", folder=tmp_path)
     assert cells(now) == cells(was)
+
+
+# parts of mixed meshes: in another order than the whole, of two kinds, met by another, of points
+PARTS = {
+    "row in the plane": "Z = MANU 'QUA4' P4 P5 P10 P9 ; A = (MANU 'QUA4' P2 P3 P8 P7) ET Z ; "
+    "L = MANU 'SEG2' P2 P1 ; V = L ET P9 ET P2 ; E = DIFF A A ;",
+    "mixed in the plane": "Z = MANU 'QUA4' P4 P9 P2 P3 ; A = (MANU 'TRI3' P4 P3 P5) ET Z ; "
+    "L = MANU 'SEG2' P7 P1 ; V = L ET P9 ET P2 ; E = DIFF A A ;",
+    "mixed in space": "Z = MANU 'PYR5' P6 P3 P5 P4 P9 ; A = (MANU 'PRI6' P1 P10 P7 P3 P11 P5) ET "
+    "Z ; L = MANU 'TRI3' P3 P5 P4 ; V = L ET P9 ET P2 ; E = DIFF A A ;",
+}
+TITLES = ("S", "Z", "A", "L", "V", "P9", "P2")
+
+
+def held(value) -> list:
+    """Cells of a mesh, or of a point."""
+    return (
+        [("POI1", [np.round(value.coordinates, 9).tolist()])]
+        if isinstance(value, Point)
+        else cells(value)
+    )
+
+
+@together("ending", ["msh", "med", "inp"])
+@together("mesh", PARTS)
+@together("given", ["mesh", "table"])
+def test_named_parts_come_back_as_they_were(given, mesh, ending, tmp_path):
+    if ending == "med" and importlib.util.find_spec("h5py") is None:
+        pytest.skip("h5py is not installed")
+    made = MESHES[mesh] + PARTS[mesh]
+    table = "".join(f"T0 . '{n}' = {n} ; " for n in (*TITLES[:0:-1], "E"))
+    what = "S" if given == "mesh" else "T0"
+    script = (
+        f"{made} T0 = TABL ; {table} T0 . 'MAILLAGE' = S ; T0 . 7 = Z ; OPTI SORT 'm.{ending}' ; "
+        f"SORT 'MESH' {what} ; T = LIRE 'm.{ending}' ;"
+    )
+    read, *was = found(script, "T", *TITLES, folder=tmp_path)
+    back = {str(k): v for k, v in read.items() if str(k)[0] != "@"}
+    wanted = {}
+    for name, value in zip(TITLES, was, strict=True):
+        if given == "table" and name == "S":
+            continue
+        of = defaultdict(list)  # by dimension; a group of Gmsh has one, and one of points its nodes
+        for kind, corners in held(value):
+            d = 0 if kind == "POI1" else CELL_TYPES[kind].dimension if ending == "msh" else 1
+            of[d].append((kind, corners))
+        for d, group in of.items():
+            behind = "_GN" if d == 0 and ending != "msh" else f"_{d}D"
+            wanted[name if d == max(of) else name + behind] = group
+    for name, value in wanted.items():
+        assert cells(back[name]) == value, name
+    others = {n for n in back if n not in wanted} - {"NOEUDS", "MAILLAGE"}
+    assert {n for n in others if not re.fullmatch(r"P\d+", n)} == set()
+    assert not others or given == "mesh"
+
+
+def at_nodes(field) -> dict:
+    """Values of a field at nodes by component and place."""
+    return {
+        (name, *np.round(field.table.coordinates[n], 9)): v
+        for name, part in field.components.items()
+        for n, v in zip(part.nodes, part.values, strict=True)
+    }
+
+
+def in_cells(field) -> dict:
+    """Means of a field in cells by component, kind and place."""
+    return {
+        (name, block.cells.kind.name, str(np.round(corners, 9).tolist())): v.mean()
+        for block in field.blocks
+        for name, values in block.components.items()
+        for corners, v in zip(block.cells.coordinates, values, strict=True)
+    }
+
+
+@together("mesh", MESHES)
+@together("time", [1.25, -3.0])
+def test_fields_come_back_from_avs(time, mesh, tmp_path):
+    script = (
+        f"{MESHES[mesh]} U = (NOMC 'UY' ((COOR 1 S) ** 3)) ET (NOMC 'UX' (COOR 2 S)) ET "
+        "(MANU 'CHPO' ((CHAN 'POI1' S) POIN 'INIT') 'RZ' 4. 'NATURE' 'DIFFUS') ; "
+        "G = CHAN 'CHAM' (NOMC 'K' ((COOR 1 S) + (3. * (COOR 2 S)))) S 'GRAVITE' ; "
+        f"OPTI SORT 'm.inp' ; SORT 'AVS' S U G 'TEMP' {time} ; OPTI LECT 'm.inp' ; "
+        "T = LIRE 'AVS' ; V = T . 'LECHPOIN' ; H = T . 'LEMCHAML' ; X = T . 'time' ;"
+    )
+    u, g, v, h, x = found(script, "U", "G", "V", "H", "X", folder=tmp_path)
+    nothing = {("RZ", *place): 0.0 for _, *place in at_nodes(u)}
+    assert at_nodes(v) == pytest.approx(nothing | at_nodes(u))
+    assert in_cells(h) == pytest.approx(in_cells(g))
+    assert x == time
 
 
 LISTS = {

@@ -97,6 +97,15 @@ FILES = {
         {"a.txt": PEER.format("ACCELERATION", 6).replace("M/S", "CM/S2")},
         "operators.files.record-other-factor",
     ),
+    "values of a record at twice its step": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ; F = EVOL 'MANU' (PROG 0. PAS 0.02 2.4) (EXTR E 'ORDO') ;",
+        {"a.csv": cut(0.1)}, "operators.curves.record-at-other-step",
+    ),
+    "values of a record, scaled, at a step of others": (
+        "E = LIRE 'SIGNAL' 'a.csv' 9.81 ; L = -0.3 * (EXTR E 'ORDO') ; "
+        "F = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.005 NPAS 120) 'ACCE' L ;",
+        {"a.csv": cut(0.1)}, "operators.curves.record-at-other-step",
+    ),
     "a constant added to a record": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ; T = @SEISME (EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' "
         "(0.5 + (EXTR E 'ORDO'))) ;", {"a.csv": cut(0.1)}, "stdlib.seisme-drifts",
@@ -201,6 +210,13 @@ SENSIBLE_FILES = {
             "b.csv": "time (s);acceleration (m/s2)\n"
             + "".join(f"{0.01 * i:.2f};{float(i == 30)}\n" for i in range(80)),
         },
+    ),
+    "values of a record at its own step, later, in milliseconds, over their numbers, corrected": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ; Y = EXTR E 'ORDO' ; F = EVOL 'MANU' (EXTR E 'ABSC') Y ; "
+        "F = EVOL 'MANU' (PROG 5. PAS 0.01 NPAS 120) (2. * Y) ; F = EVOL 'MANU' (PROG 0. PAS 10. "
+        "1200.) Y ; F = EVOL 'MANU' (PROG 1. PAS 1. 121.) Y ; F = EVOL 'MANU' (PROG 0. PAS 0.02 "
+        "2.4) (Y + 0.1) ;",
+        {"a.csv": cut(0.1)},
     ),
     "a record that begins at a fifth of its peak": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ;",

@@ -4,10 +4,11 @@ import math
 
 import pytest
 from script_runs import found
+from together import together
 
 
-@pytest.mark.parametrize(
-    ("mesh", "want"),
+@together(
+    "mesh, want",
     [
         ("DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 0.3) ;", 0.3),
         ("DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (1. 1.) ;", 1.0),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from script_runs import ran
+from together import together
 
 STRIP = """OPTI DIME 3 ELEM CUB8 ;
 P1 = 0. 0. 0. ; P2 = 10. 0. 0. ;
@@ -20,7 +21,7 @@ def value(text, name, tmp_path):
     return ran(text, output_directory=tmp_path).session.root.find(name)
 
 
-@pytest.mark.parametrize(("side", "sign"), [("EXTERNE", -1), ("INTERNE", 1)])
+@together("side, sign", [("EXTERNE", -1), ("INTERNE", 1)])
 def test_pressure_on_a_face_of_a_shell_of_bricks_bends_it(side, sign, tmp_path):
     text = STRIP + f"U = RESO K (PRES 'SHB8' MO 1000. '{side}') ;\n"
     text += "X = EXTR U UZ (V1 POIN PROC (10. 0. 0.)) ; "
@@ -66,7 +67,7 @@ def test_tube_of_cubic_triangles_buckles_under_pressure_that_follows(tmp_path):
     assert dead / following == pytest.approx(4 / 3, rel=5e-3)
 
 
-@pytest.mark.parametrize("aim", ["(0. 0. -1.)", "'POINT' (5. 0.5 -9.)"])
+@together("aim", ["(0. 0. -1.)", "'POINT' (5. 0.5 -9.)"])
 def test_shells_of_bricks_are_turned_to_go_across_along_a_direction(aim, tmp_path):
     text = STRIP + f"V2 = ORIE V1 {aim} ; F1 = FACE 1 V2 ; F2 = FACE 2 V2 ;\n"
     text += "Z1 = MAXI (COOR 3 F1) ; Z2 = MAXI (COOR 3 F2) ; W1 = MESU V1 ; W2 = MESU V2 ;\n"
@@ -81,8 +82,8 @@ def test_shells_of_bricks_are_turned_to_go_across_along_a_direction(aim, tmp_pat
     assert x == pytest.approx(-1000.0 * 10**4 / (8 * 2e11 * 0.1**3 / 12), rel=5e-3)
 
 
-@pytest.mark.parametrize(
-    ("cells", "held"),
+@together(
+    "cells, held",
     [("G = MANU 'POI1' P ;", ""), ("G = MANU 'SEG2' P (1. 0.) ;", "ET (BLOQ 'UX' (1. 0.))")],
 )
 def test_a_spring_and_a_dashpot_in_series_move_in_time_as_maxwell_says(cells, held):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 BODY = (
     "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; P1 = 0. 0. ; P2 = 2. 0. ; P3 = 5. 0. ; "
@@ -26,8 +27,8 @@ def refused(script):
     return failed(BODY + script).message
 
 
-@pytest.mark.parametrize("nomu", ["", "'NOMU'"])
-@pytest.mark.parametrize("masters", ["L", "(BLOQ 'DEPL' L)", "(FORC (1. 1.) L 'UX' 'UY')"])
+@together("nomu", ["", "'NOMU'"])
+@together("masters", ["L", "(BLOQ 'DEPL' L)", "(FORC (1. 1.) L 'UX' 'UY')"])
 def test_condensed_part_gives_the_whole_solution(nomu, masters):
     """Part 2, with an imposed displacement and loads inside, condensed onto the common line."""
     if masters.startswith("(FORC"):
@@ -97,7 +98,7 @@ CHAIN = (
 )
 
 
-@pytest.mark.parametrize("nomu", ["", "'NOMU'"])
+@together("nomu", ["", "'NOMU'"])
 def test_condensed_mass_where_a_relation_ties_two_parts(nomu):
     """Springs 1, 2, 3 in series, PD moved by one: the tied middle by (1 + 1/2) / (1 + 1/2 + 1/3).
 

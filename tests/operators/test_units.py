@@ -113,8 +113,8 @@ def test_numbers_in_another_unit_are_told_with_the_unit_they_look_like(
     assert (told["likely"], told["written"]) == (likely, written)
 
 
-@pytest.mark.parametrize(
-    ("system", "width", "told"),
+@together(
+    "system, width, told",
     [("SI", 6000.0, True), ("N-MM", 6000.0, False), ("KN-M", 400.0, False), ("", 6000.0, False)],
 )
 def test_millimetres_of_a_drawing_are_told(system: str, width: float, told: bool) -> None:
@@ -186,7 +186,7 @@ def test_the_option_is_read_back_and_holds_from_its_place_on() -> None:
     assert run_text("U = VALE 'UNIT' ;").errors[0].code == "operators.session.option-not-set"
 
 
-@pytest.mark.parametrize("said", ["N-M", "MN-MM", "CGS", "SIX"])
+@together("said", ["N-M", "MN-MM", "CGS", "SIX"])
 def test_a_system_is_written_whole(said: str) -> None:
     (error,) = run_text(f"OPTI 'UNIT' '{said}' ;").errors
     assert error.code == "operators.session.no-value-of-option"

@@ -297,7 +297,7 @@ def test_lists_of_lists_and_curves(session, phrase):
     np.testing.assert_allclose(found, LISTS[phrase], rtol=1e-14, atol=1e-15)
 
 
-@pytest.mark.parametrize("group", LISTED["printed"])
+@together("group", LISTED["printed"])
 def test_objects_are_listed_as_they_are(group, tmp_path):
     output = io.StringIO()
     session = session_after(PRELUDE + LISTED["before"], tmp_path, output)

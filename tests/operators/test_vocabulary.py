@@ -141,7 +141,7 @@ def test_examples_run(key, tmp_path):
     ran(EXAMPLES[key], output_directory=tmp_path)
 
 
-@pytest.mark.parametrize("kind", ["law", "element"])
+@together("kind", ["law", "element"])
 def test_every_law_and_element_has_an_example(kind):
     for word in vocabulary.words(kind):
         assert example(kind, word), word.name
@@ -161,7 +161,7 @@ def test_words_are_found_as_the_language_compares_them(kind, said, name):
     assert (found.name if found else "") == name
 
 
-@pytest.mark.parametrize("name", ["BLOQ", "EXTR", "MODE"])
+@together("name", ["BLOQ", "EXTR", "MODE"])
 def test_keywords_are_told_in_order_however_a_process_keeps_words(name):
     told = keywords_of(find_operator(name))
     assert len(told) > 2
@@ -173,11 +173,8 @@ def test_near_names_of_a_list():
     assert vocabulary.near("parameter", "YUON")[0] == "YOUN"
 
 
-@pytest.mark.parametrize(
-    ("low", "text"),
-    [(Range(), ""), (Range(0.0), "K >= 0"), (Range(0.0, open_low=True), "K > 0"),
-     (Range(high=0.0), "K <= 0"), (Range(-1.0, 0.5, True, True), "-1 < K < 0.5")],
-)  # fmt: skip
+@together("low, text", [(Range(), ""), (Range(0.0), "K >= 0"), (Range(0.0, open_low=True), "K > 0"),
+     (Range(high=0.0), "K <= 0"), (Range(-1.0, 0.5, True, True), "-1 < K < 0.5")])  # fmt: skip
 def test_ranges_are_told_as_inequalities(low, text):
     assert low.text("K") == text
 
@@ -203,7 +200,7 @@ def test_help_of_a_word(word, parts):
         assert part in text
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@together("language", ["en", "fr"])
 def test_pages_of_unknowns_and_of_their_duals_name_each_other(language):
     head = teller(language)("help.dual")
     for primal, dual in PRIMAL_TO_DUAL.items():
@@ -253,18 +250,22 @@ _BAR = (
 )
 
 
-@pytest.mark.parametrize(
-    ("given", "name"),
-    [("'YOUN' -1. 'NU' 0.", "YOUN"), ("'YOUN' 1. 'NU' 0.7", "NU"), ("'YOUN' 1. 'NU' -1.", "NU"),
-     ("'YOUN' 1. 'NU' 0. 'RHO' -2500.", "RHO")],
-)  # fmt: skip
+@together(
+    "given, name",
+    [
+        ("'YOUN' -1. 'NU' 0.", "YOUN"),
+        ("'YOUN' 1. 'NU' 0.7", "NU"),
+        ("'YOUN' 1. 'NU' -1.", "NU"),
+        ("'YOUN' 1. 'NU' 0. 'RHO' -2500.", "RHO"),
+    ],
+)
 def test_mate_refuses_numbers_out_of_their_range(given, name, tmp_path):
     done = failed(_BAR.format(given), folder=tmp_path)
     assert f"parameter {name} = " in done.message
     assert "is out of its range" in done.message
 
 
-@pytest.mark.parametrize("given", ["'YOUN' 0. 'NU' 0.5", "'YOUN' 2.E11 'NU' 0. 'ALPH' -1.E-6"])
+@together("given", ["'YOUN' 0. 'NU' 0.5", "'YOUN' 2.E11 'NU' 0. 'ALPH' -1.E-6"])
 def test_mate_takes_numbers_in_their_range(given, tmp_path):
     ran(_BAR.format(given), output_directory=tmp_path)
 
@@ -315,7 +316,7 @@ def test_components_of_ones_own_are_taken(tmp_path):
 # ---- the tables of MATE: what the laws of the kernel take, under the words of MODE
 
 
-@pytest.mark.parametrize("language", ["en", "fr"])
+@together("language", ["en", "fr"])
 def test_the_help_of_mate_has_a_table_of_each_law(language):
     tables = {t.title.split(" : ")[0]: t for t in law_tables(language)}
     assert {f"PLASTIQUE {name}" for name in PLASTIC_LAWS} - set(tables) == {"PLASTIQUE SECTION"}
@@ -350,15 +351,12 @@ def test_the_tables_of_mate_hold_what_the_kernel_asks_for():
     assert [row[0] for row in tables["PLASTIQUE IWAN_PRESSION"].rows] == ["PREF"]
 
 
-@pytest.mark.parametrize(
-    ("name", "own", "other"),
-    [
+@together("name, own, other", [
         ("CONTACT", "UNILATERAL FROTTANT COULOMB", "PARFAIT POINT_PLAN PRESSION JOINT_SDM"),
         ("LIAISON", "POINT_PLAN POINT_CERCLE", "PARFAIT UNILATERAL PRESSION JOINT_SDM"),
         ("MECANIQUE", "PARFAIT JOINT_SDM ORTHOTROPE NORTON", "UNILATERAL POINT_PLAN PRESSION"),
         ("CHARGEMENT", "PRESSION", "PARFAIT UNILATERAL POINT_PLAN"),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_formulation_lists_its_own_laws(name, own, other):
     (told,) = pages._formulation(vocabulary.find("formulation", name), "en")
     found = set(" ".join(told).replace(",", " ").split())

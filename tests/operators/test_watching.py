@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.statics.linear import reactions
 
@@ -93,7 +94,7 @@ def test_extremes_of_forces_that_a_procedure_adds_must_be_asked_for():
     assert not ran(text).session.root.find("T").has("RESULTATS_EXTREMES")
 
 
-@pytest.mark.parametrize(("g", "warned"), [("9.81", True), ("-9.81", False)])
+@together("g, warned", [("9.81", True), ("-9.81", False)])
 def test_a_structure_that_leaves_the_ground_for_good_is_told(g, warned):
     result = ran(BLOCK.format(g=g) + "R = DYNAMIC T ;")
     codes = [w.code for w in result.session.warnings]

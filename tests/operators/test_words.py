@@ -1,8 +1,12 @@
 """CHAI, EXTR, CHAN and ET of words; Fortran formats; TYPE and EXIS."""
 
+import errno
+import io
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from script_runs import session_after
 from together import together
 
 from ssilang.cli.run import run_text
@@ -67,6 +71,22 @@ def test_error_by_text_by_number_and_in_passing(refused, printed):
 
 def test_errors_ignored_are_shown_and_the_run_goes_on(printed):
     assert printed("OPTI ERRE IGNORE ; X = 1 / 0 ; OPTI ERRE NORMALE ; MESS 'on' ;") == ["on"]
+
+
+def test_an_error_passed_over_stands_at_its_statement(tmp_path):
+    """One that no operand is to blame for: a stream that takes one line no more."""
+
+    class Full(io.StringIO):
+        def write(self, text):
+            if "boom" in text:
+                raise OSError(errno.ENOSPC, "full")
+            return super().write(text)
+
+    script = "OPTI ERRE IGNORE ; SI VRAI ; MESS 'boom' ; FINSI ; MESS 'on' ;"
+    session = session_after(script, tmp_path, Full())
+    told = [(w.code, w.span.text) for w in session.warnings]
+    assert told == [("cannot-print", "MESS 'boom'")]
+    assert session.out.getvalue() == "on\n"
 
 
 def test_forgotten_index_and_name(found):

@@ -93,17 +93,6 @@ def test_text_lines_append_until_the_file_is_named_again(tmp_path: Path) -> None
     assert (tmp_path / "n.txt").read_text() == "c\n"
 
 
-def test_fields_written_for_avs_are_read_again(tmp_path: Path) -> None:
-    text = (
-        "SGG = CHAN 'GRAVITE' SG MO ; SORT 'AVS' U SGG 'TEMP' 1.25 ; OPTI LECT 'out.inp' ; "
-        "T = LIRE 'AVS' ; ELIM (S ET (T . 'LEMAILLA')) 1.E-6 ; "
-        "D = MAXI 'ABS' (U - (T . 'LECHPOIN')) ; A = T . 'time' ; N = NBEL (T . 'LEMAILLA') ;"
-    )
-    found = run(text, tmp_path).session.root
-    assert found.find("D") == pytest.approx(0.0, abs=1e-15)
-    assert (found.find("A"), found.find("N")) == (1.25, 8)
-
-
 def test_values_of_avs_are_those_of_their_cells_where_kinds_alternate(tmp_path: Path) -> None:
     points = [(1, 0, 0), (2, 1, 0), (3, 2, 0), (4, 0, 1), (5, 1, 1), (6, 2, 1)]
     lines = [

@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.report.charts import Chart, Line, charts_html, charts_of
 
@@ -38,9 +38,7 @@ def _calculation(**changed):
     return SimpleNamespace(**given)
 
 
-@pytest.mark.parametrize(
-    ("title", "y", "names", "factor"),
-    [
+@together("title, y, names, factor", [
         ("report.share · @1", "report.share (%)", ["share_1"], 100),
         ("report.share · @2", "report.share (%)", ["share_2"], 100),
         ("report.toe-pressure · @2", "report.toe-pressure (Pa)", ["pressure_2"], 1),
@@ -48,8 +46,7 @@ def _calculation(**changed):
         ("report.force · @2", "report.force (N)", ["force_2"], 1),
         ("report.rotation · @1", "report.rotation (rad)", ["rotation_Y_1", "rotation_X_1"], 1),
         ("report.energies", "report.energy (J)", ["CINETIQUE", "DISSIPEE"], 1),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_histories_of_footings_and_energies(title, y, names, factor):
     (chart,) = [c for c in charts_of(_results([_calculation()]), _told) if c.title == title]
     assert chart.y == y

@@ -18,6 +18,7 @@ from ssilang.report import fragilities
 from ssilang.report.fragilities import (
     Asked,
     Limit,
+    amiss,
     fits_of,
     floor_charts,
     fragility_charts,
@@ -103,7 +104,29 @@ def test_an_intensity_that_a_stiffness_leaves_as_it_was_is_not(tmp_path):
         asked = Asked(read_limits("drift>1"), ["PGA"])
         page = fragility_html(made, fits_of(made, asked), [], TOLD)
         told.append("PGA does not change with AG" in page)
+        assert "PGA changes with AG" not in page
     assert told == [True, False]
+
+
+@together(
+    "drift, peak, told",
+    [("same", 1.0, True), ("same", 0.0, False), ("scaled", 1.0, False), ("scaled", 0.0, False)],
+)
+def test_an_intensity_that_alone_is_scaled_is_told_where_motions_stay(tmp_path, drift, peak, told):
+    """A load made before its motion is scaled; not a figure that a linear model leaves the same."""
+    rows = suite()
+    for number, row in enumerate(rows, 1):
+        row["drift"] /= row["AG"] if drift == "same" else 1.0
+        motion = float(row["MOTION"][3:-4]) + 1.0
+        (run := tmp_path / "runs" / f"r{number}").mkdir(parents=True, exist_ok=True)
+        moved = [motion * (1.0 if peak else row["AG"])]
+        summary = {"version": "", "deck": "", "seconds": 1.0, "files": [], "figures": [],
+                   "warnings": [], "errors": [],
+                   "statistics": {"calculations": [{"motions": moved}]}}  # fmt: skip
+        (run / "summary.json").write_text(json.dumps(summary))
+    made = sweep_of(tmp_path, rows)
+    page = fragility_html(made, fits_of(made, Asked(read_limits("drift>1"), ["PGA"])), [], TOLD)
+    assert ("PGA changes with AG, and neither" in page) == told
 
 
 def test_counts_and_cloud_of_known_capacities_and_the_run_that_governs(tmp_path):
@@ -187,6 +210,44 @@ def test_what_cannot_be_fitted_stands_in_its_row(tmp_path, rows, said):
     made = sweep_of(tmp_path, [dict(r) for r in rows])
     fits = fits_of(made, Asked(read_limits("drift>1"), ["PGA"]))
     assert said in fragility_html(made, fits, fragility_charts(made, fits, TOLD), TOLD)
+
+
+def shares(rows):
+    """The same runs with the share in contact, which falls where the drift grows."""
+    return [{**r, "PART": 1.0 / (1.0 + r["drift"])} for r in rows]
+
+
+WITHOUT = [{**r, "drift": max(r["drift"] - 1.0, 0.0)} for r in suite()]
+
+
+@together(
+    "rows, figure, limit, said",
+    [
+        (suite(), "drift", "drift<1", "grows with PGA: drift > 1"),
+        (suite(), "drift", "drift<90", "grows with PGA: drift > 90"),
+        (shares(suite()), "PART", "PART>0.5", "falls with PGA: PART < 0.5"),
+        (suite(n=3), "drift", "drift>1000", "another unit"),
+        (suite(n=3, scales=[4, 8]), "drift", "drift>0.001", "another unit"),
+        (shares(suite()), "PART", "PART<0.001", "another unit"),
+        ([{**r, "PGA": 1.0} for r in suite()], "drift", "drift>1", "all are 1"),
+        (suite(), "drift", "drift>0", "another limit"),
+        # sound
+        (suite(), "drift", "drift>1", ""),
+        (suite(scales=[0.1, 0.15]), "drift", "drift>1", ""),
+        (shares(suite()), "PART", "PART<0.5", ""),
+        (WITHOUT, "drift", "drift>0.5", ""),
+        (suite(n=1, scales=[1, 2, 4, 8]), "drift", "drift>1", ""),
+        ([{"AG": a, "MOTION": "/m", "drift": max(0.0, a - 1.5), "PGA": a} for a in (1.0, 2.0, 3.0)],
+         "drift", "drift>1", ""),
+    ],
+)  # fmt: skip
+def test_limits_that_nothing_comes_near_or_passes_the_other_way_are_told(
+    tmp_path, rows, figure, limit, said
+):
+    made = sweep_of(tmp_path, [dict(r) for r in rows], figures=(figure, "PGA"))
+    found = [str(f) + f.hint for f in amiss(made, fits_of(made, Asked(read_limits(limit), [])))]
+    assert len(found) == bool(said)
+    assert said in "".join(found)
 
 
 def test_factors_at_their_top_are_no_demands_of_a_cloud(tmp_path):
@@ -286,8 +347,9 @@ def test_a_suite_ends_in_its_page_and_other_limits_run_nothing_again(case, capsy
     assert "3 runs that failed are left out" in page
     link = re.search(r'27</td><td><a href="(runs/[^"]+)">', page)[1]
     assert (case / "out" / link.replace("%3D", "=")).is_file()
-    code, out, err = run(case, ["drift>1.5"], "AG")
+    code, out, err = run(case, ["drift>1.5", "drift<0.7"], "AG")
     assert "27 of 30" in out
+    assert "drift grows with AG: drift > 0.7" in err
     assert main(["report", str(case / "out"), "--lang", "fr"]) == 0
     page = (case / "out" / "report.html").read_text()
     assert "maximum de vraisemblance" in page

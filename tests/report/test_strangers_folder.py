@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from together import together
 
 from ssilang.cli.main import main
 from ssilang.cli.run import write_report
@@ -312,9 +313,7 @@ def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> Non
     assert read_results(tmp_path).tables == {}
 
 
-@pytest.mark.parametrize(
-    "name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"]
-)
+@together("name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"])
 def test_what_stands_elsewhere_is_not_inside(name: str, tmp_path: Path) -> None:
     folder = tmp_path / "in"
     (folder / "d").mkdir(parents=True)

@@ -2,8 +2,8 @@
 
 import re
 
-import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.io.errors import InputError
 from ssilang.report.sweep_table import is_sweep, link_to, read_sweep, real, short
@@ -12,7 +12,7 @@ from ssilang.report.verdict import is_endless, verdict_html
 TITLES = "run;ZED;AMP;exit_code;seconds;error;folder;top;late"
 
 
-@pytest.mark.parametrize("turned", [False, True])
+@together("turned", [False, True])
 def test_columns_by_their_titles(tmp_path, turned):
     rows = ["1;4;x;0;0.5;;a;1.5;", '2;-1;"y;z";1;2;broken;b;;7;beyond', "3;2"]
     lines = [TITLES, *(reversed(rows) if turned else rows)]
@@ -29,8 +29,8 @@ def test_columns_by_their_titles(tmp_path, turned):
     assert set(by_run["3"]) == set(TITLES.split(";"))
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         (TITLES, "report.not-a-sweep"),
         (TITLES.replace("folder;", "") + "\n1;2\n", "report.not-a-sweep"),
@@ -85,7 +85,7 @@ class _Results:
         self.summary = {"statistics": {"verdicts": list(verdicts)}}
 
 
-@pytest.mark.parametrize(("scale", "turning", "use"), [(1, "bad", "good"), (1.2, "good", "bad")])
+@together("scale, turning, use", [(1, "bad", "good"), (1.2, "good", "bad")])
 def test_figures_stand_beside_their_words_and_are_marked_by_their_limit(scale, turning, use):
     rows = _rows(verdict_html(_Results(_verdict(scale)), [], _told))
     assert f'class="{turning}"' in rows["stdlib.bilanssi-renversement"][0]
@@ -117,10 +117,15 @@ def test_two_footings_are_numbered_and_floors_have_their_own_columns():
     assert "<h3>" not in verdict_html(_Results(_verdict(1)), [], _told)
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "endless"),
-    [("GLISSEMENT_2", 1000.0, True), ("RENVERSEMENT", 999.0, False), ("TAUX", 2000.0, False),
-     ("RENVERSEMENT_12", 5000.0, True), ("MOMENT", 1e9, False)],
-)  # fmt: skip
+@together(
+    "name, value, endless",
+    [
+        ("GLISSEMENT_2", 1000.0, True),
+        ("RENVERSEMENT", 999.0, False),
+        ("TAUX", 2000.0, False),
+        ("RENVERSEMENT_12", 5000.0, True),
+        ("MOMENT", 1e9, False),
+    ],
+)
 def test_factors_cut_at_their_top(name, value, endless):
     assert is_endless(name, value) is endless

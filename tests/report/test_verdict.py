@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -48,7 +49,7 @@ def test_the_report_has_them_with_their_limits_marked(verdict_run):
     )
 
 
-@pytest.mark.parametrize("given", [{}, {"FROTTEMENT": 0.7}, {"CAPACITE": 2e5},
+@together("given", [{}, {"FROTTEMENT": 0.7}, {"CAPACITE": 2e5},
                                    {"FROTTEMENT": 0.4, "CAPACITE": 3e5}])  # fmt: skip
 def test_friction_and_capacity_are_told_each_by_itself(given):
     tables = "G = TABL ; F = TABL ; F . 'PICS' = TABL ; F . 'RESIDUS' = TABL ; F . 'AIRE' = 12. ; "

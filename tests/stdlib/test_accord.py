@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.modal.oscillator import spectrum
 
@@ -16,9 +17,7 @@ def found(text, *names):
 TARGET = "T = TABL ; T . 'CODE' = '{code}' ; T . 'FREQUENCES' = PROG {f} ; {more} E = @CIBLE T ;"
 
 
-@pytest.mark.parametrize(
-    ("code", "more", "values"),
-    [
+@together("code, more, values", [
         # corners of type 1, ground B: S 1.2, TB 0.15, TC 0.5, TD 2 s
         ("EC8", "T . 'AG' = 2. ; T . 'SOL' = 'B' ;",
          {1e12: 2.4, 1 / 0.075: 4.2, 1 / 0.3: 6.0, 1.0: 3.0, 0.25: 6.0 * 0.5 * 2 / 16}),
@@ -30,8 +29,7 @@ TARGET = "T = TABL ; T . 'CODE' = '{code}' ; T . 'FREQUENCES' = PROG {f} ; {more
         ("ASCE7", "T . 'SDS' = 1. ; T . 'SD1' = 0.6 ; T . 'TL' = 8. ;",
          {1e12: 0.4 * 9.81, 1 / 0.06: 0.7 * 9.81, 4.0: 9.81, 0.5: 0.3 * 9.81,
           0.1: 0.6 * 8 / 100 * 9.81}),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_spectra_of_codes_at_and_between_their_corners(code, more, values):
     text = TARGET.format(code=code, f=" ".join(f"{f:.12g}" for f in sorted(values)), more=more)
     curve, _ = found(text, "E")

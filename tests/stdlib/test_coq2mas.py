@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import found
+from together import together
 
 # two layers 0.1 and 0.2 thick on a plate 2 x 1, a common middle at z = 0
 LAYERS = (
@@ -27,9 +28,7 @@ def heights(mesh):
     return mesh.nodes.coordinates[mesh.sorted_node_ids][:, 2]
 
 
-@pytest.mark.parametrize(
-    ("change", "element"), [("", "COQ4"), ("S = CHAN TRI3 S ;", "DST"), ("", "COQ4 DKT")]
-)
+@together("change, element", [("", "COQ4"), ("S = CHAN TRI3 S ;", "DST"), ("", "COQ4 DKT")])
 def test_volume_is_area_times_thickness_at_the_right_height(change, element):
     script = LAYERS.format(change, element, element) + CALL + (
         "L1 = T . 'MAILLAGE_VOLUMIQUE' . 1 ; X1 = MESU L1 ; F = T . 'MAILLAGE_FIBRE_MOYENNE' . 2 ; "

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 PLANE = (
     "OPTI DIME 2 MODE FOUR 3 ELEM QUA8 ; L0 = DROI 2 (0. 0.) (2. 0.) ; S1 = TRAN 2 L0 (0. 1.) ;"
@@ -32,8 +33,8 @@ def expected(r, t, z, n):
     return r * r * even, r * z * turning, r * (z + 2) * even, r * z * even, (r + z) * odd
 
 
-@pytest.mark.parametrize("n", [0, 1, 3, -2])
-@pytest.mark.parametrize("upright", [False, True])
+@together("n", [0, 1, 3, -2])
+@together("upright", [False, True])
 def test_fields_in_space(n, upright):
     script = PLANE + (
         f"T . 'REDRESSE' = {'VRAI' if upright else 'FAUX'} ; T . 'ANGLES' = PROG 0. PAS 30. 180. ;"
@@ -67,8 +68,8 @@ def test_whole_turn_closes_and_has_the_volume_of_the_body():
     assert root.find("P") == 5
 
 
-@pytest.mark.parametrize("angles", [(0, 10, 90), (-30, 0, 45, 50, 200), (200, 300, 350, 460, 520)])
-@pytest.mark.parametrize("upright", [False, True])
+@together("angles", [(0, 10, 90), (-30, 0, 45, 50, 200), (200, 300, 350, 460, 520)])
+@together("upright", [False, True])
 def test_sections_stand_at_the_angles_asked_for(angles, upright):
     listed = " ".join(f"{a}." for a in angles)
     result, points = solved(

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.records.fragility import of_cloud, of_exceedances
 
@@ -64,8 +65,8 @@ def test_counts_at_levels():
     assert found(text)[0] == pytest.approx(parts(fit))
 
 
-@pytest.mark.parametrize(
-    ("more", "code"),
+@together(
+    "more, code",
     [
         ("T . 'SEUIL' = 9. ; T . 'METHODE' = 'NUAGE' ;", "stdlib.fragilite-beyond"),
         ("T . 'CAPACITE' = 0.3 ;", "stdlib.fragilite-capacity"),

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from script_runs import found, refused
+from together import together
 
 _HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0. 0. ; "
 
 
-@pytest.mark.parametrize(("turns", "count"), [(1.0, 40), (0.5, 30)])
+@together("turns, count", [(1.0, 40), (0.5, 30)])
 def test_helix_of_a_point_has_its_length_and_end(turns, count):
     script = _HELIX.format(element="SEG2") + (
         f"P2 L2 = @HELICE PA 'POIN' P0 VZ 0.5 {360 * turns} {count} ; "

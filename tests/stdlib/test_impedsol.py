@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 G, VS, B = 2.0e7, 100.0, 2.0  # density 2000 kg/m3
 IN_SPACE = ("UX", "UY", "UZ", "RX", "RY", "RZ")
@@ -40,7 +41,7 @@ def rectangle(formula, nu, a0=(), x=B, y=B, **more):
     return impedances(nu, a0, FORME="'RECTANGLE'", **sides, FORMULE=f"'{formula}'", **more)
 
 
-@pytest.mark.parametrize("formula", ["VELETSOS", "CONES"])
+@together("formula", ["VELETSOS", "CONES"])
 def test_disc_at_rest_has_the_stiffness_of_the_half_space(formula):
     nu = 0.4
     found, warnings = disc(formula, nu, [0.0])
@@ -164,8 +165,8 @@ SQUARE = {"FORME": "'RECTANGLE'", "DEMI_LONGUEUR": B, "DEMI_LARGEUR": B}
 ROUND = {"FORME": "'DISQUE'", "RAYON": B}
 
 
-@pytest.mark.parametrize(
-    ("entries", "code"),
+@together(
+    "entries, code",
     [
         ({**SQUARE, "EPAISSEUR": 8.0}, "no-layer"),
         ({**SQUARE, "FORMULE": "'KAUSEL'"}, "formula-of-shape"),

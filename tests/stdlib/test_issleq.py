@@ -1,8 +1,8 @@
 """ISSLEQ: equivalent-linear soil against a column of layers solved by Fourier transform."""
 
 import numpy as np
-import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -112,8 +112,8 @@ def test_constant_layers_keep_their_modulus():
     assert find("E") < 1
 
 
-@pytest.mark.parametrize(
-    ("more", "said"),
+@together(
+    "more, said",
     [
         ("OUBL P 'GAMMAO_X' ;", "GAMMAO_X"),
         ("OUBL C 'BASE' ;", "BASE"),

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 from script_runs import found
+from together import together
 
 
 def listed(values):
     return "PROG " + " ".join(repr(float(v)) for v in values)
 
 
-@pytest.mark.parametrize(
-    ("left", "right", "ends"),
+@together(
+    "left, right, ends",
     [
         (50.0, 50.0, "natural"),
         (30.0, 50.0, ((1, math.tan(math.pi / 6)), (2, 0.0))),

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.mesh.mesh import Mesh, Point
@@ -139,9 +140,7 @@ def test_cells_are_small_near_the_footing_and_large_far_from_it():
     assert np.all(np.diff(widths[x[:-1] >= 2.0]) >= -1e-9)
 
 
-@pytest.mark.parametrize(
-    "options", ["OPTI DIME 2 MODE PLAN ELEM QUA4 ;", "OPTI DIME 2 MODE AXIS ;"]
-)
+@together("options", ["OPTI DIME 2 MODE PLAN ELEM QUA4 ;", "OPTI DIME 2 MODE AXIS ;"])
 def test_half_a_model_lies_right_of_its_axis(options):
     word = "" if "AXIS" in options else " 'SYMETRIE'"
     t = mailler(BOX + word, options)

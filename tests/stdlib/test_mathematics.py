@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from script_runs import found
+from together import together
 
 
 def test_regression_line_is_that_of_least_squares():
@@ -19,10 +20,7 @@ def test_regression_line_is_that_of_least_squares():
     assert values == pytest.approx(expected, rel=1e-10)
 
 
-@pytest.mark.parametrize(
-    ("law", "moment"),
-    [("NORM", 945.0), ("UNIF", 3**5 / 11), ("EXPO", math.factorial(10))],
-)
+@together("law, moment", [("NORM", 945.0), ("UNIF", 3**5 / 11), ("EXPO", math.factorial(10))])
 def test_quadrature_is_exact_up_to_twice_its_points(law, moment):
     """Tenth moment of the centred normal, uniform and exponential (from zero) laws, 6 points."""
     mean = 1 if law == "EXPO" else 0

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, ran
+from together import together
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -65,8 +66,8 @@ def test_a_wave_at_the_edge_before_the_record_begins_is_told(zeros, early):
         assert 0.04 < seconds < 0.06
 
 
-@pytest.mark.parametrize(
-    ("more", "words"),
+@together(
+    "more, words",
     [
         ("T . 'FREQUENCES' = PROG 1. ;", "the motion is the same everywhere"),
         ("T . 'FREQUENCES' = PROG 1. ; T . 'INCOHERENCE' = 0.7 ;", "beyond what arrays have shown"),
@@ -78,8 +79,8 @@ def test_what_is_doubtful_is_told(more, words):
     assert [words in text for text in told(result)] == [True]
 
 
-@pytest.mark.parametrize(
-    ("more", "words"),
+@together(
+    "more, words",
     [
         ("T . 'INCOHERENCE' = 0.2 ;", "FREQUENCES for factors is missing, or ACCELERATION"),
         ("T . 'FORME' = 'BANDE' ; T . 'FREQUENCES' = PROG 1. ;", "BANDE needs DEMI_LARGEUR"),

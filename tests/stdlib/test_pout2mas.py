@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import found, refused
+from together import together
 
 BEAM = (
     "OPTI DIME 3 ELEM SEG2 ; L = DROI 4 (1. 0. 0.) (1. 2. 0.) ; "
@@ -131,14 +132,11 @@ def test_fibres_and_points_become_bricks_and_lines():
     assert n == 4
 
 
-@pytest.mark.parametrize(
-    ("call", "said"),
-    [
+@together("call, said", [
         ("V = POUT2MAS M A 'AUTRE' ; ", "GAUSS or MASSIF"),
         ("T . 'VONS' = TABL ; V = POUT2MAS M A 'MASSIF' T ; ", "goes with GAUSS"),
         ("OPTI ELEM QUA4 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
          "M = MODE S MECANIQUE ELASTIQUE COQ4 ; V = POUT2MAS M A ; ", "other elements than beams"),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_what_cannot_be_drawn_is_refused(call, said):
     assert said in refused(BEAM.format("POUT", RECTANGLE) + call)

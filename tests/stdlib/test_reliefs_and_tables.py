@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import found, ran, refused
+from together import together
 
 from tests.windows import needs_window
 
@@ -60,8 +61,8 @@ _CURVES = (
 )
 
 
-@pytest.mark.parametrize(
-    ("words", "width", "height", "slope"),
+@together(
+    "words, width, height, slope",
     [
         ("", (0.0, 2.0), (0.0, 2.0), (2.0, 3.0)),
         ("'HORIZONTAL' -0.5", (0.0, 2.0), (-1.0, 0.0), (3.0, -4.0)),

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 from script_runs import found
+from together import together
 
 
 def curve(value, part=0):
@@ -110,7 +111,7 @@ LAWS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("law", LAWS)
+@together("law", LAWS)
 def test_laws_are_those_of_scipy(law):
     words, exact = LAWS[law]
     pairs = words.split()

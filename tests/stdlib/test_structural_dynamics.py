@@ -1,10 +1,11 @@
-"""NEWMARK M_DAMPIN M_DAMP_K TRANSFER FRONABS FLAMBAGE against closed forms."""
+"""CINIMOD NEWMARK M_DAMPIN M_DAMP_K TRANSFER FRONABS FLAMBAGE against closed forms."""
 
 import itertools
 
 import numpy as np
 import pytest
 from script_runs import found
+from together import together
 
 TWO_MASSES = (
     "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P1 = 0. 0. ; P2 = 1. 0. ; P3 = 2. 0. ;"
@@ -82,7 +83,7 @@ def direct(f, force, ground=False):
     return np.linalg.solve(p**2 * M + p * damping + K, -M @ np.ones(2) if ground else force)
 
 
-@pytest.mark.parametrize(("word", "power"), [("DEPL", 0), ("VITE", 1), ("ACCE", 2)])
+@together("word, power", [("DEPL", 0), ("VITE", 1), ("ACCE", 2)])
 def test_transfer_function_to_a_force(word, power):
     e, m = found(
         TWO_MASSES + f"E = TRANSFER T1 (PROG 0.02 0.07) 'UX' P3 'UX' P2 '{word}' "
@@ -122,7 +123,7 @@ SHEAR = np.sqrt(2e8 * 2000)
 PRIMARY = np.sqrt(6e8 * 2000)
 
 
-@pytest.mark.parametrize("element", ["SEG2", "SEG3"])
+@together("element", ["SEG2", "SEG3"])
 def test_dampers_of_a_wall_and_of_a_base(element):
     values = found(
         f"OPTI DIME 2 MODE PLAN DEFO ELEM {element} ;"
@@ -158,3 +159,28 @@ def test_shear_wave_leaves_a_column_through_its_boundary():
     largest, left = found(script, "VM", "VF")
     assert largest == pytest.approx(2e6 / SHEAR, rel=0.02)
     assert left < 0.01 * largest
+
+
+@pytest.mark.parametrize("count", [3, 2])
+def test_coordinates_of_a_motion_on_modes(count):
+    """Three masses in a row: all modes give the motion back, two its nearest in mass."""
+    k, m, u = np.array([900.0, 700.0, 500.0]), np.array([2.0, 1.5, 1.0]), np.array([0.3, -0.2, 0.7])
+    chain = "OPTI DIME 2 ELEM SEG2 ; P0 = 0. 0. ; " + " ".join(
+        f"P{i + 1} = {i + 1}. 0. ; E = MANU 'SEG2' P{i} P{i + 1} ; "
+        f"K{i} = MANU 'RIGIDITE' E (MOTS 'UX') (PROG {k[i]} {-k[i]} {k[i]}) ; "
+        f"M{i} = MANU 'RIGIDITE' 'TYPE' 'MASSE' P{i + 1} (MOTS 'UX') (PROG {m[i]}) ; "
+        f"U{i} = MANU 'CHPO' P{i + 1} 1 'UX' {u[i]} 'NATURE' 'DIFFUS' ; "
+        for i in range(3)
+    )
+    chain += (
+        "K = K0 ET K1 ET K2 ET (BLOQ 'UX' P0) ; M = M0 ET M1 ET M2 ; "
+        f"B = VIBR 'SIMUL' 0.5 {count} K M ; Q = CINIMOD B M (U0 ET U1 ET U2) ; U = RECO Q B ; "
+        "X1 = EXTR U 'UX' P1 ; X2 = EXTR U 'UX' P2 ; X3 = EXTR U 'UX' P3 ; "
+    )
+    values = found(chain, "X1", "X2", "X3")
+    stiffness = np.diag(k) + np.diag([*k[1:], 0.0]) - np.diag(k[1:], 1) - np.diag(k[1:], -1)
+    _, modes = np.linalg.eigh(stiffness / np.sqrt(np.outer(m, m)))
+    modes = (modes / np.sqrt(m)[:, None])[:, :count]  # of unit mass
+    nearest = modes @ (modes.T @ (m * u))
+    np.testing.assert_allclose(values, nearest, rtol=1e-6)
+    assert (np.abs(nearest - u).max() < 1e-9) == (count == 3)

@@ -1,8 +1,8 @@
 """TRAC3D_2 and TRAC3D: fields of revolution and of harmonics in space."""
 
 import numpy as np
-import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from tests.windows import needs_window
@@ -54,7 +54,7 @@ def test_stresses_at_nodes_and_in_cells():
     np.testing.assert_allclose(d.values_at("SMZT", nodes), (r + z) * np.sin(t), atol=1e-9)
 
 
-@pytest.mark.parametrize("name", ["EPRR EPZZ DEFORMATION", "P PI FLUIDE"])
+@together("name", ["EPRR EPZZ DEFORMATION", "P PI FLUIDE"])
 def test_other_fields_go_under_their_names(name):
     a, b, index = name.split()
     root, nodes, r, _, z = solved(

@@ -45,9 +45,8 @@ _RUN = (
 )
 
 
-@pytest.mark.parametrize(
-    ("call", "value"),
-    [("", 0.2), ("2.", 0.2), ("0.5", 0.05), ("1.4 'IPOL'", 0.14), ("0. 'IPOL'", 0.0)],
+@together(
+    "call, value", [("", 0.2), ("2.", 0.2), ("0.5", 0.05), ("1.4 'IPOL'", 0.14), ("0. 'IPOL'", 0.0)]
 )
 def test_results_are_fished_at_a_time(call, value):
     script = _RUN + f"X = MAXI (EXCO 'UY' (PECHE T 'DEPLACEMENTS' {call})) ;"

@@ -6,6 +6,7 @@ LeGall's 5/3 filters, and Daubechies' four (low-pass sums to 1, as in Mallat 198
 import numpy as np
 import pytest
 from script_runs import found, prog, refused
+from together import together
 
 _APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 2"
 _TOGETHER = "(PROG 0.5 0.25) -1 (PROG -0.0625 -0.125 0.375 -0.125 -0.0625) 1"
@@ -23,7 +24,7 @@ def pulse():
     return values
 
 
-@pytest.mark.parametrize("levels", [1, 2, 3])
+@together("levels", [1, 2, 3])
 def test_signal_taken_apart_comes_back(levels):
     script = signal(pulse()) + (
         f"N D R = MULTIDEC E {_APART} {levels} 'PADD' ; M F = MULTIREC R D {_TOGETHER} 'PADD' ; "
@@ -74,7 +75,7 @@ def daubechies():
     return h, g
 
 
-@pytest.mark.parametrize("levels", [1, 2])
+@together("levels", [1, 2])
 def test_daubechies_wavelet_keeps_the_energy_and_comes_back(levels):
     """Taken apart with the mirrored filters h(-n) g(-n), put together with h and g."""
     h, g = daubechies()

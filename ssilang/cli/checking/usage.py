@@ -13,6 +13,10 @@ _RANK = {"+": 0, "-": 0, "*": 1, "/": 1, "**": 2}  # of signs, in other language
 _NAMED = 5  # places that a note names
 _SHORTEST = 4  # letters of a word that may be a misspelt name
 _PROPERTIES = frozenset({"MATE", "MODE", "RIGI", "MASS", "AMOR", "CHAR"})
+_NODAL = frozenset({"APPU", "AMOR"})
+_WAYS = frozenset({"UX", "UY", "UZ", "RX", "RY", "RZ"})
+_LEVEL = {"UX", "UY"}, {"RX", "RY"}  # pairs that a base of space may have turned
+_PULSATION = re.compile(r"\(?(2\.?\*PI|PI\*2\.?)\*")
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
 
@@ -131,6 +135,35 @@ def left_to_right(script: tree.Script) -> Iterator[SsiError]:
     if found:
         told = {"places": said, "more": len(found) - len(said)}
         yield SsiError("left-to-right", found[0][0].span.to(found[0][4].span), **told)
+
+
+def crossed_words(script: tree.Script, *, plane: bool) -> Iterator[SsiError]:
+    """Springs along one axis by another one's number, frequencies (Hz) that are pulsations.
+
+    Two horizontal axes of space may be turned.
+    """
+    for statement in statements_of(script.body):
+        for items in _phrases(statement.items):
+            first = items[0].text[:4] if items and isinstance(items[0], tree.Name) else ""
+            named: list[str] = []
+            for item in items if first in _NODAL else ():
+                (of, *more) = item.items if isinstance(item, tree.Paren) else (item,)
+                last = of.indices[-1] if isinstance(of, tree.Path) and not more else None
+                other = last.text.upper() if isinstance(last, tree.Quoted) else ""
+                if isinstance(item, tree.Quoted) and item.text.upper() in _WAYS:
+                    named.append(item.text.upper())
+                elif other in _WAYS and named and other not in named:
+                    if plane or {*named, other} not in _LEVEL:
+                        told = {"operator": first, "unknown": named[-1], "other": other}
+                        yield SsiError("spring-of-another", item.span, **told)
+                    named = []
+        target = statement.targets[0] if statement.assigns and statement.targets else None
+        index = target.indices[-1] if isinstance(target, tree.Path) else None
+        word = index.text.upper() if isinstance(index, tree.Quoted) else ""
+        said = "".join(i.span.text for i in statement.items).replace(" ", "").upper()
+        if word in ("FREQUENCE", "FREQUENCES") and _PULSATION.match(said) and "/" not in said:
+            span = statement.items[0].span.to(statement.items[-1].span)
+            yield SsiError("pulsation-for-frequency", span, name=word)
 
 
 def _sign(item: tree.Item) -> str:

@@ -4,11 +4,19 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from ssilang.cli.checking import usage
-from ssilang.cli.checking.kinds import SOMETHING, UNKNOWN, Scope, assigned_names, kind_word, typed
+from ssilang.cli.checking.kinds import SOMETHING, UNKNOWN, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
+from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import doubtful_entries
+from ssilang.cli.checking.usage import (
+    bare_names,
+    crossed_words,
+    left_to_right,
+    misspelt_names,
+    stale_names,
+    unused_names,
+)
 from ssilang.cli.checking.words import misspelt_words
 from ssilang.io.plots.palette import NAMES as COLOURS
 from ssilang.language import vocabulary
@@ -67,14 +75,15 @@ class Checker:
             self._body(definition, scope, library)
         entries = doubtful_entries(script, self.session, self.entries)
         for problem in (
-            *usage.unused_names(script),
-            *usage.stale_names(script),
+            *unused_names(script),
+            *stale_names(script),
             *entries,
-            *usage.left_to_right(script),
+            *left_to_right(script),
+            *crossed_words(script, plane=scope.dimension == 2),
         ):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
-        for problem in usage.misspelt_names(script, names, _known_words()):
+        for problem in misspelt_names(script, names, _known_words()):
             if problem.span not in [e.span for e in self.problems]:
                 self._report(problem)
         for problem in misspelt_words(script, names):
@@ -109,7 +118,7 @@ class Checker:
         except SsiError as error:
             self._report(error)
         # a branch is taken where what it asks holds: there, numbers from before may be others
-        names = [n.text for n in usage.bare_names(node.condition.items)]
+        names = [n.text for n in bare_names(node.condition.items)]
         asked = {n: v for n in names if isinstance(v := scope.values.get(n), int | float)}
         scope.values.update({n: typed(kind_word(v)) for n, v in asked.items()})
         other = scope.copy()

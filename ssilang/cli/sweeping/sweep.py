@@ -43,7 +43,15 @@ from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments
 from ssilang.messages.message import Sentence, Teller, sentence, teller
 from ssilang.operators.session.progress import ProgressLine
-from ssilang.report.fragilities import ASKED, Asked, fits_of, read_limits, rows_of, unknown
+from ssilang.report.fragilities import (
+    ASKED,
+    Asked,
+    amiss,
+    fits_of,
+    read_limits,
+    rows_of,
+    unknown,
+)
 from ssilang.report.sweep_table import read_sweep, unscaled, usual_intensities, warnings_of
 from ssilang.system import system_reason
 
@@ -137,9 +145,12 @@ def _judge(options: SweepOptions, asked: Asked, err: TextIO) -> bool:
         return False
     asked.write(options.folder)
     made = read_sweep(options.folder)
-    write_plain_table(rows_of(fits_of(made, asked)), options.folder / FITS)
+    fits = fits_of(made, asked)
+    write_plain_table(rows_of(fits), options.folder / FITS)
     if all(row["exit_code"] != "0" for row in made.rows):
         return False
+    for found in amiss(made, fits):
+        err.write(render(SsiError.of(found, None), options.language) + "\n")
     return _tell_unknown(asked, [*made.figures, *made.swept], options, err)
 
 
@@ -324,8 +335,7 @@ def _tell_warnings(
     told += [("cli.value-idle", {"name": name}) for name in idle]
     figures = [n for n in columns_of(done) if n not in (*RESERVED, *swept)]
     known = options.intensity or usual_intensities(figures)
-    for name, value in unscaled(options.folder, done, swept, figures, known):
-        told.append(("report.fragility-still", {"name": name, "swept": value}))
+    told += unscaled(options.folder, done, swept, figures, known)
     for code, data in told:
         err.write(sentence(code, data, options.language) + "\n")
 

@@ -135,7 +135,7 @@ def chunked(
     filters = struct.pack("<BB", 2, 2)
     filters += struct.pack("<HHHI", _SHUFFLE, 1, 1, row_size(chunk, dtype))
     filters += struct.pack("<HHHI", _DEFLATE, 1, 1, LEVEL)
-    return [*_dataset(shape, dtype, layout, grows=True), _message(_FILTERS, filters)]
+    return [*_dataset(shape, dtype, layout), _message(_FILTERS, filters)]
 
 
 def row_size(shape: Sequence[int], dtype: np.dtype[np.generic]) -> int:
@@ -148,23 +148,20 @@ def _dataset(
     dtype: np.dtype[np.generic],
     layout: bytes,
     fill: bytes = b"",
-    *,
-    grows: bool = False,
 ) -> list[bytes]:
     # memory late, fill value written if it was set, defined (zero if nothing is said)
     filled = struct.pack("<4BI", 2, 2, 2, 1, len(fill)) + fill
     return [
-        _message(_SPACE, _space(shape, grows=grows)),
+        _message(_SPACE, _space(shape)),
         _message(_TYPE, _TYPES[dtype.newbyteorder("<").str], constant=True),
         _message(_FILL, filled),
         _message(_LAYOUT, layout),
     ]
 
 
-def _space(shape: Sequence[int], *, grows: bool = False) -> bytes:
-    head = struct.pack("<BBB5x", 1, len(shape), grows)
-    most = (UNDEFINED, *shape[1:]) if grows else ()
-    return head + struct.pack(f"<{len(shape) + len(most)}Q", *shape, *most)
+def _space(shape: Sequence[int]) -> bytes:
+    # without largest sizes: chunked arrays may grow all the same
+    return struct.pack(f"<BBB5x{len(shape)}Q", 1, len(shape), 0, *shape)
 
 
 def _message(kind: int, body: bytes, *, constant: bool = False) -> bytes:

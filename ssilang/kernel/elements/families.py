@@ -252,7 +252,11 @@ def integration_weights(
 
 def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
     """EIXX EIYY EIZZ GIXY ..., EISS in bars, GIXY CIX ... of beams."""
-    names = family_of(zone).strain_names(zone)
+    return inelastic(family_of(zone).strain_names(zone))
+
+
+def inelastic(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of inelastic strains of those of strains: EIXX of EPXX or EXX, DIN of DRN."""
     return tuple(n[0] + "I" + n[2 - (n[1] in "XYZ") :] for n in names)
 
 

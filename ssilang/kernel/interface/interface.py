@@ -15,6 +15,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements.families import inelastic
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.interface.bed import (
@@ -409,7 +410,7 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
         if is_macro(j.zone):
             names = MACRO_NAMES[kind][interface.dimension]
         if kind == "plastic jump":
-            names = tuple(name[0] + "I" + name[2:] for name in names)
+            names = inelastic(names)
         components = {
             names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
         }

@@ -133,7 +133,8 @@ def material_names(zone: Zone) -> Names:
         terms = ANISOTROPIC[: size * (size + 1) // 2]
         diagonal = tuple(f"D{i}{i}" for i in range(1, size + 1))
         rest = tuple(t for t in terms if t not in diagonal)
-        return Names(diagonal, (*rest, "RHO", *JOINT_POINT[6:], *JOINT_THERMAL, *AXES))
+        thermal = ("ALP3", "ALQ3", *JOINT_THERMAL)
+        return Names(diagonal, (*rest, "RHO", *JOINT_POINT[6:], *thermal, *AXES))
     if is_joint(zone):
         law = law_of(zone.behaviour)
         at_points = JOINT_POINT[6:] if law.two_points else JOINT_POINT

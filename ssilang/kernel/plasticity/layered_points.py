@@ -106,19 +106,10 @@ class ThickPoints(PlasticPoints):
     of fields; the law sees the root of it.
     """
 
-    def stress_block(self, state: PointState) -> CellFieldBlock:
-        """Stresses, those of shear with the factor."""
-        return super().stress_block(replace(state, stress=state.stress * ROOTS))
-
-    def plastic_block(self, state: PointState) -> CellFieldBlock | None:
-        """Plastic strains, those of shear as the element's strains are."""
-        return super().plastic_block(replace(state, plastic=state.plastic / ROOTS))
-
-    def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
-        """The state that fields hold."""
-        scaled = replace(blank, stress=blank.stress * ROOTS, plastic=blank.plastic / ROOTS)
-        found, known = super().restored(scaled, given)
-        return replace(found, stress=found.stress / ROOTS, plastic=found.plastic * ROOTS), known
+    @property
+    def roots(self) -> FloatArray:
+        """Those of the shear's factor."""
+        return ROOTS
 
 
 def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:

@@ -20,9 +20,14 @@ from ssilang.kernel.elements.zone_fields import (
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.materials.plastic import laws
 from ssilang.kernel.materials.plastic.creep import DURATION
 from ssilang.kernel.materials.plastic.held_stress import respond_held
+from ssilang.kernel.materials.plastic.laws import (
+    PlasticLaw,
+    check_parameters,
+    different_curves,
+    plastic_law,
+)
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 _PLANE, _SPACE = (0, 1, 2, 3), (0, 1, 2, 3, 4, 5)
@@ -87,7 +92,7 @@ class PlasticPoints:
     """
 
     zone: Zone
-    law: laws.PlasticLaw
+    law: PlasticLaw
     layout: Layout
     B: FloatArray
     weights: FloatArray
@@ -100,6 +105,11 @@ class PlasticPoints:
     def count(self) -> int:
         """Number of points."""
         return self.weights.size
+
+    @property
+    def roots(self) -> FloatArray:
+        """What the law's stresses (6,) are multiplied by in fields, and its strains divided by."""
+        return np.ones(6)
 
     def strains(self, vectors: FloatArray) -> FloatArray:
         """Strains (m, 6) of element vectors (n_cells, n_rows)."""
@@ -164,7 +174,7 @@ class PlasticPoints:
 
     def stress_block(self, state: PointState) -> CellFieldBlock:
         """Stresses (forces in bars)."""
-        values = self.gathered(state.stress)
+        values = self.gathered(state.stress * self.roots)
         values = values if self.section is None else values * self.section[:, None]
         return cell_block(
             self.zone, family_of(self.zone).stress_names(self.zone), values, law_support(self.zone)
@@ -178,7 +188,7 @@ class PlasticPoints:
 
     def plastic_block(self, state: PointState) -> CellFieldBlock | None:
         """Plastic strains."""
-        names, values = plastic_strain_names(self.zone), self.gathered(state.plastic)
+        names, values = plastic_strain_names(self.zone), self.gathered(state.plastic / self.roots)
         return cell_block(self.zone, names, values, law_support(self.zone))
 
     def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
@@ -191,26 +201,20 @@ class PlasticPoints:
             values = seen.matrix(names, at)
             if self.section is not None:
                 values = values / self.section[:, None]
-            state = replace(state, stress=self.spread(values))
+            state = replace(state, stress=self.spread(values) / self.roots)
         if any(n in inner for n in self.law.variables):
             kept = inner.matrix(self.law.variables, at).transpose(0, 2, 1)
             state = replace(state, variables=kept.reshape(self.count, -1))
         names = plastic_strain_names(self.zone)
         if any(n in strains for n in names):
-            state = replace(state, plastic=self.spread(strains.matrix(names, at)))
+            state = replace(state, plastic=self.spread(strains.matrix(names, at)) * self.roots)
         return state, known
 
 
 def is_plastic(zone: Zone) -> bool:
     """Whether a zone of bodies has a plastic law."""
     family = ELEMENTS[zone.element].family
-    return family != "joint" and laws.plastic_law(zone.behaviour) is not None
-
-
-def variable_names(zone: Zone) -> tuple[str, ...]:
-    """Internal variables of the plastic law of a zone of bodies, none without one."""
-    law = laws.plastic_law(zone.behaviour) if is_plastic(zone) else None
-    return () if law is None else law.variables
+    return family != "joint" and plastic_law(zone.behaviour) is not None
 
 
 def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
@@ -219,7 +223,7 @@ def plastic_zones(model: Model | None) -> tuple[Zone, ...]:
     return tuple(z for z in zones if z.formulation == "MECANIQUE" and is_plastic(z))
 
 
-def law_parameters(zone: Zone, law: laws.PlasticLaw, given: ZoneField) -> PointParameters:
+def law_parameters(zone: Zone, law: PlasticLaw, given: ZoneField) -> PointParameters:
     """Parameters of a law at its points.
 
     Raises
@@ -243,7 +247,7 @@ def law_parameters(zone: Zone, law: laws.PlasticLaw, given: ZoneField) -> PointP
         )
     curves = {name: _curves(given, name, shape) for name in law.curves}
     found = PointParameters(values, curves)
-    laws.check_parameters(law, found)
+    check_parameters(law, found)
     return found
 
 
@@ -251,4 +255,4 @@ def _curves(given: ZoneField, name: str, shape: tuple[int, int]) -> tuple[list[C
     """The different curves of a parameter, and which each point has."""
     if name not in given:
         raise missing_parameter(given.zone, name, given.names)
-    return laws.different_curves(name, np.broadcast_to(given.raw(name)[0], shape).ravel())
+    return different_curves(name, np.broadcast_to(given.raw(name)[0], shape).ravel())

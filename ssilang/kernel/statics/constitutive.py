@@ -4,7 +4,7 @@ end of a step to stresses, internal variables and tangent moduli.
 One table of families of laws serves COMP, ECOU, KTAN, HOTA: elastic, plastic bodies, joints.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +24,8 @@ from ssilang.kernel.interface.laws.law_table import law_of, shown_variables, sta
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.laws.point_laws import respond as compiled_respond
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.plasticity.layered_points import is_layered
+from ssilang.kernel.materials.plastic.laws import plastic_law
+from ssilang.kernel.plasticity.layered_points import STRESSES, is_layered
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 
@@ -42,15 +43,20 @@ class Answer:
     symmetric: bool = True  # whether the tangent is symmetric whatever the state
 
 
-Law = Callable[[Zone, CellField, FloatArray, ZoneField, FloatArray], Answer]
-"""Answer from the zone, parameters, stress at the start, variables there, step of strain."""
-
-
 def has_law(zone: Zone) -> bool:
     """Whether a zone's law is more than elasticity."""
     return (is_joint(zone) and not law_of(zone.behaviour).linear) or (
         not is_joint(zone) and is_plastic(zone)
     )
+
+
+def variable_names(zone: Zone) -> tuple[str, ...]:
+    """Internal variables that results of a zone hold, none without a law."""
+    if is_joint(zone):
+        state = np.zeros(N_STATE)
+        return tuple(shown_variables(law_of(zone.behaviour), state, len(component_order(zone))))
+    law = plastic_law(zone.behaviour) if is_plastic(zone) else None
+    return () if law is None else (*law.variables, *(STRESSES if is_layered(zone) else ()))
 
 
 def respond(
@@ -59,6 +65,7 @@ def respond(
     stress: FloatArray,
     variables: ZoneField,
     step: FloatArray,
+    duration: float | None = None,
 ) -> Answer:
     """The law of a zone over a step.
 
@@ -70,9 +77,15 @@ def respond(
         Internal variables at the start; those absent are zero.
     step : array (n_cells, n_strains, n_points)
         Increment of strain (of jump, for joints).
+    duration : float, optional
+        Time that the step takes: what creeps needs it.
     """
     _no_fibres(zone)
-    law = _joint if is_joint(zone) else _plastic if is_plastic(zone) else _elastic
+    if "FLUAGE" in zone.behaviour and duration is None:
+        raise FieldError("kernel.statics.answer-law-creep-depends")
+    if is_plastic(zone):
+        return _plastic(zone, material, (stress, step), variables, duration or 0.0)
+    law = _joint if is_joint(zone) else _elastic
     return law(zone, material, stress, variables, step)
 
 
@@ -80,9 +93,7 @@ def _no_fibres(zone: Zone) -> None:
     """Refuse yielding beams of fibres: their strains say nothing of those of their fibres."""
     if "SECTION" in zone.behaviour and is_plastic(zone):
         raise FieldError("kernel.statics.beams-sections-fibres-no")
-    if "FLUAGE" in zone.behaviour:
-        raise FieldError("kernel.statics.answer-law-creep-depends")
-    if is_plastic(zone) and (is_layered(zone) or zone.element in ("COQ3", "COQ6", "COQ8")):
+    if is_plastic(zone) and (is_layered(zone) or zone.element == "COQ3"):
         raise FieldError("kernel.statics.plastic-shells-no-law", element=zone.element)
 
 
@@ -95,18 +106,19 @@ def probing_step(
     where that is a tension), elastically: the law's tangent over it is the one of the state.
     """
     _no_fibres(zone)
-    if is_joint(zone):
+    if is_joint(zone) and not law_of(zone.behaviour).linear:
         joints = joint_points(zone, material)
         trial = joints.local(stress) * precision
         trial[:, -1] = np.maximum(trial[:, -1], 0.0)
         step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
         step[:, : joints.dimension] = joints.named(joints.jumps(trial))
         return step
-    if not is_plastic(zone):
+    if not is_plastic(zone) or "FLUAGE" in zone.behaviour:
         return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
     points = plastic_points(zone, material)
     raised = section_stress(points, stress) * precision
-    return points.gathered(np.einsum("mij,mj->mi", points.parameters.compliance, raised))
+    strain = np.einsum("mij,mj->mi", points.parameters.compliance, raised) / points.roots
+    return points.gathered(strain)
 
 
 # ---- elasticity -----------------------------------------------------------------------------
@@ -133,22 +145,29 @@ def _elastic(
 def section_stress(points: PlasticPoints, stress: FloatArray) -> FloatArray:
     """Stress tensors (m, 6) of a zone's stresses (forces in bars)."""
     own = stress if points.section is None else stress / points.section[:, None]
-    return points.spread(own)
+    return points.spread(own) / points.roots
 
 
 def _plastic(
-    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
+    zone: Zone,
+    material: CellField,
+    given: tuple[FloatArray, FloatArray],
+    variables: ZoneField,
+    duration: float,
 ) -> Answer:
-    points = plastic_points(zone, material)
+    (stress, step), points = given, plastic_points(zone, material)
     n, p = points.weights.shape
     before = section_stress(points, stress)
     kept = variables.matrix(points.law.variables, "STRESSES").transpose(0, 2, 1)
-    found, whole = points.respond(before, points.spread(step), kept.reshape(n * p, -1))
+    found, whole = points.respond(
+        before, points.spread(step) * points.roots, kept.reshape(n * p, -1), duration
+    )
     elastic = np.einsum("mij,mj->mi", points.parameters.compliance, found.stress - before)
-    plastic = points.gathered(whole - elastic)
+    plastic = points.gathered((whole - elastic) / points.roots)
     chosen = np.array(points.components)
-    tangent = found.tangent[:, chosen[:, None], chosen[None, :]].reshape(n, p, *step.shape[1:2] * 2)
-    after = points.gathered(found.stress)
+    whole_tangent = found.tangent * np.outer(points.roots, points.roots)
+    tangent = whole_tangent[:, chosen[:, None], chosen[None, :]].reshape(n, p, *step.shape[1:2] * 2)
+    after = points.gathered(found.stress * points.roots)
     if points.section is not None:
         after, tangent = after * points.section[:, None], tangent * points.section[..., None, None]
     inner = found.variables.reshape(n, p, -1)

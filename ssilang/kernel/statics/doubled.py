@@ -92,6 +92,19 @@ def idle_nodes(blocks: Iterable[ElementMatrices], matrix: Matrix) -> IntArray:
     return np.array(found, np.int64)
 
 
+def stops_held(matrix: Matrix) -> IntArray:
+    """Nodes (n,) of one-sided conditions that others hold both ways, all of a BLOQ along a way."""
+    terms, found = terms_of(matrix), [np.zeros(0, np.int64)]
+    both = terms.alone & (terms.sense == 0)
+    held = {*zip(terms.nodes[both].tolist(), terms.names[both].tolist(), strict=True)}
+    for r in matrix.relations:
+        first = r.row_start[:-1][(np.diff(r.row_start) == 1) & (r.sense != 0)].tolist()
+        for name in {r.unknowns[k] for k in first}:
+            nodes = [int(r.nodes[k]) for k in first if r.unknowns[k] == name]
+            found += [np.array(nodes)] if {(n, name) for n in nodes} <= held else []
+    return np.concatenate(found)
+
+
 def clamped_alone(matrix: Matrix) -> IntArray:
     """The node (1,) of plates that is clamped, where no other is held and springs bear some."""
     terms, springs = terms_of(matrix), [b.nodes for b in matrix.blocks if b.raw_nodes.shape[1] == 1]

@@ -18,11 +18,13 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -86,7 +88,11 @@ def repeated_joints(model: Model | None, characteristics: CellField | None) -> I
     for joints in made_joints(model, characteristics) if characteristics is not None else ():
         zone, resolve = joints.zone, joints.zone.cells.nodes.resolve
         parts = [resolve(joints.upper), resolve(joints.lower), joints.frames.round(9)]
-        parts.append(joint_parameters(joints, zone_field(zone, characteristics)))
+        given = zone_field(zone, characteristics)
+        if law_of(zone.behaviour).linear:
+            parts.append(family_of(zone).moduli(zone, given, "RIGIDITE"))
+        else:
+            parts.append(joint_parameters(joints, given))
         rows = np.hstack([p.reshape(len(joints.upper), -1) for p in parts]).astype(float)
         groups.setdefault((zone.element, zone.behaviour), []).append(rows)
     found = [np.zeros(0, np.int64)]

@@ -16,6 +16,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.kinematics import joint_cells
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.stepping.problem.loading import TimeCurve, terms_of
@@ -108,18 +109,32 @@ def free_terms(
     Those of T = 0, what each field of temperatures changes them by, and given ones (DEFI).
     """
     found: list[tuple[FloatArray, TimeCurve]] = []
-    warm = [] if is_joint(zone) else _terms(load, "T")
+    warm = _terms(load, "T")
     if warm:
         nodes = np.unique(zone.cells.connectivity)
         cold = NodeField(zone.cells.nodes, {"T": NodeValues(nodes, np.zeros(len(nodes)))})
-        reference = thermal_strain(zone, material, cold)
+        reference = thermal_strain(zone, material, _between_sides(zone, material, cold))
         found.append((reference, (np.zeros(1), np.ones(1))))
     for field, curve in warm:
         if not isinstance(field, NodeField | CellField):
             raise FieldError("kernel.statics.load-needs-field-temperatures")
-        found.append((thermal_strain(zone, material, field) - reference, curve))
+        seen = _between_sides(zone, material, field)
+        found.append((thermal_strain(zone, material, seen) - reference, curve))
     given = [(f, c) for f, c in _terms(load, "DEFI") if isinstance(f, CellField)]  # checked before
     return [*found, *((given_strain(zone, field), curve) for field, curve in given)]
+
+
+def _between_sides(
+    zone: Zone, material: CellField, field: NodeField | CellField
+) -> NodeField | CellField:
+    """Temperatures as a zone takes them: those of a joint are the mean of its two sides."""
+    if not is_joint(zone) or isinstance(field, CellField):
+        return field
+    joints = joint_cells(zone, zone_field(zone, material))
+    sides = [field.values_at("T", side.ravel()) for side in (joints.upper, joints.lower)]
+    mean = (sides[0] + sides[1]).reshape(joints.upper.shape) / 2 @ joints.shape.T
+    block = CellFieldBlock(zone.cells, {"T": mean}, "STRESSES", zone.element, zone.constituent)
+    return CellField((block,))
 
 
 def _terms(load: Load | None, name: str) -> list[tuple[object, TimeCurve]]:

@@ -23,7 +23,7 @@ class SsiError(Exception):
         self.code = code
         self.span = span
         self.data = data
-        self.warns = False  # told as a warning, whatever the catalogue says of its code
+        self.warns = False  # told as a warning where the catalogue has an error
         self.calls: list[tuple[str, Span]] = []  # procedures that led here, innermost first
 
     @classmethod
@@ -34,7 +34,8 @@ class SsiError(Exception):
     @property
     def severity(self) -> Severity:
         """'warning' if it only asks for attention, else 'error'."""
-        return "warning" if self.warns else find(self.code).severity
+        own = find(self.code).severity
+        return "warning" if self.warns and own == "error" else own
 
     def __str__(self) -> str:
         return f"{self.code}: {self.data}"

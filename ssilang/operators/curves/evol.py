@@ -9,6 +9,7 @@ from ssilang.operators.curves import instants
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
 from ssilang.operators.prelude import *
 
+_SAME_STEP, _TIMES = 1e-3, 9.0  # of a record's step; times it, beyond which it is no time in s
 _LISTS = ("LISTREEL", "LISTENTI", "LISTMOTS")
 
 
@@ -158,6 +159,11 @@ def _manual(call: Call, colours: list[int]) -> Curve:
         words, ordinates = tuple(y.values), np.arange(1.0, len(y) + 1)
     else:
         ordinates = y.values.astype(float)
+    file, step = workspace(call.session).record(abscissas, ordinates)
+    given = float(np.median(np.diff(abscissas))) if file else 0.0
+    if file and abs(given - step) > _SAME_STEP * step and step / _TIMES < given < _TIMES * step:
+        told = {"file": file, "step": step, "given": given, "slower": given > step}
+        call.warn("operators.curves.record-at-other-step", x, **told)
     made = {ListMots: "MOTS", ListEnti: "ENTI", ListReel: ""}[type(y)]
     part = CurvePart(
         abscissas, ordinates, x_name[:12], y_name[:12], legend.strip(), colours[0],

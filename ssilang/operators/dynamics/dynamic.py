@@ -105,7 +105,8 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     plausibility.warn_of_motion(entries, start, results.track)
-    if uplift is not None and uplift.left:
+    plausibility.warn_of_bowls(entries, problem.interface, results.track)
+    if uplift is not None and uplift.left and problem.loading.forces.any():  # else thrown
         entries.warn("operators.dynamics.left-for-good", time=uplift.since, least=uplift.opening)
     report(entries, problem, history, added=entries.flag("CHARMECA"))
     return results.table

@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import is_macro, joint_zones
+from ssilang.kernel.interface.interface import is_macro, joint_zones, same_zone
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
@@ -44,6 +44,7 @@ from ssilang.operators.dynamics.standing import (
     ground_twice,
     mass_of_beam,
     mass_of_both,
+    masses_apart,
     matter_amiss,
     out_of_balance,
     rotary_alone,
@@ -61,12 +62,14 @@ from ssilang.operators.tables.entries import Entries
 if TYPE_CHECKING:
     from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
     from ssilang.kernel.curves.curve import Load
+    from ssilang.kernel.interface.interface import Interface
     from ssilang.kernel.stepping.extremes import Extremes
     from ssilang.kernel.stepping.node_histories import NodeHistories
     from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
+NEARLY = 0.02  # the same, where the curve goes on to the last step but one
 MISSED = 0.2  # part of a curve's largest value by which steps may pass over its points
 MOST_ALONE = 5000  # unknowns, without joints or stops, whose bodies are looked for
 AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its end is the load
@@ -75,6 +78,7 @@ SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load
 FEWEST, WANTED = 3, 20  # steps of a period
 RESOLVED = 5e-3  # of the largest energy: with four steps a contact some 3 %, with 24 0.15 %
 TURNED, TIPPED = 1.0, 0.2  # rad: of a node; of a body at the end, that joints or stops bear
+STEEP = 1.0 / 3.0  # of a bowl's radius, where sine and tangent are 6 % apart
 HELD = 0.99  # of all mass, on nodes that do not move
 OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
@@ -130,11 +134,20 @@ def _not_conserved(start: Start) -> Told:
 
 
 def _joints_of_others(start: Start) -> Told:
-    """Joints whose matrix in RIGI has not the parameters that CARACTERISTIQUES give their law."""
+    """Joints of RIGI with other parameters than CARACTERISTIQUES give their law, or of other laws.
+
+    The law of MODELE takes the place of all that stands in RIGI on its cells.
+    """
     inputs = start.inputs
     if inputs.model is None or inputs.characteristics is None:
         return
-    for zone in joint_zones(inputs.model):
+    zones = joint_zones(inputs.model)
+    for block in (b for b in inputs.stiffness.blocks if b.zone is not None):
+        of = [z.behaviour for z in zones if same_zone(block.zone, z)]
+        if of and block.zone is not None and block.zone.behaviour not in of:
+            told = {"node": block.table.told(int(block.nodes[0, 0])), "count": len(block.nodes)}
+            yield "operators.dynamics.springs-replaced", told
+    for zone in zones:
         if off := unlike(inputs.stiffness.blocks, zone, inputs.characteristics):
             yield "operators.dynamics.joints-of-others", {"off": off}
 
@@ -227,7 +240,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
     rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
-    weight_of_part, mass_of_beam,
+    weight_of_part, mass_of_beam, masses_apart,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
@@ -267,6 +280,18 @@ def _turn(problem: Problem, own: BoolArray, kept: IntArray, u: FloatArray) -> fl
     return float(np.linalg.norm(np.linalg.lstsq(motions[mine], u[mine])[0][3:]))
 
 
+def warn_of_bowls(entries: Entries, joints: Interface | None, track: NodeHistories) -> None:
+    """Warn of pendulums that travel so far that their bowl is steeper than their law has it."""
+    if joints is None or not len(track) or not (joints.codes == LawCode.PENDULUM).any():
+        return
+    ways = np.linalg.norm(track.joints("w")[..., :-1], axis=-1).max(axis=0)
+    radii = joints.parameters[:, Parameter.RAYO]
+    far = (joints.codes == LawCode.PENDULUM) & (ways > STEEP * radii)
+    if far.any():
+        told = {"way": ways[far].max(), "radius": radii[far][ways[far].argmax()]}
+        entries.warn("operators.dynamics.travels-far", **told, share=told["way"] / told["radius"])
+
+
 def warn_of_loads(
     entries: Entries, load: Load | None, times: FloatArray, *, at_rest: bool = False
 ) -> None:
@@ -300,7 +325,8 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
         return
     if x[0] > first + slack and abs(y[0]) > NOUGHT * size and abs(y[1] - y[0]) > NOUGHT * size:
         yield "operators.dynamics.load-begins", told | {"value": float(y[0])}
-    if x[-1] < last - slack and abs(y[-1]) > NOUGHT * size and abs(y[-1] - y[-2]) > NOUGHT * size:
+    short = NEARLY if last - x[-1] <= 1.01 * (x[-1] - x[-2]) else NOUGHT
+    if x[-1] < last - slack and min(abs(y[-1]), abs(y[-1] - y[-2])) > short * size:
         yield "operators.dynamics.load-ends", told | {"value": float(y[-1])}
     saw = float(np.abs(np.append(y[x <= last], np.interp(last, x, y))).max())
     ends = [0, int(np.abs(y).argmax())]

@@ -214,7 +214,7 @@ class _Entering:
                 return
         if up > 0 and self.inputs.mass is not None and moved.any():
             axis = int(moved[:-1].argmax())
-            if (slender := self._slender(axis)) <= HIGH:
+            if not moved[axis] or (slender := self._slender(axis)) <= HIGH:
                 return
             found = longest_cell(stiffness, self.inputs.mass, self.axes[axis], 1.0)
             if found and found.speed < GROUND:
@@ -222,17 +222,21 @@ class _Entering:
                 yield "operators.dynamics.column-bends", told
 
     def _slender(self, axis: int) -> float:
-        """Height over width of cells that nothing holds, ties or brakes above their base."""
+        """Height over width of cells of which nothing above their base keeps a side from rising."""
         numbering, damping = self.problem.numbering, self.inputs.damping
         rows, up = abs(self.problem.constraints.C).sum(axis=0) > 0.0, len(self.axes) - 1
+        rows &= numbering.codes == numbering.code(self.axes[up])
         dashpots = [b for b in damping.blocks if b.kind == "AMORTISSEMENT"] if damping else []
         tied = np.concatenate([numbering.nodes[rows], *(b.nodes.ravel() for b in dashpots)])
         blocks = [b.nodes.ravel() for b, _, _ in bordered_solids(self.inputs.stiffness)]
         if not blocks or not len(tied):
             return 0.0
-        points = numbering.table.coordinates[np.concatenate(blocks)]
-        size, low = np.ptp(points, axis=0), points[:, up].min()
-        free = (numbering.table.coordinates[tied, up] <= low + ROUNDING * size[up]).all()
+        nodes = np.concatenate(blocks)
+        points = numbering.table.coordinates[nodes]
+        size = np.ptp(points, axis=0)
+        above = points[:, up] > points[:, up].min() + ROUNDING * size[up]
+        ends = (np.isclose(points[:, axis], f(points[:, axis])) & above for f in (np.min, np.max))
+        free = any(not np.isin(nodes[end], tied).any() for end in ends)
         return float(size[up] / size[axis]) if free and size[axis] else 0.0
 
     def _sides(self) -> Told:

@@ -49,6 +49,7 @@ UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
 OF_BEARINGS = 0.2  # of the critical damping, beside that of bearings
+STOREYS = 3  # masses: two may be oscillators
 PAIR = 2  # terms of a relation of two nodes
 CORES = 2e-3  # of the weight: lead yields at some 0.03 to 0.1 of it
 STRONG = 0.3  # of it: what no ground motion but the strongest makes yield
@@ -204,6 +205,27 @@ def mass_of_beam(start: Start) -> Told:
             told = {"count": count, "mass": mass, "own": own}
             yield "operators.dynamics.mass-of-beam", told
             return
+
+
+def masses_apart(start: Start) -> Told:
+    """Masses one above another, each on a spring of its own to the ground, two of them alike."""
+    problem, numbering, up = start.problem, start.problem.numbering, len(start.axes) - 1
+    k, m, points = problem.K.diagonal(), problem.M.diagonal(), numbering.table.coordinates
+    ties = [a for a in (problem.constraints.C, *(x.J for x in [problem.interface] if x)) if a.nnz]
+    alone = (m > 0.0) & (k > 0.0) & (abs(problem.K).sum(axis=1) == k)
+    for tie in (*ties, *(x.G for x in [problem.contact] if x)):
+        alone &= abs(tie).sum(axis=0) == 0.0
+    for axis in np.flatnonzero(np.abs(start.shaking[:up]).sum(axis=1)):
+        rows = np.flatnonzero(alone & (numbering.codes == numbering.code(start.axes[axis])))
+        places = points[numbering.nodes[rows]].round(6)
+        for plan in np.unique(places[:, :up], axis=0):
+            own = rows[(places[:, :up] == plan).all(axis=1)]
+            heights, swings = points[numbering.nodes[own], up], np.sort(k[own] / m[own])
+            alike = (np.diff(swings) < BESIDE * swings[1:]).any() if len(own) else False
+            if len(np.unique(heights)) >= STOREYS and alike:
+                told = {"count": len(own), "axis": start.axes[axis]}
+                node = numbering.table.told(numbering.nodes[own[heights.argmin()]])
+                yield "operators.dynamics.masses-apart", {**told, "node": node}
 
 
 def bodies_stand(start: Start) -> Told:

@@ -1,6 +1,6 @@
 """MANU 'CHPO' and 'CHML': fields from values; ZERO: fields of zeros."""
 
-from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.families import family_of, plastic_strain_names
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
@@ -8,7 +8,7 @@ from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields.cell_algebra import through
 from ssilang.kernel.fields.node_field import Nature
 from ssilang.kernel.materials.parameters import geometric_names, material_names
-from ssilang.kernel.plasticity.points import variable_names
+from ssilang.kernel.statics.constitutive import variable_names
 from ssilang.operators.dispatch import MANU
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
@@ -288,7 +288,7 @@ _NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
     "GRADIENT": lambda zone: names_of_gradient(zone),
     "CONTRAIN": lambda zone: family_of(zone).stress_names(zone),
     "DEFORMAT": lambda zone: family_of(zone).strain_names(zone),
-    "DEFINELA": lambda zone: family_of(zone).strain_names(zone),
+    "DEFINELA": plastic_strain_names,
     "PRINCIPA": lambda zone: PRINCIPAL,
     "MATERIAU": lambda zone: material_names(zone).all,
     "CARACTER": lambda zone: geometric_names(zone).all,

@@ -97,6 +97,7 @@ def _curve(
                 "operators.files.record-longer", file=file, count=len(record.values),
                 left_out=record.left_out,
             )  # fmt: skip
+        workspace(call.session).record(record.times, record.values, str(file))
     parts = tuple(_part(call, r, factor, in_si) for r in records)
     return Curve(parts, records[0].event[:72])
 

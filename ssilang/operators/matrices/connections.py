@@ -77,6 +77,7 @@ def warn_connections(
         sides = [r.nodes[r.row_start[:-1]][r.sense != 0] for r in matrix.relations]
         found["operators.matrices.unilateral-held"] = np.concatenate([used[:0], *sides])
     else:  # modes DYNE may bring into contact
+        found["operators.matrices.stops-held"] = doubled.stops_held(matrix)
         found["operators.matrices.springs-apart"] = doubled.springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
             found["operators.matrices.beside-joints"] = doubled.beside_joints(matrix, joints)

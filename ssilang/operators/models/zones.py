@@ -10,7 +10,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.mesh.combine import cell_keys
 from ssilang.kernel.mesh.queries.quality import smallest_lengths
-from ssilang.kernel.plasticity.points import variable_names
+from ssilang.kernel.statics.constitutive import variable_names
 from ssilang.operators.dispatch import CHAN, DIFF, ENLE, EXTR, INTE, listing
 from ssilang.operators.prelude import *
 

@@ -62,7 +62,16 @@ class _Step:
             self._begun(zone, family_of(zone).stress_names(zone)),
             zone_field(zone, self.start),
             self.increment(zone) + more,
+            self._duration(zone),
         )
+
+    def _duration(self, zone: Zone) -> float | None:
+        """Time between the two states, none where one has no date TEMP."""
+        states = [zone_field(zone, field) for field in (self.start, self.end)]
+        if any("TEMP" not in state for state in states):
+            return None
+        before, after = (state.at("TEMP", "STRESSES") for state in states)
+        return float((after - before).max())
 
 
 _TWO_STATES = (
@@ -154,6 +163,7 @@ class _StateRead:
     variables: CellField
     material: CellField
     precision: float
+    duration: float | None
 
     def tangent(self, zone: Zone) -> Answer:
         """The law's tangent at this state: over the shortest of the steps that make it yield."""
@@ -163,7 +173,7 @@ class _StateRead:
         for less in 0.5 ** np.arange(1, 11) if step.any() else ():
             tried = respond(zone, self.material, stress, variables, (share - less) * step)
             share -= less * (sum(np.abs(v)[:, None] for v in tried.inelastic.values()) > small)
-        return respond(zone, self.material, stress, variables, share * step)
+        return respond(zone, self.material, stress, variables, share * step, self.duration)
 
 
 _STATE = (
@@ -185,7 +195,7 @@ _STATE = (
         "FLOTTANT",
         range=POSITIVE,
         unit="s",
-        en="accepted: no law here has a viscosity",
+        en="time over which laws of creep answer; others do without",
     ),
     opt("number", "FLOTTANT", en="the same as PREC", range=POSITIVE),
 )
@@ -204,7 +214,7 @@ def _state_read(
 ) -> _StateRead:
     """What `_STATE` reads."""
     precision = precision if number is None else number
-    return _StateRead(present(call, model), stress, variables, joined(material), precision)
+    return _StateRead(present(call, model), stress, variables, joined(material), precision, step)
 
 
 def _tangent_matrix(

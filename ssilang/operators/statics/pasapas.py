@@ -384,7 +384,7 @@ def _inputs(
     check_strains(forces, tuple(bodies), bool(finite_zones(entries)))
     load, thermal = split_strains(forces, linear)
     if forces and any(p.name.strip() == "T" for p in forces.parts):
-        refuse_expanding([z for z in bodies if is_joint(z)], material)
+        refuse_expanding([z for z in bodies if is_joint(z) and not _is_linear(z)], material)
     displacement = start.of("DEPLACEMENTS")
     stresses = Stresses(linear, thermal)
     given = start.of("CONTRAINTES")

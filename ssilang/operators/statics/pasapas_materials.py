@@ -10,6 +10,7 @@ from ssilang.kernel.elements.family import apply_moduli, cell_block
 from ssilang.kernel.elements.loads.thermal import thermal_strain
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.statics.thermal_load import split_strains
 from ssilang.operators.fields.cell_extraction import depended_on
 from ssilang.operators.fields.variation import beyond_laws, evaluated, placed
@@ -63,7 +64,7 @@ class Varying:
         blocks = []
         for zone in self.model.zones:
             seen = zone_field(zone, self.material)
-            if is_joint(zone) or "TREF" not in seen:
+            if "TREF" not in seen or (is_joint(zone) and not law_of(zone.behaviour).linear):
                 continue
             shape = (len(zone.cells), len(support_rule(zone.element, "STRESSES")))
             free = {"T": np.broadcast_to(seen.at("TREF", "STRESSES"), shape)}

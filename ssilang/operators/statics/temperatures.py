@@ -6,7 +6,7 @@ from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.tables.entries import Entries
 
 EXPANDS = frozenset(
-    ["ALPH", "ALP1", "ALP2", "ALP3", "ALPN", "ALPS", "ALQS", "ALQN", "ALQ1", "ALQ2"]
+    ["ALPH", "ALP1", "ALP2", "ALP3", "ALPN", "ALPS", "ALQS", "ALQN", "ALQ1", "ALQ2", "ALQ3"]
 )
 _COLD = ("TALP", "TREF")  # temperatures from which bodies expand
 NOUGHT = 1e-3  # of the largest temperature: less is none

@@ -59,7 +59,9 @@ def samples_of_element(element: str) -> Iterable[Zone]:
     """A zone of an element for each hypothesis that it has."""
     if element == "LIAI":
         return [sample(element, Mode.PLANE_STRAIN, words) for words in LINKS]
-    return (sample(element, mode) for mode in ELEMENTS[element].modes)
+    laws = ((), ("ELASTIQUE", "ANISOTROPE")) if element == "JOI1" else ((),)
+    modes = ELEMENTS[element].modes
+    return (sample(element, mode, law) for law in laws for mode in modes)
 
 
 def sample_of_law(law: Word) -> Zone | None:

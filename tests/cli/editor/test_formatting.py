@@ -108,7 +108,7 @@ def test_whatever_is_sound_keeps_its_meaning(pieces):
     assert_kept(text)
 
 
-@pytest.mark.parametrize("text", [";\n   *\nSI A ;", "; B C\n* note\n   *\nSI A ;"])
+@together("text", [";\n   *\nSI A ;", "; B C\n* note\n   *\nSI A ;"])
 def test_a_star_that_would_begin_a_comment_stays(text):
     assert_kept(text)
 

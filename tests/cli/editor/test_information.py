@@ -119,12 +119,17 @@ def test_a_page_is_title_paragraph_and_the_rest_as_it_is():
     assert markdown("A : b\n\none\n") == "**A : b**\n\none"
 
 
-@pytest.mark.parametrize(
-    ("operator", "typed", "line"),
-    [("EVOL", ["'EVOL'", "CHPO", "C"], "'CHPO'"), ("RIGI", ["DEPL", "UX"], "('DEPL')"),
-     ("EVOL", ["TEMP", "D"], "'TEMP'"), ("EVOL", ["COMP", "LEGE"], "'COMP'"),
-     ("VIBR", ["SIMULTANE"], "'SIMU"), ("FONC", ["SX"], "'SX'")],
-)  # fmt: skip
+@together(
+    "operator, typed, line",
+    [
+        ("EVOL", ["'EVOL'", "CHPO", "C"], "'CHPO'"),
+        ("RIGI", ["DEPL", "UX"], "('DEPL')"),
+        ("EVOL", ["TEMP", "D"], "'TEMP'"),
+        ("EVOL", ["COMP", "LEGE"], "'COMP'"),
+        ("VIBR", ["SIMULTANE"], "'SIMU"),
+        ("FONC", ["SX"], "'SX'"),
+    ],
+)
 def test_the_line_of_the_syntax_is_that_of_the_words_typed(operator, typed, line):
     load_operators()
     lines, best = signatures(find_operator(operator), typed)

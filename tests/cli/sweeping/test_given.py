@@ -77,13 +77,10 @@ def test_all_combinations_the_last_name_fastest(tmp_path):
     assert not is_motion(tmp_path / "gone")
 
 
-@pytest.mark.parametrize(
-    ("settings", "code"),
-    [
+@together("settings, code", [
         (["A=1", "a=2"], "cli.set-twice"), ([f"{MOTION}=x"], "cli.set-twice"),
         (["A=0.5,x,0.50"], "cli.value-twice"), ([], None), (["A=1,1.,VRAI"], None),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_what_is_given_twice(tmp_path, settings, code):
     (tmp_path / "m").write_text("1\n")
     if code is None:
@@ -93,7 +90,7 @@ def test_what_is_given_twice(tmp_path, settings, code):
         cases_of(settings, tmp_path)
 
 
-@pytest.mark.parametrize(("folder", "code"), [("gone", "cli.not-folder-ground-motions"),
+@together("folder, code", [("gone", "cli.not-folder-ground-motions"),
                                               ("bare", "cli.no-file")])  # fmt: skip
 def test_folders_without_motions(tmp_path, folder, code):
     (tmp_path / "bare").mkdir()

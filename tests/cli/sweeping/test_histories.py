@@ -5,7 +5,7 @@ import json
 
 import pyarrow as pa
 import pyarrow.parquet as pq
-import pytest
+from together import together
 
 from ssilang.cli.sweeping.histories import join_histories
 
@@ -34,7 +34,7 @@ def rows_in(folder, suffix):
     return rows
 
 
-@pytest.mark.parametrize("suffix", ["csv", "parquet"])
+@together("suffix", ["csv", "parquet"])
 def test_swept_values_stand_under_their_own_names(tmp_path, suffix):
     joined = join_histories(rows_in(tmp_path, suffix), SWEPT, tmp_path)
     (path,) = joined.files

@@ -1,7 +1,7 @@
 """The table of a sweep: names out of order, values that runs do not have, types that differ."""
 
 import pyarrow.parquet as pq
-import pytest
+from together import together
 
 from ssilang.cli.sweeping import table
 from ssilang.io.plots import figure
@@ -32,7 +32,7 @@ def test_columns_stand_under_their_heads(tmp_path):
     )
 
 
-@pytest.mark.parametrize(("off", "idle"), [(0.0, ["H"]), (1e-12, ["H"]), (1e-7, [])])
+@together("off, idle", [(0.0, ["H"]), (1e-12, ["H"]), (1e-7, [])])
 def test_figures_that_differ_by_rounding_depend_on_nothing(off, idle):
     rows = [
         {"run": k, "H": h, "A": a, "exit_code": 0, "drift": 0.026589610919016 * a * (1 + off * h)}
@@ -41,7 +41,7 @@ def test_figures_that_differ_by_rounding_depend_on_nothing(off, idle):
     assert table.idle_names(rows, ["H", "A"]) == idle
 
 
-@pytest.mark.parametrize("swept", [("MOTION", "ZED", "AMP"), ("AMP", "ZED", "MOTION"), ("AMP",)])
+@together("swept", [("MOTION", "ZED", "AMP"), ("AMP", "ZED", "MOTION"), ("AMP",)])
 def test_pictures_have_a_curve_a_combination_in_the_order_of_the_axis(swept, tmp_path, monkeypatch):
     drawn = {}
 

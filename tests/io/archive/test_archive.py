@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.cli.run import run_file
 from ssilang.io.archive import Decoder, Encoder, Record, container, read_archive, write_archive
@@ -101,7 +102,7 @@ def test_pickled_arrays_are_refused(tmp_path: Path) -> None:
         restored(path, NodeTable())
 
 
-@pytest.mark.parametrize("kind", [complex, "U8", "M8[s]"])
+@together("kind", [complex, "U8", "M8[s]"])
 def test_arrays_of_other_kinds_than_objects_hold_are_damage(tmp_path, kind):
     path, value = tmp_path / "s", np.array([1, 2, 3])
     saved(path, X=value.astype(float), N=value)
@@ -222,7 +223,7 @@ def test_a_large_field_of_zeros_comes_back(tmp_path):
     archive.close()
 
 
-@pytest.mark.parametrize("number", [-1, -4, 10**6])
+@together("number", [-1, -4, 10**6])
 def test_a_reference_to_no_object_is_damage(tmp_path, number):
     """Python would count what is below 0 from the last object."""
     saved(tmp_path / "sound", X=square(), Y=NodeTable())

@@ -1,7 +1,6 @@
 """What an archive holds is taken as it is where it agrees, and refused by its field where not."""
 
 import numpy as np
-import pytest
 from together import together
 
 from ssilang.io.archive.decoding import _AGREEMENTS, flaw_of
@@ -60,7 +59,7 @@ DAMAGED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("name", ["SUPE41", "MULT42", "SURE43"])
+@together("name", ["SUPE41", "MULT42", "SURE43"])
 def test_a_cell_of_many_nodes_is_taken_that_this_process_has_not_made(name: str) -> None:
     assert name not in CELL_TYPES
     raw = np.arange(int(name[4:]))[None, :]

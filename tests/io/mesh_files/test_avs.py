@@ -58,7 +58,7 @@ def test_structures_follow_one_another_with_their_time(tmp_path: Path) -> None:
     assert [(k, len(t)) for k, _, t in second.cells] == [("QUA4", 1), ("TRI3", 2)]
 
 
-@pytest.mark.parametrize("kind", ["SEG3", "QUA8", "CU20", "TE10"])
+@together("kind", ["SEG3", "QUA8", "CU20", "TE10"])
 def test_quadratic_cells_keep_their_order(kind: str, tmp_path: Path) -> None:
     from ssilang.kernel.mesh.cells import CELL_TYPES
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from meshio._mesh import topological_dimension
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.io.errors import OutputError
@@ -51,8 +52,8 @@ def volume(points, kind, rows):
     return np.linalg.det(sides).sum() / part
 
 
-@pytest.mark.parametrize("kind", VOLUMES)
-@pytest.mark.parametrize(("word", "suffix"), [("ABAQ", ".inp"), ("NAS", ".bdf")])
+@together("kind", VOLUMES)
+@together("word, suffix", [("ABAQ", ".inp"), ("NAS", ".bdf")])
 def test_meshio_reads_the_same_volumes(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, kind: str, word: str, suffix: str
 ) -> None:
@@ -70,9 +71,7 @@ def test_meshio_reads_the_same_volumes(
     assert {b.type for b in read.cells} <= {"hexahedron", "wedge", "tetra", *EDGES}
 
 
-@pytest.mark.parametrize(
-    ("mode", "name"), [("PLAN CONT", "CPS8"), ("PLAN DEFO", "CPE8"), ("AXIS", "CAX8")]
-)
+@together("mode, name", [("PLAN CONT", "CPS8"), ("PLAN DEFO", "CPE8"), ("AXIS", "CAX8")])
 def test_surfaces_are_what_the_mode_says(tmp_path: Path, mode: str, name: str) -> None:
     text = f"OPTI DIME 2 MODE {mode} ELEM QUA8 SORT 'plate' ; "
     text += "S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; T = MANU 'TRI6' (3. 0.) (4. 0.) (5. 0.) "
@@ -99,7 +98,7 @@ def test_cells_without_an_entry_are_refused(tmp_path: Path) -> None:
         nastran_lines(empty)
 
 
-@pytest.mark.parametrize(("word", "near"), [("FER", ""), ("NSA", "did you mean 'NAS'?")])
+@together("word, near", [("FER", ""), ("NSA", "did you mean 'NAS'?")])
 def test_formats_that_are_not_written_are_named(tmp_path: Path, word: str, near: str) -> None:
     result = run_text(
         f"OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; SORT '{word}' L ;", tmp_path

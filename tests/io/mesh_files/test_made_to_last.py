@@ -111,7 +111,7 @@ def packed(how: str, content: bytes, blocks: int) -> str:
     return VTU.format(how=how, points=text)
 
 
-@pytest.mark.parametrize("how", PACK)
+@together("how", PACK)
 def test_a_vtu_that_unpacks_past_any_use_is_refused(
     how: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -147,8 +147,8 @@ MSH_TEXTS = {  # of each version, a square of four nodes that stand for NODES
 }
 
 
-@pytest.mark.parametrize("version", MSH_TEXTS)
-@pytest.mark.parametrize("nodes", ["-1 -2 3 4", "1 2 3 0", "1 2 3 5", "1 2 3 -1"])
+@together("version", MSH_TEXTS)
+@together("nodes", ["-1 -2 3 4", "1 2 3 0", "1 2 3 5", "1 2 3 -1"])
 def test_cells_of_gmsh_name_nodes_of_the_file(version: str, nodes: str, tmp_path: Path) -> None:
     """Python would count what is below 1 from the last node."""
     path = tmp_path / "m.msh"

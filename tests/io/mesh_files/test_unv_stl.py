@@ -126,7 +126,7 @@ def test_nodes_of_a_group_are_no_cells_of_the_same_label(tmp_path: Path) -> None
     assert held(read_unv(path)) == ({}, [2])
 
 
-@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@together("size", [1e-3, 1.0, 1e3])
 def test_normals_of_triangles_have_length_one(size: float) -> None:
     nodes = NodeTable()
     corners = size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [2, 0, 0]])

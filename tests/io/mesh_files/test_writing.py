@@ -6,6 +6,7 @@ import meshio
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.io.errors import OutputError
 from ssilang.io.mesh_files.file_mesh import FileMesh, Part
@@ -59,8 +60,8 @@ def _nodes_of_parts(mesh: FileMesh) -> dict[str, list[int]]:
     return {n: sorted(p.nodes.tolist()) for n, p in mesh.parts.items() if len(p.nodes)}
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("ending", WRITTEN)
+@together("case", CASES)
+@together("ending", WRITTEN)
 def test_what_is_written_is_read_again(tmp_path: Path, ending: str, case: str) -> None:
     path, mesh = tmp_path / f"m{ending}", _mesh(case)
     write_mesh_file(path, mesh, 3)
@@ -84,7 +85,7 @@ def test_what_is_written_is_read_again(tmp_path: Path, ending: str, case: str) -
     assert sets == wanted
 
 
-@pytest.mark.parametrize("case", CASES)
+@together("case", CASES)
 def test_meshio_finds_groups_of_gmsh(tmp_path: Path, case: str) -> None:
     path, mesh = tmp_path / "m.msh", _mesh(case)
     write_mesh_file(path, mesh, 2)
@@ -154,7 +155,7 @@ def test_solids_of_med_are_the_other_way_round(tmp_path: Path) -> None:
     assert read["line3"] == [[1, 4, 20]]
 
 
-@pytest.mark.parametrize(("plane", "names"), [("CPE", ("CPE4", "B21", "CPE3")),
+@together("plane, names", [("CPE", ("CPE4", "B21", "CPE3")),
                                               ("", ("S4", "B31", "S3"))])  # fmt: skip
 def test_abaqus_deck_line_by_line(tmp_path: Path, plane: str, names: tuple[str, ...]) -> None:
     write_mesh_file(tmp_path / "m.inp", _mesh("flat"), 2, plane)
@@ -176,8 +177,8 @@ def test_abaqus_deck_line_by_line(tmp_path: Path, plane: str, names: tuple[str, 
     }
 
 
-@pytest.mark.parametrize(
-    ("ending", "cells", "part", "code"),
+@together(
+    "ending, cells, part, code",
     [
         (".msh", {"JOI2": [[0, 1, 2, 3]]}, "A", "io.mesh-cells-not-written"),
         (".med", {"JOI2": [[0, 1, 2, 3]]}, "A", "io.mesh-cells-not-written"),

@@ -47,14 +47,11 @@ class Sheet:
         self.__dict__ |= {"text": text, "point": point, "place": place, **said}
 
 
-@pytest.mark.parametrize(
-    ("place", "distance", "to", "sides"),
-    [
+@together("place, distance, to, sides", [
         ("NO", 0.5, (3.5, 7.5), ("right", "bottom")), ("SE", None, (4.4, 6.6), ("left", "top")),
         ("S", 1.0, (4.0, 6.0), ("center", "top")), ("E", 2.0, (6.0, 7.0), ("left", "center")),
         ("C", 1.0, (4.0, 7.0), ("center", "center")),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_tag_stands_beside_its_point(place, distance, to, sides):
     table, sheet = NodeTable(), Sheet()
     node = int(table.add([[4.0, 7.0, 9.0]])[0])
@@ -97,7 +94,7 @@ def test_views_turn_what_is_upright_upwards():
     assert plane.height(np.array([[5.0, 1, 5], [0, 0, 0]])).tolist() == [3.0, -2.0]
 
 
-@pytest.mark.parametrize("value", [-2.0, 5.0])
+@together("value", [-2.0, 5.0])
 def test_one_value_lies_in_the_middle_of_its_band(value):
     bounds = choose_levels(np.full(5, value)).bounds
     assert bounds == pytest.approx([value - abs(value) / 1e3, value + abs(value) / 1e3], rel=1e-12)
@@ -118,9 +115,7 @@ def test_values_of_a_linear_field_come_to_the_nodes(element, cells):
         np.testing.assert_allclose(found, 3 + nodes @ slopes, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    "names", ["SMXX SMYY SMZZ SMXY SMXZ SMYZ", "SMRR SMZZ SMTT SMRZ SMRT SMZT"]
-)
+@together("names", ["SMXX SMYY SMZZ SMXY SMXZ SMYZ", "SMRR SMZZ SMTT SMRZ SMRT SMZT"])
 def test_von_mises_is_that_of_the_tensor(names):
     table = NodeTable()
     nodes = table.add(np.eye(3))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.plots.bands import choose_levels, cut_bands, cut_lines
 
@@ -57,7 +58,7 @@ def test_number_of_levels_and_levels_by_hand() -> None:
     assert np.allclose(choose_levels(values, None, np.array([0.0, 2.0])).bounds, [-1, 0, 2, 3])
 
 
-@pytest.mark.parametrize("size", [1.0, 2e-6, 3e7])
+@together("size", [1.0, 2e-6, 3e7])
 def test_colours_of_both_signs_meet_at_white(size: float) -> None:
     levels = choose_levels(size * np.array([-1.0, 1.0]), 20)
     blue, middle, red = levels.rgba(size * np.array([-0.99, 0.01, 0.99]))

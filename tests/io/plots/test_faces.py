@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from together import together
 
 from ssilang.io.plots.bands import choose_levels
 from ssilang.io.plots.cutting import nodal_means
@@ -226,7 +227,7 @@ def test_values_in_cells_come_to_their_nodes(mesh: Mesh, support: Any) -> None:
             assert np.isnan(nodal[node])
 
 
-@pytest.mark.parametrize("kind", ["TRI3", "QUA4", "POL5", "PO12"])
+@together("kind", ["TRI3", "QUA4", "POL5", "PO12"])
 def test_pieces_of_a_face_cover_it_once(kind):
     """Areas of the pieces of an affine image: the sum is the face's, none is turned."""
     sides = {"TRI3": 3, "QUA4": 4, "POL5": 5, "PO12": 12}[kind]

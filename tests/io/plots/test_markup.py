@@ -1,12 +1,12 @@
 """Titles as matplotlib's text."""
 
-import pytest
+from together import together
 
 from ssilang.io.plots.markup import LONGEST, to_mathtext
 
 
-@pytest.mark.parametrize(
-    ("written", "drawn"),
+@together(
+    "written, drawn",
     [
         ("plain $ text", r"plain \$ text"),
         (r"\a and \W", "α and Ω"),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 from PIL import Image
+from together import together
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.annotations import Labels
@@ -376,7 +377,7 @@ def test_a_closed_joint_shows_its_values_along_its_lines() -> None:
     assert max(w for w, s in zip(wide, shown, strict=True) if s) > 3
 
 
-@pytest.mark.parametrize("how", ["bounds", "frame", "own"])
+@together("how", ["bounds", "frame", "own"])
 def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
     """Bounds as they are; what is framed, or all that is drawn, with a twentieth around it."""
     small, large = grid(2, 2.0), grid(3, 4.0)

@@ -152,8 +152,8 @@ def test_an_opened_joint_fills_its_gap(name: str, tmp_path: Path) -> None:
         assert np.array_equal(middle, (points[a] + points[b]) / 2)
 
 
-@pytest.mark.parametrize(
-    ("family", "names"),
+@together(
+    "family, names",
     [
         ("stress", ("SMXX", "SMYY", "SMZZ", "SMXY", "SMYZ", "SMXZ")),
         ("strain", ("EPXX", "EPYY", "EPZZ", "GAXY", "GAYZ", "GAXZ")),
@@ -174,7 +174,7 @@ def test_six_different_components_stand_in_the_order_of_vtk(
     np.testing.assert_array_equal(tensor, np.tile(10.0 + np.arange(6.0), (6, 1)))
 
 
-@pytest.mark.parametrize("encoding", list(Encoding))
+@together("encoding", list(Encoding))
 def test_fields_come_back_exactly(encoding: Encoding, tmp_path: Path) -> None:
     mesh, field, stress = square_with_fields()
     write_vtu(tmp_path / "f.vtu", grid_of(mesh, {"": field}, {"": stress}), encoding, time=0.25)

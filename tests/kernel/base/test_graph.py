@@ -1,16 +1,16 @@
 """Parts of graphs against scipy's, and links of rows and entries."""
 
 import numpy as np
-import pytest
 from scipy.sparse.csgraph import connected_components
+from together import together
 
 from ssilang.kernel.base import graph
 from ssilang.kernel.base.graph import chains, entries, parts_of
 from ssilang.kernel.base.sparse import sp
 
 
-@pytest.mark.parametrize("links", [0, 20, 60, 400])
-@pytest.mark.parametrize("at_once", [7, 1 << 21])
+@together("links", [0, 20, 60, 400])
+@together("at_once", [7, 1 << 21])
 def test_parts_are_those_of_scipy_numbered_as_they_appear(links, at_once, monkeypatch):
     monkeypatch.setattr(graph, "AT_ONCE", at_once)
     ends = np.random.default_rng(links).integers(0, 100, (2, links))

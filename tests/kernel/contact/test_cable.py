@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.cable import Bars, cable_relations
@@ -58,7 +59,7 @@ class Cable:
         return mean / np.linalg.norm(mean)
 
 
-@pytest.mark.parametrize("dim", [2, 3])
+@together("dim", [2, 3])
 def test_nodes_slip_along_the_cable_and_follow_across(dim):
     c = Cable(dim)
     made = cable_relations(c.line, c.bars, c.body, c.names)
@@ -77,7 +78,7 @@ def test_nodes_slip_along_the_cable_and_follow_across(dim):
     assert set(across) == set(c.nodes[:4].tolist())
 
 
-@pytest.mark.parametrize("dim", [2, 3])
+@together("dim", [2, 3])
 def test_limits_are_the_mean_tension_times_turn_and_length(dim):
     """dT = T (f d alpha + phi d s), T growing with the stretch of each bar."""
     c = Cable(dim)

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from references.assembled import Bench
 from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
 from references.recorder import Recorder
+from together import together
 
 from ssilang.kernel.contact.conserving import ConservingContact, mean_penalty
 from ssilang.kernel.contact.unilateral import ContactOptions
@@ -129,7 +130,7 @@ def test_a_stop_that_moves_does_work():
     assert np.abs(history.imbalance).max() <= 1e-11 * history.energies[-1, 0]
 
 
-@pytest.mark.parametrize("options", METHODS, ids=lambda o: o.method)
+@together("options", METHODS)
 def test_a_support_that_moves_away_pulls_a_mass_off_the_stop_that_it_touches(options):
     """From the first step on it moves as if there were no stop."""
     found = []
@@ -173,7 +174,7 @@ class TwoStops:
         return 2
 
 
-@pytest.mark.parametrize("options", METHODS[1:], ids=lambda o: o.method)
+@together("options", METHODS[1:])
 def test_a_stop_that_another_s_push_drives_into_is_met_and_one_that_it_lifts_off_is_not(options):
     """The second gap, 0.5, would close by 0.3; the first reaction takes 0.9 of itself off or on."""
     for lever, wanted in ((0.9, [1.0, 0.0]), (-0.9, [1.27 / 0.19, 1.2 / 0.19])):

@@ -7,6 +7,7 @@ import pytest
 from references.assembled import Bench
 from references.oscillators import MASS, STRUCTURE_STIFFNESS, ClubA
 from references.recorder import recorded
+from together import together
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.impact import ImpactRule
@@ -105,7 +106,7 @@ def test_moving_stop_throws_the_mass_at_twice_its_speed():
     assert recorder.of("v")[-1, 0] == pytest.approx(2.0, rel=1e-6)
 
 
-@pytest.mark.parametrize("method", list(METHODS))
+@together("method", list(METHODS))
 def test_methods_on_a_random_contact_problem(method):
     rng = np.random.default_rng(2)
     A = rng.standard_normal((8, 8))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder, assert_alike, recorded
+from together import together
 
 from ssilang.kernel.contact.active_set import active_set_of, anew, find_active, list_closed
 from ssilang.kernel.contact.modal import takes
@@ -148,7 +149,7 @@ def roundings(problem, exact):
     return len(problem.times) * 2 * u / (problem.times[1] * v) * grown
 
 
-@pytest.mark.parametrize("scheme", [hht(0.1), generalised_alpha(0.8)], ids=["HHT", "alpha"])
+@together("scheme", [hht(0.1), generalised_alpha(0.8)])
 def test_other_schemes(scheme, monkeypatch):
     agree(*both(feet(ContactOptions(), scheme, steps=40), monkeypatch))
 
@@ -180,7 +181,7 @@ def test_relations_that_it_leaves_to_others():
     assert rule(feet(steps=2), full=True).name == "full Newton"
 
 
-@pytest.mark.parametrize("gap", [1e-19, -1e-19, 0.0])
+@together("gap", [1e-19, -1e-19, 0.0])
 def test_rounding_of_the_displacements_around_does_not_part_what_touches(gap):
     """A foot on rigid ground under a body that moved 1 mm: its gap is a rounding of nothing."""
     bench = Bench()

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import ContactRows
@@ -35,7 +36,7 @@ def test_work_energies_and_multipliers_of_two_rows_that_push_elsewhere_and_rub()
     assert rows.penalty_energy(np.array([-0.2, 0.3]), None) == 0.0
 
 
-@pytest.mark.parametrize(("slip", "rubbed"), [(1e-4, -0.4), (9e-4, -0.3 * 5.0)])
+@together("slip, rubbed", [(1e-4, -0.4), (9e-4, -0.3 * 5.0)])
 def test_a_penalty_stands_in_series_with_the_flexibility_below_a_place_that_rubs(slip, rubbed):
     """A gap that closes by 3e-3 on 1e-4 + 1 / 2 000; a slip that is held, and one that is not."""
     friction = SimpleNamespace(

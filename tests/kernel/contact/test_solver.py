@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
+from together import together
 
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.statics.stepping import step_statics
@@ -11,7 +12,7 @@ from ssilang.kernel.statics.stepping import step_statics
 METHODS = ["LAGRANGE", "AUGMENTE", "UZAWA"]
 
 
-@pytest.mark.parametrize("method", METHODS)
+@together("method", METHODS)
 def test_a_body_comes_to_rest_on_its_stops(method):
     """A bar on two stops at different heights, free but for them, and pressed off its middle."""
     bench = Bench()

@@ -7,6 +7,7 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 from references.rocking import HousnerBlock
+from together import together
 
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.fields.node_field import NodeField
@@ -154,7 +155,7 @@ RUNS = {
 }
 
 
-@pytest.mark.parametrize("name", RUNS)
+@together("name", RUNS)
 def test_a_stop_that_moves_does_the_work_of_its_reaction(name, monkeypatch):
     """By trapezia of instants: a spring is pressed, and let go, by what it stands on."""
     if name == "condensed":

@@ -1,7 +1,7 @@
 """Noses of projectiles: gaps and normals against points laid densely on their outline."""
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.kernel.contact.touching import Nose
 
@@ -15,7 +15,7 @@ def outline(shape, size, angle):
     return np.column_stack([-np.abs(y) / np.tan(angle) if shape == "CONE" else 0.0 * y, y])
 
 
-@pytest.mark.parametrize(("shape", "angle"), [("HEMI", 0.0), ("PLAT", 0.0), ("CONE", 0.5)])
+@together("shape, angle", [("HEMI", 0.0), ("PLAT", 0.0), ("CONE", 0.5)])
 def test_gaps_and_normals_are_those_of_the_nearest_point_of_the_outline(shape, angle):
     """Turned, seen from both sides of its axis and of its outline."""
     size, turn = 2.0, 0.7

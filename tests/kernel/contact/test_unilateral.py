@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.contact.unilateral import METHODS, Rubbing, contact_relations
 from ssilang.kernel.mesh.mesh import Mesh
@@ -51,7 +52,7 @@ def weights_of(method, nodes, cells, x, own, other):
     return x, rows[kept] / rows[kept].sum(axis=1, keepdims=True), areas[kept]
 
 
-@pytest.mark.parametrize(("method", "lean"), [*((m, 0.0) for m in METHODS), ("MESC", 0.04)])
+@together("method, lean", [*((m, 0.0) for m in METHODS), ("MESC", 0.04)])
 def test_rows_are_means_of_what_one_side_does_over_the_other(method, lean):
     table, R, low, high, master, slave = two_lines(lean)
     u = np.random.default_rng(4).standard_normal((len(table), 2))
@@ -87,7 +88,7 @@ def test_rows_are_means_of_what_one_side_does_over_the_other(method, lean):
     assert away is None  # nothing faces itself
 
 
-@pytest.mark.parametrize("method", METHODS)
+@together("method", METHODS)
 def test_rows_in_space_keep_what_is_linear(method):
     """Triangles on quadrangles, all turned: of an affine field a row has what its points have."""
     rng = np.random.default_rng(8)

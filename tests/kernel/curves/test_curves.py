@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves import algebra
@@ -63,7 +64,7 @@ def pair(kind, values):
     )
 
 
-@pytest.mark.parametrize("kinds", [("PREE", "MODU"), ("MODU", "PREE")])
+@together("kinds", [("PREE", "MODU"), ("MODU", "PREE")])
 def test_complex_curves_combine_as_complex_numbers(kinds):
     p, q, r, s = np.random.default_rng(4).standard_normal((4, 2, 5)).view(float)
     values = [part[0] + 1j * part[1] for part in (p, q, r, s)]
@@ -86,7 +87,7 @@ def test_complex_curves_combine_as_complex_numbers(kinds):
     refused(lambda: algebra.combined(a, moved, "+", np.add), "complex-curves-must-same")
 
 
-@pytest.mark.parametrize("absolute", [False, True])
+@together("absolute", [False, True])
 def test_integrals_are_those_of_the_polygon(absolute):
     y = np.abs(Y) if absolute else Y
     parts = np.diff(X) * (y[1:] + y[:-1]) / 2
@@ -130,7 +131,7 @@ def test_primitives_and_samples():
     assert Curve((PART, OTHER)).at(1.4) == pytest.approx(np.interp(1.4, X, Y))
 
 
-@pytest.mark.parametrize("ends", [(None, None), (0.4, None), (None, -1.3), (2.0, 0.7)])
+@together("ends", [(None, None), (0.4, None), (None, -1.3), (2.0, 0.7)])
 def test_splines_pass_through_their_points_with_the_ends_asked_for(ends):
     h = 1e-4
     for order, at in ((slice(None), 1.0), (slice(None, None, -1), 1.0)):

@@ -1,7 +1,6 @@
 """Every element in two unlike cells: what its matrices, strains, stresses and forces must share."""
 
 import numpy as np
-import pytest
 from together import together
 
 from ssilang.kernel.elements import families
@@ -250,7 +249,7 @@ def test_mass_is_that_of_the_matter_in_each_direction(element, mode, lumped):
         near(M.values, M.values * np.eye(M.values.shape[1]), 1e-15)
 
 
-@pytest.mark.parametrize("element", ["POUT", "TIMO", "TUYA"])
+@together("element", ["POUT", "TIMO", "TUYA"])
 def test_a_line_that_turns_has_the_energy_of_its_sections_in_their_axes(element):
     two, w = Two(element, Mode.THREE_DIMENSIONAL, np.eye(3)), np.array([0.3, -0.5, 0.8])
     given = {k: v[:, 0] for k, v in two.material.blocks[0].components.items()}
@@ -284,9 +283,9 @@ def test_cells_one_by_one_give_what_all_at_once_do(element, mode, monkeypatch):
         )
 
 
-@pytest.mark.parametrize("points", [1, 2, 4])
-@pytest.mark.parametrize("varying", [False, True])
-@pytest.mark.parametrize("cells", [1, 3])
+@together("points", [1, 2, 4])
+@together("varying", [False, True])
+@together("cells", [1, 3])
 def test_products_sum_over_points_whose_moduli_may_differ(points, varying, cells):
     rng = np.random.default_rng(5)
     B, w = rng.standard_normal((3, 4, points, 5)), rng.uniform(1.0, 2.0, (3, points))

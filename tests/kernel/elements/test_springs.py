@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -59,9 +60,9 @@ def expected(names, points, u, moving, turning, relative=True):
     return out
 
 
-@pytest.mark.parametrize("points", [1, 2])
-@pytest.mark.parametrize("rotations", [False, True])
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("points", [1, 2])
+@together("rotations", [False, True])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_springs_dashpots_and_masses_act_on_each_unknown_by_itself(points, rotations, mode):
     zone = zone_of("VOIGT", points, mode)
     values = {"RAID": K, "VISC": C, "MASS": M}
@@ -89,8 +90,8 @@ def test_springs_dashpots_and_masses_act_on_each_unknown_by_itself(points, rotat
     assert not counts_damping(zone, zone_field(zone, given(zone, RAID=K)))
 
 
-@pytest.mark.parametrize("points", [1, 2])
-@pytest.mark.parametrize("rotations", [False, True])
+@together("points", [1, 2])
+@together("rotations", [False, True])
 def test_in_series_matrices_and_their_complex_stiffness_are_maxwells(points, rotations):
     """The node between is condensed: what is left is k i w c / (k + i w c)."""
     zone = zone_of("REUSS", points)
@@ -123,8 +124,8 @@ def curve(name, x, y):
     return CurvePart(np.array(x), np.array(y), "f", name)
 
 
-@pytest.mark.parametrize("points", [1, 2])
-@pytest.mark.parametrize("own", [False, True])
+@together("points", [1, 2])
+@together("own", [False, True])
 def test_impedances_over_the_frequency_are_read_between_their_points(points, own):
     zone = zone_of("COMPLEXE", points)
     c = curve("VISC", [0.0, 4.0, 8.0], [10.0, 50.0, 20.0])
@@ -168,8 +169,8 @@ def test_named_unknowns_join_unlike_ones_and_modes_have_their_shares():
         assert law_of_impedance(zone) == "ELASTIQUE"
 
 
-@pytest.mark.parametrize(
-    ("values", "match"),
+@together(
+    "values, match",
     [({"VISC": C}, "RAID"), ({"RAID": -K}, "negative"), ({"RAID": K, "AMOR": M}, "MASS")],
 )
 def test_impedances_without_sense_are_refused(values, match):

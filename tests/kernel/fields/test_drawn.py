@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy import sparse
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields import deformed, proper_orthogonal
@@ -111,13 +112,13 @@ def test_deformed_shapes_move_by_their_own_axes(table, round_body):
     assert deformed.automatic_scale(Mesh(table, ()), field) == 1.0
 
 
-@pytest.mark.parametrize(("x", "found"), [(1.0, 1.0), (4.99, 2.0), (0.05, 0.05), (730.0, 500.0)])
+@together("x, found", [(1.0, 1.0), (4.99, 2.0), (0.05, 0.05), (730.0, 500.0)])
 def test_scales_are_rounded_down_to_one_two_five(x, found):
     assert deformed.round_down(x) == pytest.approx(found)
 
 
-@pytest.mark.parametrize("by_snapshots", [False, True])
-@pytest.mark.parametrize("weighted", [False, True])
+@together("by_snapshots", [False, True])
+@together("weighted", [False, True])
 def test_modes_are_those_of_singular_values(by_snapshots, weighted):
     rng = np.random.default_rng(1)
     series = rng.standard_normal((4, 6)) @ np.diag([3, 1, 2, 0.5, 1, 1.5])

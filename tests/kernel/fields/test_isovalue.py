@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -37,7 +38,7 @@ def bricks(n: int) -> tuple[Mesh, NodeTable]:
     return Mesh.of(table, "CUB8", np.stack(corners, axis=1)), table
 
 
-@pytest.mark.parametrize("level", [0.1, 0.5, 1.0, 1.7, 2.6])
+@together("level", [0.1, 0.5, 1.0, 1.7, 2.6])
 def test_plane_through_bricks_has_its_area_and_volume(level: float) -> None:
     mesh, table = bricks(3)
     field = field_on(mesh, table.coordinates.sum(axis=1))
@@ -58,8 +59,8 @@ def test_neighbours_share_the_nodes_of_the_cut() -> None:
     assert len(np.unique(places, axis=0)) == len(places)
 
 
-@pytest.mark.parametrize(
-    ("signs", "equal", "below", "above"),
+@together(
+    "signs, equal, below, above",
     [
         ([0, -1, -1, -1, 0], {"POI1": 2}, {"TET4": 2}, {"POI1": 2}),
         ([0, 0, 1, 1, 0], {"SEG2": 2}, {"SEG2": 2}, {"TET4": 2}),

@@ -126,7 +126,7 @@ FACTORS = {"strip": 2 + math.pi, "disc in the plane": 6.05, "disc": 6.05,
 FACTORS["wide rectangle"] = FACTORS["rectangle"]  # B is the shorter side
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@together("name", SHAPES)
 def test_pressed_down_it_bears_its_capacity(name):
     footing = made(name, COHE=C)
     up = 2 if footing.space else 1
@@ -136,7 +136,7 @@ def test_pressed_down_it_bears_its_capacity(name):
     assert half.move(motion_of(half, v=-2.0))[up] == pytest.approx(-1e5 * AREAS[name], rel=1e-12)
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@together("name", SHAPES)
 def test_dragged_along_it_holds_by_the_cohesion_and_twisted_by_its_lever(name):
     footing = made(name, COHE=C)
     dragged = footing.move(motion_of(footing, u=3.0))[0]
@@ -190,7 +190,7 @@ def test_a_first_push_is_the_integral_of_a_fine_bed(name, v, turn):
     assert pytest.approx(pressure * s @ widths, rel=close) == -M
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@together("name", SHAPES)
 def test_hard_spots_still_press_where_the_rest_is_unloaded(name):
     """Pressed down until all but the spots yields, and back: two springs side by side."""
     footing, k, q = made(name, COHE=C, PDUR=0.3), 8e7 / AREAS[name], FACTORS[name] * C
@@ -279,7 +279,7 @@ def test_one_slow_path_balances_work_with_what_is_stored_and_lost():
     assert stored + lost + springs == pytest.approx(work, rel=2e-3)
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@together("name", SHAPES)
 def test_the_memory_of_the_ground_stands_in_its_variables(name):
     footing = made(name, COHE=C)
     for step in [(2e-2, -0.2, 0.04), (0.0, -0.19, -0.02)]:
@@ -426,7 +426,7 @@ def three_rows(x, w, t, state):
     return SimpleNamespace(w=np.stack([w] * 3), t=np.stack([t] * 3), state=np.stack([state] * 3))
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@together("name", SHAPES)
 def test_fields_histories_and_footings_tell_what_the_whole_carries(name):
     footing = made(name, COHE=C)
     footing.move(motion_of(footing, 1e-2, -0.02, 4e-3))
@@ -459,7 +459,7 @@ def block_of(x, state, w, t):
     return block
 
 
-@pytest.mark.parametrize("beside", ["face", "two springs"])
+@together("beside", ["face", "two springs"])
 def test_a_joint_beside_a_yielding_footing_keeps_its_own_answer(beside):
     """Surface joints and a macro-element in one interface: each as if it stood alone."""
     bench = Bench(PLANE)
@@ -525,7 +525,7 @@ def test_a_rectangle_turned_under_its_weight_about_either_axis_meets_its_effecti
     assert abs(found[7 - axis]) < 1e-6 * abs(found[axis])  # nothing about the other axis
 
 
-@pytest.mark.parametrize(("vertical", "arm"), [(1.3, 0.0), (0.6, 0.3 * B)])
+@together("vertical, arm", [(1.3, 0.0), (0.6, 0.3 * B)])
 def test_load_steps_beyond_what_the_ground_bears_are_refused(vertical, arm):
     """By their weight, or by where it stands; a body beside it is pressed harder and held."""
     bench, times = Bench(), np.array([0.0, 0.5, 1.5, 2.0])

@@ -5,6 +5,7 @@ import numpy.typing as npt
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
+from together import together
 
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import Interface
@@ -82,7 +83,7 @@ def turned(problem: Problem, lift: float, about_y: float, about_z: float = 0.0) 
     return footing.loads(w, t, u[footing.unknowns][None])
 
 
-@pytest.mark.parametrize("ratio", [0.5, 1.5, 2.0, 5.0, 10.0])
+@together("ratio", [0.5, 1.5, 2.0, 5.0, 10.0])
 def test_a_rigid_strip_that_lifts_off(ratio: float) -> None:
     """theta_u = 2 N/(k B^2); beyond it the contact is B sqrt(theta_u/theta) wide."""
     N = 6e5
@@ -108,7 +109,7 @@ def test_a_rigid_strip_that_lifts_off(ratio: float) -> None:
     assert found.moment[0] == pytest.approx([moment], rel=3e-3)
 
 
-@pytest.mark.parametrize("soil_first", [False, True])
+@together("soil_first", [False, True])
 def test_a_raft_in_space_turned_about_y(soil_first: bool) -> None:
     """The same per unit length, times its length; nothing about x."""
     N, ratio = 6e5 * LENGTH, 4.0
@@ -151,7 +152,7 @@ TURNS = {
 }
 
 
-@pytest.mark.parametrize("turn", TURNS.values(), ids=TURNS)
+@together("turn", TURNS.values())
 def test_axes_lie_in_the_base_and_a_rigid_rotation_is_read_about_them(turn) -> None:
     problem = problem_of(raft(2, turn=turn))
     (footing,) = footings_of(interface_of(problem), problem.numbering)
@@ -257,7 +258,7 @@ def test_a_track_goes_on_from_what_it_held() -> None:
     assert again.kept == [[], []]
 
 
-@pytest.mark.parametrize("wanted", [[0, 1, 2, 3, 4], [1, 3]])
+@together("wanted", [[0, 1, 2, 3, 4], [1, 3]])
 def test_loads_in_time_are_those_of_the_motion_that_is_seen(wanted: list[int]) -> None:
     """Of two footings that move unlike each other, the larger first."""
     bench = strip(8)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.family import Layout
@@ -42,8 +43,8 @@ def test_a_surface_joint_has_its_density_on_the_middle():
     assert masses(bench, zone) == pytest.approx(wanted)
 
 
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
-@pytest.mark.parametrize("kind", ["", "ANISOTROPE"])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("kind", ["", "ANISOTROPE"])
 def test_two_points_push_by_their_moduli_along_and_about_their_own_axes(mode, kind):
     """Jumps and turns of the second point against the first: normal, two shears; turns alike."""
     rng, bench, d = np.random.default_rng(3), Bench(mode), mode.dimension

@@ -58,8 +58,8 @@ def one_joint(element: str, rule: str = "GAUSS", reverse: bool = False, gap: flo
 CASES = [(e, "GAUSS") for e in FACES] + [(e, "LOBATTO") for e in NODAL]
 
 
-@pytest.mark.parametrize("element", FACES)
-@pytest.mark.parametrize("support", ["NOEUD", "GRAVITE"])
+@together("element", FACES)
+@together("support", ["NOEUD", "GRAVITE"])
 def test_jumps_at_nodes_and_in_the_middle_are_those_of_the_sides_there(element, support):
     """Of a jump that is linear along the face, which a middle weighs by its area."""
     zone, material, x, R = one_joint(element)
@@ -165,7 +165,7 @@ def test_two_points_take_the_users_direction():
         joint_cells(zone, None)
 
 
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_axes_of_two_points_are_those_of_the_line_between_them(mode):
     """The normal goes from the first to the second; in the plane the tangent is 90 degrees on."""
     d = mode.dimension
@@ -182,7 +182,7 @@ def test_axes_of_two_points_are_those_of_the_line_between_them(mode):
         np.testing.assert_allclose(frame[0], [-0.8, 0.6], rtol=1e-14)
 
 
-@pytest.mark.parametrize(("angle", "refused"), [(0.0, False), (115.0, False), (125.0, True)])
+@together("angle, refused", [(0.0, False), (115.0, False), (125.0, True)])
 def test_a_direction_that_turns_its_back_on_the_second_point_is_refused(angle, refused):
     """A JOI1 that opens from its first point to its second; more than 120 degrees off is inside
     out."""
@@ -201,7 +201,7 @@ def test_a_direction_that_turns_its_back_on_the_second_point_is_refused(angle, r
         np.testing.assert_allclose(frame[-1], list(turned.values()), atol=1e-15)
 
 
-@pytest.mark.parametrize("side", [1e-3, 1.0, 1e4])
+@together("side", [1e-3, 1.0, 1e4])
 def test_thickness_counts_against_the_length_of_a_cell(side):
     """A gap of a millionth of the side shows which way a joint opens, in any unit of length."""
     bench = Bench(Mode.THREE_DIMENSIONAL)

@@ -1,7 +1,7 @@
 """Mean tractions of a step against the work of the law along it."""
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.kernel.interface.laws.columns import (
     N_PARAMETERS,
@@ -26,8 +26,8 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("d", [2, 3])
-@pytest.mark.parametrize("name", LAWS)
+@together("d", [2, 3])
+@together("name", LAWS)
 def test_mean_traction_times_step_is_what_is_stored_and_lost(name, d):
     """Also where a step opens, closes, tears and rests; its tangent by differences."""
     rng, n = np.random.default_rng(9), 60

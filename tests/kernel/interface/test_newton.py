@@ -60,7 +60,7 @@ ONE_POINT = Joints(
 )
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@together("kind", KINDS)
 def test_a_step_with_no_consistent_shear_keeps_that_of_its_start(kind):
     """Closed, the shear opens the joint; open, nothing does: the law alone has no solution.
 
@@ -87,7 +87,7 @@ def test_a_step_with_no_consistent_shear_keeps_that_of_its_start(kind):
     assert found, "no step needed its shear held: the case proves nothing"
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@together("kind", KINDS)
 def test_an_interface_that_loses_its_stiffness_says_so(kind):
     """One elastic jump, S = 1, R = 2, K = 1: `1 + S (K - R)` vanishes; 1 is left of a jump of 5."""
     joints = Joints(

@@ -1,8 +1,8 @@
 """Stiff joints that rub: the start by projected forces, held against Coulomb's law itself."""
 
 import numpy as np
-import pytest
 from references.iterations import at_rest, compiled_newton
+from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
@@ -70,7 +70,7 @@ def test_stiff_joints_take_few_turns():
     assert alone.max() > 12  # else this shows nothing
 
 
-@pytest.mark.parametrize("k", [1e9, 1e13])
+@together("k", [1e9, 1e13])
 def test_any_stiffness_ends_in_the_law(k):
     assert (walk(k, 10) > 0).all()
 

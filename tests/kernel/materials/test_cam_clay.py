@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from refusing import refusal
 from scipy.integrate import solve_ivp
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters
@@ -46,7 +47,7 @@ def isotropic(p):
     return np.array([-p, -p, -p, 0, 0, 0])
 
 
-@pytest.mark.parametrize("n", [1, 7])
+@together("n", [1, 7])
 def test_compression_follows_both_lines_of_the_logarithm_of_the_pressure(n):
     """The void ratio falls by KAPA ln p up to P0, by LAMD ln p beyond, rises by KAPA back."""
     first = KAPPA / (1 + E0) * math.log(P0 / 2e4)
@@ -159,9 +160,7 @@ def test_clay_without_stress_begins_with_a_stiffness():
     assert -1e-3 <= pressure(pulled[-1]) < 0.05 * P0
 
 
-@pytest.mark.parametrize(
-    ("change", "code"), [({"COHE": 1e3}, "clay-cohesion"), ({"LAMD": 0.04}, "law-condition")]
-)
+@together("change, code", [({"COHE": 1e3}, "clay-cohesion"), ({"LAMD": 0.04}, "law-condition")])
 def test_clay_without_an_ellipse_is_refused(change, code):
     with refusal(MaterialError, f"kernel.materials.{code}"):
         check_parameters(CLAY, points(**change))

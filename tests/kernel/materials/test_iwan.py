@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from references.masing import Masing, hyperbola_damping, polygon
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -66,7 +67,7 @@ def test_first_loading_goes_through_the_points_of_the_curve_and_straight_between
     assert point.stress[0] == pytest.approx([0, 0, 0, first(1.0), 0, 0], abs=1e-16)
 
 
-@pytest.mark.parametrize("beyond", [-0.5, 0.0, 2.0])
+@together("beyond", [-0.5, 0.0, 2.0])
 def test_the_last_part_slips_by_what_goes_beyond_the_curve(beyond: float) -> None:
     point, gamma = Point(curve()), STRAINS[-1] * (1.0 + beyond)
     plastic = np.array([[0, 0, 0, gamma - point.shear(gamma) / G, 0, 0]])
@@ -183,7 +184,7 @@ def test_points_of_several_curves_have_each_their_own() -> None:
     assert found.stress[:, 4] == pytest.approx([two, one, two], rel=1e-12)
 
 
-@pytest.mark.parametrize(("pressure", "factor"), [(0.05, 0.5), (0.3, 3.0), (-1.0, 0.01)])
+@together("pressure, factor", [(0.05, 0.5), (0.3, 3.0), (-1.0, 0.01)])
 def test_strengths_follow_the_pressure(pressure: float, factor: float) -> None:
     """Twice the pressure, twice the strain at which each part yields: f tau(gamma / f)."""
     point, first = Point(curve(), 0.1), polygon(G, STRAINS, RATIOS)
@@ -201,8 +202,8 @@ def test_shear_stress_falls_with_the_pressure_and_does_not_come_back() -> None:
     assert found == pytest.approx([strength, 0.4 * strength, 0.4 * strength])
 
 
-@pytest.mark.parametrize(
-    ("strains", "ratios", "code", "data"),
+@together(
+    "strains, ratios, code, data",
     [
         ([], [], "reduction-no-points", {}),
         ([1e-5, np.nan], [1.0, 0.5], "reduction-no-points", {}),

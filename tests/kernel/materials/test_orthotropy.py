@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.loads.thermal import given_strain, temperature, thermal_strain
@@ -94,8 +95,8 @@ def laws(flat=False):
             "UNIDIRECTIONNEL": ({"YOUN": 3e9}, fibre)}  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", laws())
-@pytest.mark.parametrize("mode", [SPACE, Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.AXISYMMETRIC])
+@together("kind", laws())
+@together("mode", [SPACE, Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.AXISYMMETRIC])
 def test_moduli_of_bodies_turn_as_tensors_do(kind, mode):
     flat = mode is not SPACE
     given, local = laws(flat)[kind]
@@ -181,8 +182,8 @@ def test_radial_axes_in_space_run_along_the_axis_then_towards_it():
         axis_parameters(zone, Directions(a, None, radial=True))
 
 
-@pytest.mark.parametrize("radial", [False, True])
-@pytest.mark.parametrize("outside", [None, 1.0])
+@together("radial", [False, True])
+@together("outside", [None, 1.0])
 def test_first_axes_of_shells_are_projections_turned_about_the_side_named(radial, outside):
     zone = tilted_plate("DKT", ("ELASTIQUE", "ORTHOTROPE"))
     up = TILT[:, 2]
@@ -258,7 +259,7 @@ def test_bodies_of_one_direction_expand_along_it():
     np.testing.assert_allclose(found, np.repeat(expected[:, None], found.shape[1], axis=1))
 
 
-@pytest.mark.parametrize("space", [False, True])
+@together("space", [False, True])
 def test_first_axes_of_joints_lie_in_their_surface(space):
     table = NodeTable()
     x = np.array([[0, 0, 0], [2, 0.3, 0], [1.7, 1.5, 0.0]])
@@ -283,7 +284,7 @@ def test_first_axes_of_joints_lie_in_their_surface(space):
 # --- expansion
 
 
-@pytest.mark.parametrize("cells", [False, True])
+@together("cells", [False, True])
 def test_orthotropic_bodies_expand_along_their_axes(cells):
     zone = zone_of("CUB8", SPACE, "ORTHOTROPE")
     rates = np.array([3e-5, 1e-5, -2e-5])

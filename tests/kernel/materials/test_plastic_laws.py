@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from refusing import refusal
 from scipy.optimize import brentq
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -65,9 +66,7 @@ def steps(seed: int) -> tuple[np.ndarray, np.ndarray]:
 HELD = ((), (2,), (1, 2, 3, 4, 5))
 
 
-@pytest.mark.parametrize(
-    ("name", "held"), [*((n, h) for n in GIVEN for h in HELD), *((n, ()) for n in FIBRES)]
-)
+@together("name, held", [*((n, h) for n in GIVEN for h in HELD), *((n, ()) for n in FIBRES)])
 def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...]) -> None:
     p = parameters(name)
     law = law_at(PLASTIC_LAWS[name], p)
@@ -100,7 +99,7 @@ def test_every_law_of_solids_and_of_fibres_is_tested() -> None:
     assert {*GIVEN, *FIBRES, *elsewhere, "SECTION"} == {*PLASTIC_LAWS}
 
 
-@pytest.mark.parametrize("size", [1.0, 1e3, 1e6])
+@together("size", [1.0, 1e3, 1e6])
 def test_held_stresses_are_found_in_few_turns_however_far_it_flows(size: float) -> None:
     """Plane stress: what is left of a stress that returned from far is rounding of where it was."""
     p, turns = parameters("PARFAIT"), []
@@ -113,7 +112,7 @@ def test_held_stresses_are_found_in_few_turns_however_far_it_flows(size: float) 
     assert np.abs(q[q > 0.9] - 1.0).max() <= 1e-12 * max(1.0, 1e3 * np.abs(taken).max())
 
 
-@pytest.mark.parametrize("name", ["ISOTROPE", "J2", "DRUCKER_PRAGER"])
+@together("name", ["ISOTROPE", "J2", "DRUCKER_PRAGER"])
 def test_flow_is_found_in_few_turns_however_little_it_is(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -126,8 +125,8 @@ def test_flow_is_found_in_few_turns_however_little_it_is(
         assert len(turns) - before <= 12
 
 
-@pytest.mark.parametrize("size", [10, 2e3])
-@pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
+@together("size", [10, 2e3])
+@together("name", ["PARFAIT", "ISOTROPE", "DRUCKER_PARFAIT", "RH_COULOMB"])
 def test_stress_is_admissible(name: str, size: float) -> None:
     law, p = PLASTIC_LAWS[name], parameters(name)
     first, second = steps(5)
@@ -236,8 +235,8 @@ def test_pure_tension_ends_at_the_tip_of_the_cone() -> None:
     assert found.stress[0] == pytest.approx([tip, tip, tip, 0, 0, 0])
 
 
-@pytest.mark.parametrize(
-    ("slope", "limit", "wanted"),
+@together(
+    "slope, limit, wanted",
     [(0, 3.0, 3.0), (0, 9.0, 4.1), (2.0, 3.0, 3.0), (-90.0, 3.0, 3.0), (-90.0, 4.1, 0.0)],
 )
 def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wanted: float) -> None:
@@ -251,8 +250,8 @@ def test_drucker_cone_ends_at_the_ultimate_one(slope: float, limit: float, wante
     assert found.stress[0, :2] == pytest.approx(wanted / 1.8, rel=1e-12)
 
 
-@pytest.mark.parametrize("share", [0.6, 0.99, 1.01, 1.6])
-@pytest.mark.parametrize("delta", [0.4, 1.0, 2.5])
+@together("share", [0.6, 0.99, 1.01, 1.6])
+@together("delta", [0.4, 1.0, 2.5])
 def test_flow_along_its_own_cone_ends_at_the_tip_only_where_the_deviator_is_used_up(
     delta: float, share: float
 ) -> None:
@@ -289,7 +288,7 @@ def test_concrete_unloads_and_loads_again_along_its_first_slope() -> None:
     assert found == pytest.approx(wanted, abs=1e-12)
 
 
-@pytest.mark.parametrize("name", ["RH_COULOMB", "PARFAIT", "IWAN"])
+@together("name", ["RH_COULOMB", "PARFAIT", "IWAN"])
 def test_cumulated_strain_is_the_norm_of_the_plastic_tensor(name: str) -> None:
     """EPSE grows by sqrt(2/3 ep : ep), all six components counted as a tensor's."""
     p = parameters(name)
@@ -326,7 +325,7 @@ def unlike(name: str, m: int) -> PointParameters:
     return PointParameters(arrays, {"ECRO": ([CURVE, OTHER_CURVE], which), "GGAM": (soils, which)})
 
 
-@pytest.mark.parametrize("name", list(ALL))
+@together("name", list(ALL))
 def test_points_have_each_their_own_answer(name: str) -> None:
     m = 7
     p = unlike(name, m)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -19,14 +20,14 @@ def test_plastic_strain_is_total_less_elastic():
     np.testing.assert_allclose(found.ordinates, [4.0, 6.0, 6.0])
 
 
-@pytest.mark.parametrize("slope", [198.1, 201.9])
+@together("slope", [198.1, 201.9])
 def test_a_first_slope_within_a_hundredth_of_youn_is_taken(slope):
     (found,) = hardening_of(tension([0, 0.02, 0.05], [0, 0.02 * slope, 5.0]), 200.0).parts
     assert found.abscissas[0] == 0.0
 
 
-@pytest.mark.parametrize(
-    ("strain", "stress", "code"),
+@together(
+    "strain, stress, code",
     [
         ([0.01, 0.02], [0.0, 4.0], "trac-begins-zero-stress"),
         ([0.0, 0.02], [1.0, 4.0], "trac-begins-zero-stress"),

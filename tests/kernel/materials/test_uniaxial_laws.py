@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters
@@ -117,8 +118,8 @@ def test_slender_bars_lose_strength_and_stiffness() -> None:
     assert found[4] == pytest.approx(far, rel=1e-10)
 
 
-@pytest.mark.parametrize(
-    ("change", "rule"),
+@together(
+    "change, rule",
     [
         ({"STSU": 3e8}, "STSY <= STSU"),
         ({"EPSH": 1e-3}, "STSY / YOUN <= EPSH"),
@@ -182,7 +183,7 @@ def test_concrete_cracks_softens_and_closes_where_the_crack_began() -> None:
     assert found[7:] == pytest.approx([0.0, 0.0], abs=1e-6)
 
 
-@pytest.mark.parametrize(("widest", "at"), [(1.5, 1.5), (2.5, 2.5), (2.5, 1.25), (3.5, 3.5)])
+@together("widest, at", [(1.5, 1.5), (2.5, 2.5), (2.5, 1.25), (3.5, 3.5)])
 def test_the_slope_of_a_crack_is_that_of_what_follows_as_it_opens(widest: float, at: float) -> None:
     """Behind the widest opening it softens, before it goes back to where it began."""
     law, p, crack = PLASTIC_LAWS["BETON_UNI"], points(CONCRETE), 3e6 / 30e9
@@ -195,8 +196,8 @@ def test_the_slope_of_a_crack_is_that_of_what_follows_as_it_opens(widest: float,
     assert answer.tangent[0, 0, 0] == pytest.approx(slope, rel=1e-6, abs=1.0)
 
 
-@pytest.mark.parametrize(
-    ("change", "code"),
+@together(
+    "change, code",
     [
         ({"FAMX": 10.0}, "soft-crack-closing"),
         ({"ALF1": 0.2, "OME1": 0.3}, "slope-and-confinement"),

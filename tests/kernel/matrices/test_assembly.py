@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
@@ -133,17 +134,13 @@ def test_rows_that_push_elsewhere_stay_so_beside_others_and_their_copies(table, 
     np.testing.assert_allclose(C.toarray(), [[2, 0, 0], [0, 0, 3]])
 
 
-@pytest.mark.parametrize(
-    "own", [[[2.0, 1.0], [1.0, 3.0]], [[1.0, -1.0], [-1.0, 1.0]], [[4.0, 0.0], [0.0, 0.0]]]
-)
+@together("own", [[[2.0, 1.0], [1.0, 3.0]], [[1.0, -1.0], [-1.0, 1.0]], [[4.0, 0.0], [0.0, 0.0]]])
 def test_matrices_without_a_negative_direction_may_be_positive(own):
     assert np.linalg.eigvalsh(own).min() > -1e-12
     assert may_be_positive(sp.csr_array(np.array(own)))
 
 
-@pytest.mark.parametrize(
-    "own", [[[2.0, 3.0], [3.0, 2.0]], [[1.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [1.0, 5.0]]]
-)
+@together("own", [[[2.0, 3.0], [3.0, 2.0]], [[1.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [1.0, 5.0]]])
 def test_matrices_of_both_signs_are_seen_by_a_minor_or_the_diagonal(own):
     assert np.linalg.eigvalsh(own).min() < -0.1
     assert not may_be_positive(sp.csr_array(np.array(own)))

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.fields.node_field import NodeField
@@ -83,8 +84,8 @@ def test_multipliers_are_new_nodes_of_their_own():
     np.testing.assert_allclose(table.coordinates[held.multipliers[:3]], table.coordinates[ids])
 
 
-@pytest.mark.parametrize(("dim", "names"), [(2, PLANE), (3, SPACE)])
-@pytest.mark.parametrize("n", [4, 9])
+@together("dim, names", [(2, PLANE), (3, SPACE)])
+@together("n", [4, 9])
 def test_constant_distances_leave_exactly_the_rigid_motions(dim, names, n):
     table, ids = cloud(n, dim)
     rows, numbering = rows_of(tied.rigid_by_distances(table, ids, names))
@@ -103,7 +104,7 @@ def test_distances_need_points_that_span_the_space():
     assert len(tied.rigid_by_distances(table, ids, PLANE, check=False)) == 3
 
 
-@pytest.mark.parametrize(("dim", "mode"), [(2, Mode.PLANE_STRAIN), (3, Mode.THREE_DIMENSIONAL)])
+@together("dim, mode", [(2, Mode.PLANE_STRAIN), (3, Mode.THREE_DIMENSIONAL)])
 def test_a_rigid_body_with_rotations_follows_its_master(dim, mode):
     table, ids = cloud(6, dim)
     names, turns = make.translations(mode), make.rotations(mode)
@@ -131,7 +132,7 @@ def test_direction_is_made_of_length_one_and_radial_is_the_radius():
     assert numbering.size == 4
 
 
-@pytest.mark.parametrize("mirrored", [True, False])
+@together("mirrored", [True, False])
 def test_symmetry_and_antisymmetry_share_out_the_six_motions(mirrored):
     table, ids = cloud(1, 3)
     normal = np.array([1.0, 2.0, 2.0]) / 3.0
@@ -189,7 +190,7 @@ def unit_cube(table, cell_type):
     return Mesh.of(table, cell_type, table.add(corners)[None])
 
 
-@pytest.mark.parametrize("cell_type", ["QUA4", "TRI3", "CUB8"])
+@together("cell_type", ["QUA4", "TRI3", "CUB8"])
 def test_hooked_nodes_take_linear_fields_exactly_and_outsiders_stay_free(cell_type):
     table = NodeTable()
     mesh = unit_cube(table, cell_type)
@@ -229,7 +230,7 @@ def test_imposed_values_from_a_field_are_taken_by_name_and_node():
         imposed.imposed_from_field([slanted], values)
 
 
-@pytest.mark.parametrize("mirrored", [True, False])
+@together("mirrored", [True, False])
 def test_a_line_of_symmetry_in_the_plane_may_slope(mirrored):
     """Symmetry leaves motions along the line, antisymmetry those along its normal."""
     table, ids = cloud(1, 2)

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from references.straight_line import line_between, straight_line
+from together import together
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
@@ -39,7 +40,7 @@ def test_arc_of_seg3_has_its_middles_on_the_circle() -> None:
     assert total_measure(line) == pytest.approx(math.pi, rel=1e-4)
 
 
-@pytest.mark.parametrize("quadratic", [False, True])
+@together("quadratic", [False, True])
 def test_grid_is_regular_on_a_rectangle(quadratic: bool) -> None:
     nodes = NodeTable()
     c = nodes.add(np.array([[0.0, 0], [3, 0], [3, 2], [0, 2]])).tolist()
@@ -64,7 +65,7 @@ def test_turned_line_sweeps_a_ring() -> None:
     assert np.linalg.norm(nodes.coordinates[right.node_ids], axis=1) == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize("surfaces", ["QUA4", "TRI3", "QUA8", "TRI6", "TRI3 QUA8"])
+@together("surfaces", ["QUA4", "TRI3", "QUA8", "TRI6", "TRI3 QUA8"])
 def test_swept_volume_is_exact_and_well_turned(surfaces: str) -> None:
     nodes, floors = NodeTable(), []
     y, z = np.array([0.0, 2.0, 0]), np.array([0.3, 0, 1.5])

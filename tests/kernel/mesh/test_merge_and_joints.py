@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.straight_line import line_between, straight_line
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes import merge
@@ -54,7 +55,7 @@ def test_merging_needs_a_distance() -> None:
         merge_close(nodes, nodes.add(np.zeros((2, 2))), 0.0)
 
 
-@pytest.mark.parametrize(("quadratic", "cell"), [(False, "TRI3"), (True, "TRI6")])
+@together("quadratic, cell", [(False, "TRI3"), (True, "TRI6")])
 def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, cell: str) -> None:
     nodes = NodeTable()
     radius = line_between(nodes, [0, 0], [1, 0], 2, quadratic)
@@ -74,10 +75,8 @@ def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, 
     assert total_measure(made) == pytest.approx(area)
 
 
-@pytest.mark.parametrize(
-    ("quadratic", "brick", "prism"), [(False, "CUB8", "PRI6"), (True, "CU20", "PR15")]
-)
-@pytest.mark.parametrize("along", [0, 1])
+@together("quadratic, brick, prism", [(False, "CUB8", "PRI6"), (True, "CU20", "PR15")])
+@together("along", [0, 1])
 def test_surface_turned_about_its_edge_gives_prisms(
     quadratic: bool, brick: str, prism: str, along: int
 ) -> None:
@@ -131,7 +130,7 @@ def test_line_across_the_whole_surface_cuts_it_in_two() -> None:
     assert not set(lip.node_ids.tolist()) & set(both.node_ids.tolist())
 
 
-@pytest.mark.parametrize(("quadratic", "name"), [(False, "RAC2"), (True, "RAC3")])
+@together("quadratic, name", [(False, "RAC2"), (True, "RAC3")])
 def test_joint_pairs_nodes_whatever_the_sense_of_the_second_line(
     quadratic: bool, name: str
 ) -> None:
@@ -177,14 +176,14 @@ def test_far_meshes_do_not_join() -> None:
         joint_mesh(poi1(nodes, first.node_ids), second, 0.1)
 
 
-@pytest.mark.parametrize(
-    ("cells", "apart", "counts"),
+@together(
+    "cells, apart, counts",
     [
         ((2, 3), 0.5, (2, 3)),  # 4 cells against 2 on one half, 3 on the other
         ((3, 3), 1.0, (4, 6)),  # nothing fits
     ],
 )
-@pytest.mark.parametrize(("height", "measure"), [(1.0, "a length"), (0.3, "an area")])
+@together("height, measure", [(1.0, "a length"), (0.3, "an area")])
 def test_the_length_or_area_that_is_not_joined_is_told(cells, apart, counts, height, measure):
     nodes = NodeTable()
     first = line_between(nodes, [0, 0], [1, 0], 4)

@@ -49,7 +49,7 @@ def six_faces(quadratic: bool) -> list[Mesh]:
     return faces
 
 
-@pytest.mark.parametrize(("quadratic", "name"), [(False, "CUB8"), (True, "CU20")])
+@together("quadratic, name", [(False, "CUB8"), (True, "CU20")])
 def test_block_of_six_faces_is_filled_with_bricks(quadratic: bool, name: str) -> None:
     faces = six_faces(quadratic)
     made = fill_block([*faces[4:], faces[1], faces[0], *faces[2:4]])
@@ -60,8 +60,8 @@ def test_block_of_six_faces_is_filled_with_bricks(quadratic: bool, name: str) ->
     assert set(skin.node_ids) == set(union(*faces).node_ids)
 
 
-@pytest.mark.parametrize("quadratic", [False, True])
-@pytest.mark.parametrize("radius", [0.5, 0.97])  # nearer to the next node, and farther
+@together("quadratic", [False, True])
+@together("radius", [0.5, 0.97])  # nearer to the next node, and farther
 def test_rounded_corner_is_tangent_to_both_lines(radius: float, quadratic: bool) -> None:
     nodes = NodeTable()
     corner = int(nodes.add(np.array([[2.0, 0, 0]]))[0])

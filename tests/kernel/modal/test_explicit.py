@@ -54,7 +54,7 @@ def test_error_falls_with_the_order_of_the_scheme(scheme, xi, order):
     assert 2 ** (order - 0.4) < ratio < 2 ** (order + 0.7)
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@together("scheme", SCHEMES)
 def test_work_of_forces_is_the_change_of_kinetic_energy(scheme):
     M, K = np.diag([1.0, 2.0]), np.array([[9.0, -1.0], [-1.0, 5.0]])
     out = run(M, 0.1 * K, K, [0.0, 0.1], [1.0, 0.0], 1e-3, 1000, scheme=scheme, force=np.cos)
@@ -63,7 +63,7 @@ def test_work_of_forces_is_the_change_of_kinetic_energy(scheme):
     np.testing.assert_allclose(out.values[:, 6:8].sum(axis=(1, 2)), kinetic - kinetic[0], atol=1e-5)
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@together("scheme", SCHEMES)
 def test_shock_gives_the_velocity_back(scheme):
     k, gap = 1e4, 0.01
     wall = Link(law.PLANE, axis(), axis(), {law.NX: 1.0, law.GAP: gap, law.STIFF: k})
@@ -165,7 +165,7 @@ def test_run_goes_on_where_it_stopped():
     assert rest.times[0] == pytest.approx(1.2)
 
 
-@pytest.mark.parametrize("scheme", ["DE_VOGELAERE", "DIFFERENCES_CENTREES", "FOX_GOODWIN"])
+@together("scheme", ["DE_VOGELAERE", "DIFFERENCES_CENTREES", "FOX_GOODWIN"])
 def test_step_too_long_is_refused(scheme):
     with pytest.raises(KernelError, match="too long"):
         run(ONE, 0 * ONE, 100.0 * ONE, 1.0, 0.0, 0.3, 10, scheme=scheme)

@@ -248,7 +248,7 @@ def sliding(numbers, v):
     return Link(law.PLANE, SEES, SEES, numbers), across
 
 
-@pytest.mark.parametrize("share", [0.3, 4.0])
+@together("share", [0.3, 4.0])
 def test_regularised_friction_grows_to_that_of_sliding(share):
     _, across = sliding({}, V)
     speed = np.linalg.norm(across)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.modal.oscillator import (
     Oscillators,
@@ -11,8 +12,8 @@ from ssilang.kernel.modal.oscillator import (
 )
 
 
-@pytest.mark.parametrize("t", [np.linspace(0.0, 2.0, 9), np.array([0.0, 0.1, 0.2, 1.2])])
-@pytest.mark.parametrize("xi", [0.0, 0.05, 0.7])
+@together("t", [np.linspace(0.0, 2.0, 9), np.array([0.0, 0.1, 0.2, 1.2])])
+@together("xi", [0.0, 0.05, 0.7])
 def test_free_decay_is_exact_whatever_the_step(xi, t):
     _, x = response(t, np.zeros(len(t)), 1.5, xi, None, 0.2, -1.0)
     w = 2.0 * np.pi * 1.5
@@ -23,7 +24,7 @@ def test_free_decay_is_exact_whatever_the_step(xi, t):
     np.testing.assert_allclose(x, exact, atol=1e-12)
 
 
-@pytest.mark.parametrize("xi", [1.0, 2.0])
+@together("xi", [1.0, 2.0])
 def test_ramp_is_followed_beyond_critical_damping(xi):
     t = np.linspace(0.0, 40.0, 401)
     _, x = response(t, t, 0.5, xi)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import finder
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.base.sparse import sp
@@ -11,7 +12,7 @@ from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.driven_load import HALVINGS, _towards
 
 
-@pytest.mark.parametrize("n", [20, 200])
+@together("n", [20, 200])
 def test_tangent_of_a_load_on_neighbours(n):
     rng = np.random.default_rng(n)
     after = np.roll(np.arange(n), -1)
@@ -39,7 +40,7 @@ def test_tangent_of_a_load_on_neighbours(n):
         assert len(bulk._groups(np.arange(n))) < 10  # not one by one
 
 
-@pytest.mark.parametrize("halvings", [0, 3, HALVINGS, HALVINGS + 1])
+@together("halvings", [0, 3, HALVINGS, HALVINGS + 1])
 def test_a_step_of_time_is_halved_until_it_leads_somewhere(halvings):
     tried = []
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from references.recorder import Recorder
 from script_runs import ran, refused
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.fields.cell_field import CellField
@@ -97,8 +98,8 @@ def test_strip_footing_collapses_at_prandtls_load(tmp_path: Path) -> None:
     assert 1.0 < load / (2 + np.pi) < 1.12
 
 
-@pytest.mark.parametrize(
-    ("line", "law", "more"),
+@together(
+    "line, law, more",
     [("DROI 3 (0 0) (3 0)", "BARR", "'SECT' 0.1"), ("(DROI 2 (0 0) (3 0)) TRAN 1 (0 1)", "", "")],
 )
 def test_a_state_goes_through_its_fields_and_back(line: str, law: str, more: str) -> None:
@@ -152,8 +153,8 @@ def test_newton_converges_quadratically() -> None:
     assert r[i + 1] < 1e-10 or np.log(r[i + 1]) / np.log(r[i]) > 1.6
 
 
-@pytest.mark.parametrize("sense", ["", "'MINI'"])
-@pytest.mark.parametrize("down", [-0.01, 0.02])
+@together("sense", ["", "'MINI'"])
+@together("down", [-0.01, 0.02])
 def test_supports_that_move_are_met_before_the_first_turn(sense: str, down: float) -> None:
     """Nothing yields, joints stay closed: what the tangents of the start predict is the answer."""
     result = ran(
@@ -218,7 +219,7 @@ def test_strong_material_moves_as_the_linear_calculation(tmp_path: Path) -> None
     assert at(result, "U") == pytest.approx(at(result, "V"), rel=1e-8)
 
 
-@pytest.mark.parametrize(
+@together(
     "load", ["'T' (MANU CHPO L 1 'T' 1.)", "'DEFI' (MANU CHML M EPSS 1.E-3 TYPE DEFORMATIONS)"]
 )
 def test_expansion_held_beyond_yield_leaves_the_limit_stress(tmp_path: Path, load: str) -> None:
@@ -341,11 +342,15 @@ def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str)
     assert (np.diff(energies[:, LOST]) >= -1e-3 * size).all()
 
 
-@pytest.mark.parametrize(
-    ("searched", "contact", "sizes", "tried"),
-    [(True, None, [3, 3, 3, 3], [2, 1.5, 1.25, 1.125]), (True, None, [3, 1, 0], [2, 1.5]),
-     (False, None, [3, 0], [2]), (True, "rows", [3, 0], [2])],
-)  # fmt: skip
+@together(
+    "searched, contact, sizes, tried",
+    [
+        (True, None, [3, 3, 3, 3], [2, 1.5, 1.25, 1.125]),
+        (True, None, [3, 1, 0], [2, 1.5]),
+        (False, None, [3, 0], [2]),
+        (True, "rows", [3, 0], [2]),
+    ],
+)
 def test_steps_that_make_it_worse_are_halved_but_of_large_displacements_and_contact(
     searched, contact, sizes, tried
 ):

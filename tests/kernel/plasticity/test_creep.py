@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran, refused
+from together import together
 
 from ssilang.kernel.materials.plastic.creep import norton
 from ssilang.kernel.materials.plastic.response import PointParameters
@@ -61,7 +62,7 @@ def test_relaxation_converges_with_the_step(tmp_path):
     assert errors[2] < 0.04 * exact
 
 
-@pytest.mark.parametrize("age", [0.6, 1.2, 2.5])
+@together("age", [0.6, 1.2, 2.5])
 def test_the_tangent_is_the_derivative(age):
     rng = np.random.default_rng(1)
     m = 4
@@ -107,8 +108,8 @@ T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; T . 'TEMPS_CALCULES
 """
 
 
-@pytest.mark.parametrize("element", ["'DKT'", "'COQ3'", "'DKT' 'INTEGRE' 3"])
-@pytest.mark.parametrize("age", [0.5, 1.2])
+@together("element", ["'DKT'", "'COQ3'", "'DKT' 'INTEGRE' 3"])
+@together("age", [0.5, 1.2])
 def test_a_stretched_plate_relaxes_as_a_body_in_plane_stress(element, age, tmp_path):
     words = {"element": element, "m": age, "a": "1.E-6"}
     forces = []
@@ -134,8 +135,8 @@ X = EXTR (T . 'DEPLACEMENTS' . 4) '{what}' E ;
 """
 
 
-@pytest.mark.parametrize(
-    ("load", "what", "force", "soft"),
+@together(
+    "load, what, force, soft",
     [("FORC E 'FX' 5.", "UX", 5.0, 1e5 * 0.1), ("MOME 'MZ' 0.08 E", "RZ", 0.08, 1e5 * 1e-3 / 12)],
 )
 def test_a_strip_pulled_or_bent_takes_the_power_of_its_equivalent_stress(

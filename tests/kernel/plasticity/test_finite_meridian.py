@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import finder
+from together import together
 
 from ssilang.kernel.elements.families import family_of, stress
 from ssilang.kernel.plasticity.finite import finite_plane_shell
@@ -35,7 +36,7 @@ def test_a_strip_bends_as_a_beam(tmp_path):
     assert abs(ends[0][2]) > 0.3
 
 
-@pytest.mark.parametrize("mode", ["CONT", "DEFO"])
+@together("mode", ["CONT", "DEFO"])
 def test_small_displacements_give_the_usual_stresses(tmp_path, mode):
     text = SHELLS.format(mode=mode, element="COQ2", nu="0.3", section=SHELL)
     text += "U = 1.E-6 * (RESO ((RIGI MO MA) ET (BLOQ 'DEPL' 'ROTA' P1)) (FORC (3. 50.) P2)) ;"

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from script_runs import finder
+from together import together
 
 from ssilang.kernel.plasticity.finite_space_beam import (
     finite_space_beam,
@@ -21,7 +22,7 @@ MA = MATE MO 'YOUN' 1.E7 'NU' 0.3 'SECT' 1. 'INRY' 1.E-2 'INRZ' 3.E-2 'TORS' 2.E
 """
 
 
-@pytest.mark.parametrize("size", [0.0, 1e-6, 1e-3, 0.02, 0.09, 0.11, 0.3, 0.8, 1.5, 3.1])
+@together("size", [0.0, 1e-6, 1e-3, 0.02, 0.09, 0.11, 0.3, 0.8, 1.5, 3.1])
 def test_rotations_are_those_of_quaternions(size):
     """Also where series stand in for quotients of small angles, and for complex steps."""
     v = size * np.array([[2.0, -1.0, 2.0], [3.0, 4.0, 12.0]]) / [[3.0], [13.0]]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -43,9 +44,7 @@ def run(tmp_path, deck, **words):
     return result.session.root.find
 
 
-@pytest.mark.parametrize(
-    ("element", "section", "what", "dual", "size", "limit"),
-    [
+@together("element, section, what, dual, size, limit", [
         ("TUYA", PIPE, "UX", "FX", 0.01, SY * AREA),
         ("TUYA", PIPE, "RX", "MX", 0.4, SY * 2 * INERTIA / (np.sqrt(3) * MEAN)),
         ("TUYA", PIPE, "RZ", "MZ", 0.2, SY * INERTIA * 4 / np.pi / MEAN),
@@ -60,8 +59,7 @@ def run(tmp_path, deck, **words):
         ("POUT", BEAM, "RX", "MX", 0.2, SY * 3e-4 / 0.1),
         ("TIMO", BEAM, "RZ", "MZ", 0.2, SY * 2e-4 / 0.2),
         ("TIMO", BEAM, "UX", "FX", 0.01, SY * 0.02),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_line_carries_what_its_equivalent_stress_allows(
     tmp_path, element, section, what, dual, size, limit
 ):
@@ -100,9 +98,7 @@ CANTILEVER = {"ends": "(0. 0.) (1. 0.)", "driven": "B", "held": "(BLOQ 'UX' 'UY'
 RING = {"ends": "(1. 0.) (1. 0.5)", "driven": "L", "what": "UR", "dual": "FR"}
 
 
-@pytest.mark.parametrize(
-    ("words", "limit"),
-    [
+@together("words, limit", [
         # M = SIGY h^2/4, of a strip a metre wide; in plane strain N, M across make it 2/sqrt(3)
         ({"mode": "PLAN 'CONT'", **CANTILEVER, "what": "RZ", "dual": "MZ"}, SY * 0.02**2 / 4),
         ({"mode": "PLAN 'CONT'", **CANTILEVER, "what": "UX", "dual": "FX"}, SY * 0.02),
@@ -114,15 +110,14 @@ RING = {"ends": "(1. 0.) (1. 0.5)", "driven": "L", "what": "UR", "dual": "FR"}
             {"mode": "PLAN 'DEFO'", **CANTILEVER, "what": "RZ", "dual": "MZ", "cells": 1},
             2 / np.sqrt(3) * SY * 0.02**2 / 4,
         ),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_strip_carries_the_plastic_moment(tmp_path, words, limit):
     find = run(tmp_path, SHELL, **{"cells": 8, "nu": 0.3, "size": 1.0, **words})
     assert abs(find("F")) == pytest.approx(limit, rel=1e-5)
     assert find("Q") == pytest.approx(SY, rel=1e-9)
 
 
-@pytest.mark.parametrize(("ends", "force"), [("free", 1.0), ("held", 2 / np.sqrt(3))])
+@together("ends, force", [("free", 1.0), ("held", 2 / np.sqrt(3))])
 def test_a_ring_carries_its_hoop_force(tmp_path, ends, force):
     held = "(BLOQ 'UZ' A)" if ends == "free" else "(BLOQ 'UZ' L)"
     words = {**RING, "mode": "AXIS", "cells": 8, "nu": 0.3, "size": 0.01}
@@ -140,15 +135,15 @@ B2 = BLOQ '{what}' B ; BL = (BLOQ 'UX' 'UZ' 'RY' L1) ET B2 ET (BLOQ 'UY' (POIN L
 """
 
 
-@pytest.mark.parametrize(
-    ("what", "dual", "size", "more_of", "limit"),
+@together(
+    "what, dual, size, more_of, limit",
     [
         ("RY", "MY", 0.1, "", SY * 0.5**2 / 4),
         ("RY", "MY", 0.1, "'CALF' 1.", SY * 0.5**2 / 6),
         ("UX", "FX", 0.02, "", SY * 0.5),
     ],
 )
-@pytest.mark.parametrize("element", ["DKT", "COQ3"])
+@together("element", ["DKT", "COQ3"])
 def test_a_plate_yields_as_a_whole(tmp_path, element, what, dual, size, more_of, limit):
     words = {"element": element, "what": what, "dual": dual, "size": size, "more_of": more_of}
     find = run(tmp_path, PLATE, **words)
@@ -216,7 +211,7 @@ def _points(seed, m=40):
     return rng, D, P, curve
 
 
-@pytest.mark.parametrize("law", ["PARFAIT", "ISOTROPE", "CINEMATIQUE"])
+@together("law", ["PARFAIT", "ISOTROPE", "CINEMATIQUE"])
 def test_the_answer_is_on_the_criterion_and_its_tangent_is_its_slope(law):
     rng, D, P, curve = _points(5)
     m, one = len(D), np.ones(len(D))
@@ -246,8 +241,8 @@ def test_the_answer_is_on_the_criterion_and_its_tangent_is_its_slope(law):
         assert found.tangent[:, :, k] == pytest.approx(slope, rel=1e-5, abs=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("element", "section", "said"),
+@together(
+    "element, section, said",
     [
         ("POUT", "'SECT' 0.02 'INRY' 1.E-4 'INRZ' 2.E-4 'TORS' 3.E-4", "moments-without-distances"),
         ("POUT", f"{BEAM} 'SECY' 0.01", "sheared-beam-is-elastic"),
@@ -260,7 +255,7 @@ def test_what_the_criterion_cannot_do_without_is_asked_for(tmp_path, element, se
     assert [e.code.rpartition(".")[2] for e in result.errors] == [said]
 
 
-@pytest.mark.parametrize("age", [0.4, 1.2])
+@together("age", [0.4, 1.2])
 def test_creep_goes_by_nortons_law_and_its_tangent_is_its_slope(age):
     """From an earlier strain of some points: p = (p0^(1/m) + (A q^n)^(1/m) t)^m."""
     rng, D, P, _ = _points(5)

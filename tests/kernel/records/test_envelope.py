@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.signals import energy_envelope, inverse_laplace, mean_shock
@@ -12,7 +13,7 @@ from ssilang.kernel.records.signals import energy_envelope, inverse_laplace, mea
 T = np.arange(12.0) * 0.5
 
 
-@pytest.mark.parametrize("first", [1, 2, 3])
+@together("first", [1, 2, 3])
 def test_shocks_are_found_wherever_they_begin(first):
     y = np.zeros(12)
     y[first : first + 3] = [4.0, -2.0, 1.0]
@@ -30,7 +31,7 @@ def test_a_shock_longer_than_its_recording_is_one():
     np.testing.assert_allclose(mean, [5.0, 5.0])
 
 
-@pytest.mark.parametrize("percent", [50.0, 99.0])
+@together("percent", [50.0, 99.0])
 def test_a_shock_that_the_record_cuts_does_not_count(percent):
     y = np.zeros(12)
     y[11] = 1.0
@@ -56,13 +57,13 @@ def test_an_envelope_has_the_energy_of_the_signal_on_each_interval():
         assert np.sum(line[part] ** 2) == pytest.approx(np.sum(y[part] ** 2), rel=1e-9)
 
 
-@pytest.mark.parametrize(("times", "duration"), [(T, 0.0), (T, -1.0), (np.zeros(12), 1.0)])
+@together("times, duration", [(T, 0.0), (T, -1.0), (np.zeros(12), 1.0)])
 def test_a_recording_has_a_duration_and_a_step(times, duration):
     with refusal(FieldError, "kernel.records.recording-time-shock-must"):
         mean_shock(times, np.ones(12), 50.0, duration, None)
 
 
-@pytest.mark.parametrize("step", [0.01, 1.0, 100.0])
+@together("step", [0.01, 1.0, 100.0])
 def test_frequencies_of_a_laplace_transform_have_one_step(step):
     """The step is the same within a ten thousandth of itself."""
     omega = step * np.arange(8.0)

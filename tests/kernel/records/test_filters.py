@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.modal.oscillator import spectrum
@@ -21,8 +22,8 @@ def gain(f: float, corner: float, order: int, high_pass: bool) -> float:
     return float(1.0 / np.sqrt(1.0 + (1.0 / ratio if high_pass else ratio) ** (2 * order)))
 
 
-@pytest.mark.parametrize("causal", [True, False])
-@pytest.mark.parametrize("f", [0.5, 1.0, 3.0])
+@together("causal", [True, False])
+@together("f", [0.5, 1.0, 3.0])
 def test_a_sine_keeps_the_part_that_both_corners_leave(f: float, causal: bool) -> None:
     sine = np.sin(2.0 * np.pi * f * TIMES)
     got = butterworth(sine, STEP, 3, 0.6, 2.5, causal=causal)[MIDDLE]
@@ -42,7 +43,7 @@ def test_a_causal_filter_moves_nothing_before_its_cause() -> None:
     np.testing.assert_allclose(there[1:200], there[:200:-1], atol=1e-6)
 
 
-@pytest.mark.parametrize("rule", [True, False])
+@together("rule", [True, False])
 def test_a_polynomial_goes_and_what_has_none_stays(rule: bool) -> None:
     t = TIMES[:1001]
     drift = 0.3 - 0.2 * t + 0.05 * t**2

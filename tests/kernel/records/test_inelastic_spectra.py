@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.modal.oscillator import spectrum
 from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
@@ -21,7 +22,7 @@ def pulse(dt: float) -> tuple[np.ndarray, np.ndarray]:
     return times, signal
 
 
-@pytest.mark.parametrize("reduction", [1.5, 2.0, 3.0])
+@together("reduction", [1.5, 2.0, 3.0])
 def test_an_impulse_on_a_perfectly_plastic_oscillator_spends_equal_energy(reduction: float) -> None:
     times, signal = pulse(1e-4)
     limit = 1.0 / (2 * np.pi) / reduction
@@ -72,7 +73,7 @@ def test_histories_with_reversals_agree_with_an_adaptive_integrator(law: str) ->
     assert found[0] != pytest.approx(other[0], rel=1e-2)
 
 
-@pytest.mark.parametrize("ductility", [1.0, 2.0, 4.0])
+@together("ductility", [1.0, 2.0, 4.0])
 def test_the_limit_sought_has_the_ductility_asked_for(ductility: float) -> None:
     first = 5.0 * spectrum(TIMES, MOTION, F, 0.05, "DEPL")  # far too strong
     limits = limits_for_ductility(TIMES, MOTION, F, 0.05, "CINE", 0.05, ductility, first)

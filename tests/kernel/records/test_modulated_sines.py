@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import cumulative_simpson
+from together import together
 
 from ssilang.kernel.records.modulated import Band, motion, perturbed
 
@@ -29,7 +30,7 @@ def test_velocity_and_displacement_are_the_integrals_of_the_acceleration():
     np.testing.assert_allclose(found[2], displacement, atol=1e-6)
 
 
-@pytest.mark.parametrize("count", [2, 3, 9])
+@together("count", [2, 3, 9])
 def test_squares_that_move_to_their_neighbours_keep_their_sum(count):
     values = np.cos(np.arange(1.0, count + 1.0))
     found = perturbed(values, np.random.default_rng(1), False, 60.0)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
+from together import together
 
 from ssilang.kernel.records.modulated import (
     ModulatedSignal,
@@ -84,7 +85,7 @@ def test_bands_have_modulations_of_their_own():
     np.testing.assert_allclose(variance(3.0 * one, zero), 9.0 * variance(one, zero), rtol=1e-10)
 
 
-@pytest.mark.parametrize("period", [0.4, 1.5])
+@together("period", [0.4, 1.5])
 def test_mean_of_the_largest_values_of_simulated_signals(period):
     random = np.random.default_rng(7)
     step, n, count = 0.01, 2000, 400

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.records.soil_column import SoilColumn, free_field, transfers
 
@@ -80,7 +81,7 @@ def test_surface_pulse_is_the_mean_of_two_delayed_ones_below():
     assert field.stress[1][inner] == pytest.approx(stress[inner], abs=2e-3 * np.abs(stress).max())
 
 
-@pytest.mark.parametrize("control", [6.0, None])
+@together("control", [6.0, None])
 def test_motion_given_below_gives_back_the_surface(control):
     step, soil = 0.01, column(4.0, 8.0, damping=0.05)
     given = pulse(np.arange(400) * step)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import minimize
+from together import together
 
 from ssilang.kernel.solvers.asymptotes import least, least_linear, shares
 
@@ -33,7 +34,7 @@ def test_shares_have_value_slope_and_convexity_of_the_functions():
     assert (problem.high == BOUNDS[1]).any()
 
 
-@pytest.mark.parametrize("count", [0, 1, 2])
+@together("count", [0, 1, 2])
 def test_the_least_is_that_of_a_general_method(count):
     rows = slice(None, count + 1)
     problem = shares(X, VALUES[rows], SLOPES[rows], BOUNDS, ASYMPTOTES)

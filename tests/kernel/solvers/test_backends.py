@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from together import together
 
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.solvers import backends
@@ -16,8 +17,8 @@ def positive(n=60):
     return sp.csr_array(line)
 
 
-@pytest.mark.parametrize("name", INSTALLED)
-@pytest.mark.parametrize("columns", [(), (4,)])
+@together("name", INSTALLED)
+@together("columns", [(), (4,)])
 def test_solves(name, columns):
     A = positive()
     b = np.random.default_rng(0).standard_normal((60, *columns))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.statics import conditioning
@@ -26,7 +27,7 @@ def chain(n, k):
     return A
 
 
-@pytest.mark.parametrize("n", [1, 3, 40])
+@together("n", [1, 3, 40])
 def test_estimate_is_the_condition_of_the_matrix_with_unit_diagonal(n):
     A = chain(n, np.random.default_rng(3).uniform(1, 1e3, n))
     scale = np.diag(A) ** -0.5
@@ -60,9 +61,7 @@ def stack(kn, times=(0.0, 1.0), mass=0.0):
     return bench.problem(np.array(times), mass=bench.mass_matrix if mass else None)
 
 
-@pytest.mark.parametrize(
-    ("kn", "blamed"), [(1e7, False), (1e15, False), (1e22, True), (1e-8, True)]
-)
+@together("kn, blamed", [(1e7, False), (1e15, False), (1e22, True), (1e-8, True)])
 def test_a_joint_of_the_wrong_unit_is_blamed_and_the_stiffness_named(kn, blamed):
     found = joint_conditioning(stack(kn))
     assert found.joints_are_to_blame is blamed
@@ -79,7 +78,7 @@ def test_mass_makes_short_steps_well_conditioned():
     assert short < 1e3
 
 
-@pytest.mark.parametrize("kn", [1e3, 1e9])
+@together("kn", [1e3, 1e9])
 def test_a_mass_on_each_unknown_bounds_the_number_without_a_factor(kn, monkeypatch):
     problem = stack(kn, (0.0, 1e-3), 100.0)
     J, T = problem.interface.J.toarray(), problem.constraints.T.toarray()

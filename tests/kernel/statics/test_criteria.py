@@ -108,7 +108,7 @@ def test_criteria_are_those_of_the_laws(name):
         criterion(cell_zone("QUA4", Mode.PLANE_STRAIN), field, stress, seen)
 
 
-@pytest.mark.parametrize("name", ["PARFAIT", "ISOTROPE", "CINEMATIQUE"])
+@together("name", ["PARFAIT", "ISOTROPE", "CINEMATIQUE"])
 def test_the_slope_is_youngs_but_where_it_yields(name):
     zone, field = body(name)
     size = {"PARFAIT": 1.2, "CINEMATIQUE": 1.2}.get(name)
@@ -170,7 +170,7 @@ def test_joints_open_or_slide(space, rough, strength):
     np.testing.assert_allclose(found[0], np.maximum(opening, sliding) if rough else opening)
 
 
-@pytest.mark.parametrize("space", [False, True])
+@together("space", [False, True])
 def test_dilatant_joints_slide_on_coulombs_line(space):
     zone, field = joint("JOINT_DILATANT", space, KN=1e4, KS=1e3, PHI=30.0, MU=5.0, COHE=2.0,
                         FTRC=0.7)  # fmt: skip
@@ -182,7 +182,7 @@ def test_dilatant_joints_slide_on_coulombs_line(space):
     np.testing.assert_allclose(found[0], np.maximum(sliding, normal - 0.7))
 
 
-@pytest.mark.parametrize("word", [w for w, law in LAW_TABLE.items() if law.variables])
+@together("word", [w for w, law in LAW_TABLE.items() if law.variables])
 def test_states_are_what_their_variables_show(word):
     """Of a variable that sums several columns the first one takes what the others leave."""
     zone, _ = joint(word, True)
@@ -203,7 +203,7 @@ def test_states_are_what_their_variables_show(word):
             np.testing.assert_allclose(back[:, first], total)
 
 
-@pytest.mark.parametrize("code", [LawCode.SDM, LawCode.MOHR])
+@together("code", [LawCode.SDM, LawCode.MOHR])
 def test_jumps_are_those_that_tractions_and_variables_came_from(code):
     """By the law itself, after paths of points that open, soften, close, slip and have no shear."""
     rng, m = np.random.default_rng(2), 600
@@ -226,7 +226,7 @@ def test_jumps_are_those_that_tractions_and_variables_came_from(code):
     assert np.isfinite(found).all()
 
 
-@pytest.mark.parametrize("shear", [0.0, 700.0])
+@together("shear", [0.0, 700.0])
 def test_a_joint_that_does_not_move_keeps_its_tractions(shear):
     """Three points: in cohesive tension, closing, closed."""
     zone, field = joint("JOINT_SDM", True, KN=2e3, KS=shear, FU=1.5, GF=6e-3, FC=-0.8)

@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.solvers import backends
@@ -18,7 +19,7 @@ MESS (EXTR U 'UY' P) (EXTR U 'UX' P) (MAXI (REAC CL U)) ;
 """
 
 
-@pytest.mark.parametrize(
+@together(
     "conditions",
     ["BLOQ 'DEPL' L", "(BLOQ 'DEPL' L) ET (RELA 'UX' P - 'UX' (S POIN 'PROC' (6. 0.)))"],
 )

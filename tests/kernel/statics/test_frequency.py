@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scipy.linalg as la
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
@@ -59,7 +60,7 @@ class Chain:
         return HarmonicInputs(b.stiffness, b.mass_matrix, b.damping, load or self.load())
 
 
-@pytest.mark.parametrize("dense", [True, False])
+@together("dense", [True, False])
 def test_responses_are_those_of_the_complex_system(dense, monkeypatch):
     if not dense:
         monkeypatch.setattr(frequency, "_DENSE", 0)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.interface import family as _joints  # noqa: F401
@@ -89,8 +90,8 @@ def test_bodies_at_one_place_with_nothing_between_are_found():
     assert not len(bodies_apart(on_box().matrix))
 
 
-@pytest.mark.parametrize("apart", [0.0, 0.03])
-@pytest.mark.parametrize("points", [False, True])
+@together("apart", [0.0, 0.03])
+@together("points", [False, True])
 def test_joints_with_their_bodies_the_wrong_way_round(points, apart):
     """Squares above each other; the last joint of the zone has no body beside it."""
     place = Place([0, -1], [1, -1], [0, 0], [1, 0], [0, -apart], [1, -apart], [0, 1], [1, 1],

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -44,8 +45,8 @@ def march(x, force, losses, stiffness):
     return np.maximum(level * np.exp(h), 0.0)
 
 
-@pytest.mark.parametrize("slip", [0.0, 5e-4, 5e-3, 0.02])
-@pytest.mark.parametrize("pulled", [(True, False), (False, True), (True, True)])
+@together("slip", [0.0, 5e-4, 5e-3, 0.02])
+@together("pulled", [(True, False), (False, True), (True, True)])
 def test_tensions_are_those_of_the_march_from_each_end_that_is_pulled(slip, pulled):
     losses = Losses(0.2, 0.01, slip, 0.5, 1.6e9, 2.0)
     found = tensions(CABLE, X, pulled, 1.2e6, STIFF, SECTION, losses)

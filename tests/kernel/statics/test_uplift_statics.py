@@ -7,6 +7,7 @@ import pytest
 from references.assembled import Bench
 from references.footing import Strip
 from references.recorder import Recorder
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
@@ -58,7 +59,7 @@ def moments(problem, soil, x):
     return -forces @ x, forces.sum(axis=1), history
 
 
-@pytest.mark.parametrize(("degree", "within"), [(1, 3e-3), (2, 3e-3)])
+@together("degree, within", [(1, 3e-3), (2, 3e-3)])
 def test_strip_moment_follows_the_closed_form(degree, within):
     ratios = np.array([0.0, 1e-9, 0.5, 1.5, 2.0, 5.0, 10.0])
     theta = ratios * STRIP.uplift_rotation
@@ -132,8 +133,8 @@ def test_overturned_body_has_no_equilibrium():
         held_by_relations([(0.0, 0.0), (-1.0, 2.0)])
 
 
-@pytest.mark.parametrize("factors", [[1.0, 1.0, 1.0], [0.5, 1.0, 2.0], [0.0, 1.0, 2.0]])
-@pytest.mark.parametrize("joint", [False, True])
+@together("factors", [[1.0, 1.0, 1.0], [0.5, 1.0, 2.0], [0.0, 1.0, 2.0]])
+@together("joint", [False, True])
 def test_a_load_that_is_there_at_the_start_does_the_work_of_one_that_grows(factors, joint):
     """Its work is what is stored, F^2 / 2k, whatever the first instant finds out of balance."""
     bench = Bench()

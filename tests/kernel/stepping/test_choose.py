@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.soil_block import soil_block
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.matrix import Matrix
@@ -43,8 +44,8 @@ def name_of(problem: Problem, full: bool = False, renewable: bool = False) -> st
     return rule_of(Case(problem, Integration(problem).motion, DT, full), renewable).name
 
 
-@pytest.mark.parametrize(
-    ("problem", "name"),
+@together(
+    "problem, name",
     [
         (masses(2), "springs"),
         (masses(2, shear=1e5), "modes"),
@@ -85,7 +86,7 @@ def test_the_table_prints_a_line_a_rule_in_order():
     assert all(line.endswith(rule.when) for line, rule in zip(lines, RULES, strict=True))
 
 
-@pytest.mark.parametrize("rule", RULES, ids=[r.name for r in RULES])
+@together("rule", RULES)
 def test_choices_are_said_in_both_languages(rule):
     problem = masses(3)
     said, template = method_of(rule, problem), find(rule.said)

@@ -51,10 +51,10 @@ LOOPS = {
     "springs": {"damping": "Rayleigh", "point_laws": PUSH, "line_laws": (), **STILL},
     "modes": {"moving": False},
     "dissection, small": {"steps": 60},
-    "dissection, footings": {"footings": True, "point_laws": (), "line_laws": ()},
+    "dissection, footings": {"footings": True, "point_laws": (), "line_laws": (), "steps": 30},
     "dissection": LARGE,
     "condensed": LARGE,
-    "full Newton": LARGE,
+    "full Newton": LARGE | {"steps": 25},
     "multigrid": LARGE | {"steps": 25},
     "relations": {"unilateral": True},
 }

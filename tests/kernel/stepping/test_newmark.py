@@ -77,13 +77,13 @@ def test_only_the_average_acceleration_keeps_the_energy_of_linear_systems():
     assert "average acceleration" in kept
 
 
-@pytest.mark.parametrize(("beta", "gamma"), [(0.25, 0.49), (0.24, 0.5), (0.29, 0.6)])
+@together("beta, gamma", [(0.25, 0.49), (0.24, 0.5), (0.29, 0.6)])
 def test_newmark_refuses_what_is_not_stable_at_any_step(beta, gamma):
     with refusal(KernelError, "kernel.stepping.newmark-scheme-beta-gamma"):
         newmark(beta, gamma)
 
 
-@pytest.mark.parametrize("make", [lambda: hht(0.34), lambda: generalised_alpha(1.01)])
+@together("make", [lambda: hht(0.34), lambda: generalised_alpha(1.01)])
 def test_parameters_out_of_range_are_refused(make):
     with pytest.raises(KernelError) as refused:
         make()
@@ -129,7 +129,7 @@ def test_steps_are_those_of_the_equations(scheme, numbers, way, monkeypatch):
         np.testing.assert_allclose(recorder.of(name)[:, i], exact[:, column], atol=1e-11 * size)
 
 
-@pytest.mark.parametrize("entry", [("GAMMA", 0.7), ("RHO_INF", 0.5), ("ALPHA_F", 0.1)])
+@together("entry", [("GAMMA", 0.7), ("RHO_INF", 0.5), ("ALPHA_F", 0.1)])
 def test_entries_of_dynamic_choose_the_scheme(entry, tmp_path):
     """GAMMA alone takes the beta that damps most without losing stability, (gamma + 1/2)^2 / 4."""
     name, value = entry

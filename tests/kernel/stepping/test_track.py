@@ -7,6 +7,7 @@ import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
 from references.soil_block import FRICTION, soil_block
+from together import together
 
 from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.curves.curve import Load
@@ -161,7 +162,7 @@ def assert_same(recorder, tracks):
     assert np.abs(found - forces).max() <= 1e-9 * scale  # sums in another order
 
 
-@pytest.mark.parametrize("name", CASES)
+@together("name", CASES)
 def test_rows_are_those_of_whole_fields_to_the_last_bit(name, monkeypatch):
     rule = name.split(",")[0]
     monkeypatch.setattr(choose, "RULES", only(rule))
@@ -217,7 +218,7 @@ def base_of(part):
     return part
 
 
-@pytest.mark.parametrize(("rows", "large"), [(1000, False), (400_000, True), (3_000_000, True)])
+@together("rows, large", [(1000, False), (400_000, True), (3_000_000, True)])
 def test_rooms_pieces_begin_with_a_large_page(rows, large):
     shapes, room, done = {"u": (1,), "v": (1,), "w": (2, 3)}, Room(rows), 0
     pieces, begun = [], []
@@ -251,8 +252,8 @@ def test_rows_of_a_room_do_not_overlap():
         assert (tap.state == 100 + i).all()
 
 
-@pytest.mark.parametrize(
-    ("others", "room", "looked_at"),
+@together(
+    "others, room, looked_at",
     [
         ([], True, False),
         ([(True, range(4), slice(None))], True, False),  # another that keeps all of it

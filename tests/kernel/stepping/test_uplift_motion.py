@@ -5,6 +5,7 @@ import pytest
 from references.assembled import Bench
 from references.oscillators import MASS, SOIL_STIFFNESS, STRUCTURE_STIFFNESS, ClubB
 from references.recorder import recorded
+from together import together
 
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht
 
@@ -56,7 +57,7 @@ def test_other_schemes_are_of_second_order(scheme):
     assert low < np.log2(errors[0] / errors[1]) < high
 
 
-@pytest.mark.parametrize("scheme", [hht(0.3), generalised_alpha(0.0)])
+@together("scheme", [hht(0.3), generalised_alpha(0.0)])
 def test_damped_schemes_lose_energy(scheme):
     _, history = run(club_b(1e-3, scheme=scheme)[0])
     total = history.energies[:, :4].sum(axis=1)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
@@ -168,7 +169,7 @@ def test_the_highest_frequency_is_that_of_the_velocity_that_counts():
     assert highest_frequency(t, 0 * both) == 0.0
 
 
-@pytest.mark.parametrize(("element", "longest"), [("QUA4", 2.0), ("CUB8", 3.0), ("TRI3", 5**0.5)])
+@together("element, longest", [("QUA4", 2.0), ("CUB8", 3.0), ("TRI3", 5**0.5)])
 def test_the_longest_side_of_an_oblong_cell_and_no_diagonal(element, longest):
     zone = cell_zone(element, Mode.THREE_DIMENSIONAL if element == "CUB8" else Mode.PLANE_STRAIN)
     nodes, whole = REFERENCE_CELLS[element].nodes, 1.0 if element == "TRI3" else 2.0
@@ -205,7 +206,7 @@ def test_cells_that_are_kept_keep_their_own_matrices():
     np.testing.assert_array_equal(kept.values, values[1:])
 
 
-@pytest.mark.parametrize(("axis", "wanted"), [(None, (0.2, 1.5, 2)), (0, (0.3, 2.5, 2))])
+@together("axis, wanted", [(None, (0.2, 1.5, 2)), (0, (0.3, 2.5, 2))])
 def test_cells_that_have_yielded_count_where_the_nodes_take_their_motion(axis, wanted):
     """Those of these nodes alone, or those at their heights, whatever nodes they have."""
     b = Bench()

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import dblquad
 from scipy.special import erf, j1, jv
+from together import together
 
 from ssilang.kernel.waves.incoherence import (
     Ground,
@@ -87,7 +88,7 @@ def test_a_disc_is_the_mean_over_many_pairs_of_its_points():
     assert found.rotation[0] ** 2 == pytest.approx(turned, rel=1e-9)
 
 
-@pytest.mark.parametrize("base", [STRIP, RECTANGLE, DISC])
+@together("base", [STRIP, RECTANGLE, DISC])
 def test_slow_motion_moves_the_base_as_the_ground_and_turns_it_by_its_slope(base):
     found = factors(base, PASSAGE, np.array([0.0, 1e-3]))
     np.testing.assert_allclose(found.translation, 1.0, atol=1e-9)
@@ -109,7 +110,7 @@ def test_what_differs_more_moves_the_base_less(base, f, gamma, more, apparent):
         assert much.translation[0] <= slight.translation[0] + 1e-12
 
 
-@pytest.mark.parametrize("base", [STRIP, RECTANGLE])
+@together("base", [STRIP, RECTANGLE])
 def test_a_record_becomes_the_mean_of_the_wave_below(base):
     """A pulse of 8 Hz, far beyond where a wave of 300 m/s turns the base against its centre."""
     ground, step = Ground(200.0, 0.0, 300.0), 0.004

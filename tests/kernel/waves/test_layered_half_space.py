@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.records.soil_column import SoilColumn
 from ssilang.kernel.records.soil_column import transfers as column_transfers
@@ -17,14 +18,14 @@ def half_space(*thickness):
     return HalfSpace(np.array(thickness), 2000 * ones, VS * ones, K * VS * ones, 0 * ones)
 
 
-@pytest.mark.parametrize("angle", ANGLES)
+@together("angle", ANGLES)
 def test_shear_across_the_plane_stands(angle):
     moved, _ = transfers(half_space(), "SH", angle, OMEGA, np.array([0.0, 3.0]))
     assert moved[0, 0] == pytest.approx(2.0)
     assert moved[1, 0] == pytest.approx(2 * np.cos(OMEGA * np.cos(angle) / VS * 3.0))
 
 
-@pytest.mark.parametrize("angle", ANGLES)
+@together("angle", ANGLES)
 def test_surface_under_pressure_waves(angle):
     # Achenbach 1973, section 5.5: coefficients of a free surface
     turned = np.arcsin(np.sin(angle) / K)
@@ -39,7 +40,7 @@ def test_surface_under_pressure_waves(angle):
     )
 
 
-@pytest.mark.parametrize("angle", ANGLES)
+@together("angle", ANGLES)
 def test_surface_under_shear_waves_beyond_the_critical_angle_too(angle):
     sine = K * np.sin(angle)
     cosine = np.sqrt(complex(1 - sine**2))
@@ -51,7 +52,7 @@ def test_surface_under_shear_waves_beyond_the_critical_angle_too(angle):
     assert np.abs(moved[0, 1] + 2 * K * np.sin(2 * angle) * cosine / d).max() < 1e-12
 
 
-@pytest.mark.parametrize("kind", ["SH", "SV", "P"])
+@together("kind", ["SH", "SV", "P"])
 def test_cuts_without_contrast_change_nothing(kind):
     depths = np.array([0.0, 2.0, 4.0, 9.0, 30.0])
     whole, _ = transfers(half_space(), kind, 0.9, OMEGA, depths)

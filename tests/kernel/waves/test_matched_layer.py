@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
@@ -56,7 +57,7 @@ def values(find, name):
     return np.asarray(find(name).values)
 
 
-@pytest.mark.parametrize("cell", ["QUA4", "TRI3", "QUA8", "TRI6"])
+@together("cell", ["QUA4", "TRI3", "QUA8", "TRI6"])
 def test_without_stretching_the_layer_is_the_elements(cell):
     find = ran(box(cell) + "KB = RIGI N B ; MB = MASS N B ;")
     made = matched_layer(find("N"), find("B"), find("I"), reflection=1.0)
@@ -173,9 +174,7 @@ def test_a_start_from_weight_is_kept():
     assert values(find, "L") == pytest.approx(find("X"), rel=1e-8)
 
 
-@pytest.mark.parametrize(
-    ("change", "told"),
-    [
+@together("change, told", [
         (("T . 'INTERIEUR' = I", "T . 'INTERIEUR' = S"), "does not reach beyond"),
         (("T . 'MODELE' = N", "N = MODE S MECANIQUE ELASTIQUE ; B = MATE N 'YOUN' 2.E8 'NU' 0.3 "
           "'RHO' 2000. ; T . 'MODELE' = N"), "in the box"),
@@ -183,8 +182,7 @@ def test_a_start_from_weight_is_kept():
           "PLASTIQUE PARFAIT"), "PLASTIQUE PARFAIT"),
         (("MODE PLAN DEFO", "MODE PLAN CONT"), "plane strain"),
         (("P = @PML T", "T . 'REFLEXION' = 2. ; P = @PML T"), "0 < REFLEXION < 1"),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_refusals(change, told):
     script = box() + LAYER
     assert change[0] in script
@@ -196,8 +194,8 @@ def test_refusals(change, told):
 STEP = "E . 'TEMPS_CALCULES' = PROG 0. 0.1 ; R = DYNAMIC E ; "
 
 
-@pytest.mark.parametrize(
-    ("script", "told"),
+@together(
+    "script, told",
     [
         ("E . 'AMOR' = 0. * MI ; " + STEP, "without its AMOR"),
         ("E . 'MASS' = MI ; " + STEP, "without its MASS"),

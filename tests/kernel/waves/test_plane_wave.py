@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.waves.free_field_forces import along_columns
 from ssilang.kernel.waves.layered_half_space import HalfSpace, PlaneWave, plane_motion
@@ -20,9 +21,7 @@ def rough(n=60):
     return np.concatenate([np.zeros(5), record - record.mean(), np.zeros(5)])
 
 
-@pytest.mark.parametrize(
-    ("kind", "given"), [("SH", "SURFACE"), ("SV", "INCIDENTE"), ("P", "SURFACE")]
-)
+@together("kind, given", [("SH", "SURFACE"), ("SV", "INCIDENTE"), ("P", "SURFACE")])
 def test_finer_steps_pass_through_the_coarse_ones(kind, given):
     wave = PlaneWave(kind, 0.3, given, 0.4, STEP, rough(), 2.0)
     coarse = plane_motion(GROUND, wave, ALONG, DEPTHS)
@@ -56,7 +55,7 @@ def test_points_between_those_of_a_column_move_between_them():
     )
 
 
-@pytest.mark.parametrize(("kind", "speed"), [("SH", 300.0), ("P", 620.0)])
+@together("kind, speed", [("SH", 300.0), ("P", 620.0)])
 def test_an_incident_wave_passes_its_point_then_comes_back_from_the_surface(kind, speed):
     """In a ground without contrast: two waves, one up and one down, each by its own delay."""
     ground = HalfSpace(

@@ -1,6 +1,7 @@
 """Section 9: SI, REPE, QUIT, ITER, FIN."""
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -60,8 +61,8 @@ def test_what_is_not_built_stops_nothing_that_does_not_read_it(run, text):
     assert script["x"] == 3
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
+@together(
+    "text, line",
     [
         ("SA = STRU 1. ;\n x = 3 ;\n MESS SA ;", 3),
         ("SA = STRU 1. ;\n x = SA + 1 ;", 2),
@@ -109,8 +110,8 @@ def test_repe_counts_from_one(run):
     assert script["n"] == 4
 
 
-@pytest.mark.parametrize(
-    ("text", "x", "missing"),
+@together(
+    "text, x, missing",
     [
         ("REPE B 6 ; x = x + 1 ; FIN ; x = 10 ; FIN ;", 1, ["FIN B"]),
         ("SI VRAI ; x = 5 ; FIN ; x = 6 ;", 5, ["FINSI"]),

@@ -1,6 +1,7 @@
 """No input breaks the interpreter: limits, and errors with a place instead of tracebacks."""
 
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.run.session import Limits
@@ -15,7 +16,7 @@ def test_statement_limit_stops_an_endless_loop(tmp_path):
     assert result.errors[0].code == "statement-limit"
 
 
-@pytest.mark.parametrize("body", ["", "SI FAUX ; FINSI ;", "ITER b ;"])
+@together("body", ["", "SI FAUX ; FINSI ;", "ITER b ;"])
 def test_the_limit_counts_turns_and_conditions(tmp_path, body):
     options = RunOptions(output_directory=tmp_path, limits=Limits(statements=1000))
     result = run_text(f"REPE b ; {body} FIN b ;", options=options)
@@ -63,7 +64,7 @@ def test_large_scripts_run(run, text, x):
     assert run(text)["x"] == x
 
 
-@pytest.mark.parametrize(("before", "behind"), [(2000, 0), (0, 2000), (900, 900)])
+@together("before, behind", [(2000, 0), (0, 2000), (900, 900)])
 def test_a_very_long_line_is_shown_around_its_error(before, behind):
     text = "x = " + "1 + " * before + "(FOO 3.)" + " + 1" * behind + " ;"
     shown, marks = run_text(text).message.split("\n")[3:5]

@@ -5,6 +5,7 @@ import io
 import weakref
 
 import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.language.run.session import Session
@@ -42,7 +43,7 @@ def test_a_listener_that_fails_is_asked_no_more():
     assert session.on_note is None
 
 
-@pytest.mark.parametrize("tell", [lambda s: s.report(warning()), lambda s: s.note("step 1")])
+@together("tell", [lambda s: s.report(warning()), lambda s: s.note("step 1")])
 def test_a_reader_who_left_ends_the_run(tell):
     session = Session(out=io.StringIO())
 

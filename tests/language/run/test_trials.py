@@ -1,6 +1,6 @@
 """Forms that operands cannot fit are not tried; what was found to try never hides another form."""
 
-import pytest
+from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.language.run.call import Call
@@ -8,7 +8,7 @@ from ssilang.language.run.call import Call
 FIELD = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 2 'UX' 3. 'UY' 4. ;\n"
 
 
-@pytest.mark.parametrize(
+@together(
     "phrase",
     ["X = BRUI 'BLAN' 'UNIF' 0. 1. 3", "X = EXCO C 'UX'", "X = EXCO C (MOTS 'UX')", "X = MAXI C"],
 )

@@ -2,7 +2,7 @@
 
 import io
 
-import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.say.diagnostics import render
@@ -14,8 +14,8 @@ _PLATE = (
 )
 
 
-@pytest.mark.parametrize(
-    ("script", "sentences"),
+@together(
+    "script, sentences",
     [
         (
             _PLATE + "MA1 = MATE MO1 YOUN 1. NU 0.3 ; R = RIGI MO1 MA1 ; F = FORC FX 1. P1 ; "

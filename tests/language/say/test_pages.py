@@ -1,6 +1,6 @@
 """The page of an operator says all that its forms declare, that of a procedure all of its head."""
 
-import pytest
+from together import together
 
 from ssilang.language.registry import (
     Help,
@@ -106,7 +106,7 @@ def test_a_page_says_what_every_form_declares():
     assert "    rest           tout objet  (un ou plusieurs)" in french
 
 
-@pytest.mark.parametrize("language", SAID)
+@together("language", SAID)
 def test_the_head_of_a_procedure_is_its_page(language, tmp_path):
     path = tmp_path / "zproc.ssi"
     path.write_text(PROCEDURE)

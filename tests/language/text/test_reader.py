@@ -107,7 +107,7 @@ def test_signs_of_attributes_stand_behind_what_has_some(text, sound):
         assert expected is None
 
 
-@pytest.mark.parametrize("read", [quick, lambda s: parse_by_grammar(s, s.code)])
+@together("read", [quick, lambda s: parse_by_grammar(s, s.code)])
 def test_an_empty_parenthesis_has_its_place(read):
     (statement,) = read(Source("x", "A = PROG () ;"))
     assert statement.items[1].span.text == "()"
@@ -153,7 +153,7 @@ def test_numbers_have_their_values(read, text, value):
     assert (type(found), found) == (type(value), value)
 
 
-@pytest.mark.parametrize("written", [" . T", " . (1)", " . 'U' . 2"])
+@together("written", [" . T", " . (1)", " . 'U' . 2"])
 def test_a_long_path_is_read_in_a_time_that_grows_with_it(written):
     """A copy of all indices at each dot would take some 30 s."""
     count = 60_000

@@ -27,13 +27,13 @@ def test_a_run_ends_at_the_first_fin_outside_of_all_blocks(text):
     assert end_of_run(Source("x", f"{text} remarks ( that are no statement ;")) == len(text)
 
 
-@pytest.mark.parametrize("text", ["A = 1 ;", "SI VRAI ; FIN ;", "REPE B1 2 ; FIN B1 ;"])
+@together("text", ["A = 1 ;", "SI VRAI ; FIN ;", "REPE B1 2 ; FIN B1 ;"])
 def test_a_script_without_fin_has_no_end(text):
     assert end_of_run(Source("x", text)) is None
 
 
-@pytest.mark.parametrize(
-    ("text", "codes"),
+@together(
+    "text, codes",
     [
         ("SI VRAI ; FIN B1 ;", ["stray-block-end", "unclosed-block"]),
         ("DEBP P1 ; FIN B1 ; FINP ;", ["stray-block-end"]),

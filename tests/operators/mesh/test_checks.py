@@ -1,7 +1,7 @@
 """VERM: defects are found and named, sound meshes are silent."""
 
-import pytest
 from script_runs import ran
+from together import together
 
 CUBE = (
     "OPTI DIME 3 ELEM CUB8 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
@@ -22,8 +22,8 @@ def test_sound_meshes_are_silent() -> None:
     assert "VERM" not in output
 
 
-@pytest.mark.parametrize(
-    ("statements", "expected"),
+@together(
+    "statements, expected",
     [
         ("VERM (V ET (CHAN 'CUB8' V) ET S ET (INVE S)) ;", {"MESH1": 1}),
         ("VERM (V ET (CHAN 'QUAD' (F VOLU 'TRAN' 1 (0. 0. 1.)))) ;", {"NODE1": 1, "NODE4": 1}),
@@ -36,7 +36,7 @@ def test_defects_are_named(statements: str, expected: dict[str, int]) -> None:
     assert f"({' ... '.join(expected)})" in output
 
 
-@pytest.mark.parametrize("phrase", ["M 'CORR'", "'CORR' M"])
+@together("phrase", ["M 'CORR'", "'CORR' M"])
 def test_corrected_meshes_have_each_cell_once(phrase: str) -> None:
     script = CUBE + f"M = V ET S ET (INVE S) ; N = VERM {phrase} ; VERM N ;"
     result = ran(script)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.special import ellipe, ellipeinc
 from script_runs import failed, ran
+from together import together
 
 SPACE = "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ; "
 
@@ -80,8 +81,8 @@ def test_sizes_grade_the_curve_and_lines_are_continued():
     np.testing.assert_allclose(closed[0], closed[-1])
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
+@together(
+    "text, said",
     [
         ("L = A INTE 5 'CYLI' (0. 0. -1.) (0. 0. 1.) 'SPHE' (0. 0. 0.) B ;", "touch"),
         ("L = A INTE 5 'CYLI' (0. 0. -1.) (0. 0. 1.) 'SPHE' (0. 0. 3.) (0. 5. 0.) ;", "away from"),

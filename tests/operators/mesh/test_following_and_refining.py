@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from script_runs import found, ran
+from together import together
 
 
-@pytest.mark.parametrize(
+@together(
     "body",
     [
         "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (2. 0.)) TRAN 3 (0.5 1.) ; C = CONT S ; "
@@ -67,17 +68,14 @@ def test_raff_cuts_cells_and_ties_what_hangs():
     assert result.output.split()[3] == "5"
 
 
-@pytest.mark.parametrize(
-    ("mesh", "size"),
-    [
+@together("mesh, size", [
         ("OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 3 (0. 3.) ;",
          "(0.15 + (0.4 * (COOR 1 S)))"),
         ("OPTI DIME 2 ELEM TRI3 MODE PLAN DEFO ; S = (DROI 3 (0. 0.) (4. 0.)) TRAN 2 (1. 3.) ;",
          "(0.2 + (0.4 * (COOR 2 S)))"),
         ("OPTI DIME 3 ELEM CUB8 ; S = (DROI 2 (0. 0. 0.) (4. 0. 0.)) TRAN 2 (0. 3. 0.) ; "
          "S = S VOLU 2 'TRAN' (0. 0. 2.) ;", "(0.3 + (0.5 * (COOR 1 S)))"),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_a_mesh_refined_before_is_refined_as_in_one_go(mesh, size):
     """Each division has its cause in the sizes, whenever it is made."""
     script = (

@@ -69,8 +69,8 @@ def test_nothing_found_in_a_field_is_an_empty_mesh_and_a_doubt() -> None:
     assert value(field + "V = U POIN 'SUPE' 3. ; X = SOUC ;") is False
 
 
-@pytest.mark.parametrize(
-    ("length", "option", "inwards"),
+@together(
+    "length, option, inwards",
     [("1.", "", True), ("-1.", "", False), ("1.", "'ORIE'", True), ("-1.", "'ORIE'", True)],
 )
 def test_skin_of_cells_in_the_direct_sense_faces_inwards(length, option, inwards) -> None:
@@ -86,10 +86,7 @@ def test_skin_of_cells_in_the_direct_sense_faces_inwards(length, option, inwards
     assert ((sides < 0) == inwards).all()
 
 
-@pytest.mark.parametrize(
-    ("skin", "cells"),
-    [("E", {"TE10", "PY13"}), ("(CHAN 'TRI6' E)", {"TE10"})],
-)
+@together("skin, cells", [("E", {"TE10", "PY13"}), ("(CHAN 'TRI6' E)", {"TE10"})])
 def test_quadratic_skins_are_filled_and_keep_their_middles(skin: str, cells: set[str]) -> None:
     script = SPACE + (
         "OPTI ELEM CU20 ; V = ((O D 2 A) TRAN 2 (0. 1. 0.)) VOLU 2 'TRAN' Z ; E = ENVE V ; "

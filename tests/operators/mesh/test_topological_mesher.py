@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -20,14 +21,14 @@ def root_of(text: str):
     return ran(text).session.root
 
 
-@pytest.mark.parametrize("words", ["L 'NOAJ'", "'NOAJ' L", "L T 'NOAJ'"])
+@together("words", ["L 'NOAJ'", "'NOAJ' L", "L T 'NOAJ'"])
 def test_without_new_points_all_nodes_are_those_of_the_lines(words):
     root = root_of(SQUARE + f"M = TRIA 'TOPO' {words} ; X = MESU M ; N = NBEL M ; P = NBNO M ;")
     assert root.find("X") == pytest.approx(6.0)
     assert (root.find("P"), root.find("N")) == (28, 26)  # n - 2 triangles of n points
 
 
-@pytest.mark.parametrize("words", ["L", "L 'AJNO' T", "T L"])
+@together("words", ["L", "L 'AJNO' T", "T L"])
 def test_new_points_make_good_triangles_on_the_same_boundary(words):
     root = root_of(
         SQUARE + f"M = TRIA 'TOPO' {words} ; X = MESU M ; Q = INDI 'TOPO' M ; Y = MINI Q ; "
@@ -49,7 +50,7 @@ def test_a_hole_stays_empty():
     assert (root.find("X"), root.find("Y")) == pytest.approx((5.0, 5.0))
 
 
-@pytest.mark.parametrize(("script", "name", "volume"), [(SQUARE, "L", 6.0), (BOX, "S", 2.0)])
+@together("script, name, volume", [(SQUARE, "L", 6.0), (BOX, "S", 2.0)])
 def test_the_table_gets_what_the_mesher_found(script, name, volume):
     root = root_of(
         script + f"M = TRIA 'TOPO' {name} T ; X = MESU M ; Q = INDI 'TOPO' M ; Y = MINI Q ; "

@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import ran, refused
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -22,8 +23,8 @@ def cells_of(script: str) -> list[int]:
     return [mesh.n_cells for index, mesh in table.items() if index != "SOUSTYPE"]
 
 
-@pytest.mark.parametrize(
-    ("phrase", "expected"),
+@together(
+    "phrase, expected",
     [
         ("PART 'CONN' L", [9, 5]),
         ("CCON L", [9, 5]),
@@ -36,8 +37,8 @@ def test_lines(phrase: str, expected: list[int]) -> None:
     assert cells_of(STAR + f"T = {phrase} ;") == expected
 
 
-@pytest.mark.parametrize(
-    ("phrase", "expected"),
+@together(
+    "phrase, expected",
     [
         ("PART 'CONN' (A ET B)", [18]),
         ("PART 'SEPA' (A ET B) 'FACE'", [18]),  # two cells an edge: nothing separates
@@ -73,8 +74,8 @@ def test_lines_of_several_values() -> None:
     assert values == pytest.approx([4.0, 0.25, 0.5, 0.0])
 
 
-@pytest.mark.parametrize(
-    ("phrase", "expected"),
+@together(
+    "phrase, expected",
     [
         ("PART 'ARLE' L 4", [4, 4, 3, 3]),
         ("PART 'OPTI' L", [7, 7]),

@@ -22,6 +22,11 @@ JOINT_RATES = {
     "CXX": ("ALQN",), "CXY": ("ALQ1",), "CXZ": ("ALQS", "ALQ2"),
 }  # fmt: skip
 """Jumps of a joint that temperature makes, and their coefficients (m/K, 1/K), in 2D and 3D."""
+FULL_RATES = {
+    "EXX": ("ALP1",), "GXY": ("ALP2",), "GXZ": ("ALP3",),
+    "CXX": ("ALQ1",), "CXY": ("ALQ2",), "CXZ": ("ALQ3",),
+}  # fmt: skip
+"""Those of anisotropic joints of two points, in the order of their moduli."""
 SKINS = ("TINF", "TSUP")
 """Temperatures of a shell's lower and upper skin, beside that of its middle, T."""
 
@@ -45,7 +50,7 @@ def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> Fl
 
 
 def refuse_expanding(joints: list[Zone], material: CellField | None) -> None:
-    """Refuse joints that expand where temperatures load a model in time.
+    """Refuse joints with a law that expand where temperatures load a model in time.
 
     Raises
     ------
@@ -88,8 +93,9 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
             raise MaterialError("kernel.elements.thermal-expansion-sections-fibres")
         return values
     if kind == "joint":
+        known = FULL_RATES if "ANISOTROPE" in zone.behaviour else JOINT_RATES
         for i, name in enumerate(names):
-            rates = JOINT_RATES.get(name, ())
+            rates = known.get(name, ())
             values[:, i] = sum(parameters.at(r, "STRESSES", 0.0) for r in rates) * rise
         return values
     if kind in THIN_SHELLS:
@@ -189,7 +195,13 @@ def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) 
         T = alpha[..., None, None] * np.eye(3)
     else:
         axes = material_axes(parameters, "STRESSES")
-        along = np.stack([a * rise for a in _rates_along_axes(zone, parameters)], axis=-1)
+        rates = np.zeros((*rise.shape, 3, 3))
+        for i, rate in enumerate(_rates_along_axes(zone, parameters)):
+            rates[..., i, i] = rate
+        if symmetry_of(zone) == "ANISOTROPE":
+            for i, j in ((0, 1), (0, 2), (1, 2)):  # angles of shear
+                angle = parameters.at(f"AL{i + 1}{j + 1}", "STRESSES", 0.0)
+                rates[..., i, j] = rates[..., j, i] = angle / 2
         axes = np.broadcast_to(axes, (*rise.shape, 3, 3))
-        T = np.einsum("cpki,cpk,cpkj->cpij", axes, along, axes)
+        T = np.einsum("cpki,cp,cpkl,cplj->cpij", axes, rise, rates, axes)
     return as_components(T, n_strains, strains=True)

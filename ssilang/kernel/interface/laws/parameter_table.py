@@ -108,6 +108,9 @@ def _table(law: Law, shape: tuple[int, int], given: Mapping[str, FloatArray]) ->
         steep, slope = np.abs(given[name]) >= 90.0, np.tan(np.radians(given[name]))
         for target in targets:
             table[:, :, Parameter[target]] = np.where(steep, np.inf, slope)
+    if "MU" in law.angles and "COHE" not in given:  # its cone's apex stands at FTRC
+        slope = np.tan(np.radians(given["PHI"]))
+        table[:, :, Parameter.COHE] = table[:, :, Parameter.FTRC] * slope
     return table
 
 

@@ -82,7 +82,7 @@ def concrete(
     curve, rise = -strength * x * (2 - x), 2 * strength * (1 - x) / BAEL_PEAK
     line = np.minimum(E * (e - plastic), 0.0)
     yields = line < curve
-    slope = np.where(yields, rise, np.where(line < 0, E, 0.0))
+    slope = np.where(yields, rise, np.where(e <= plastic, E, 0.0))  # closed at no stress too
     after = np.column_stack([np.where(yields, e - curve / E, plastic), e])
     return Along(np.where(yields, curve, line), after, slope)
 

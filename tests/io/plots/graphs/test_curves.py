@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_hex
 from matplotlib.mathtext import MathTextParser
+from together import together
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures, slug
@@ -114,11 +115,15 @@ def test_styles_of_the_table() -> None:
         parse_style("MARQ ROUND")
 
 
-@pytest.mark.parametrize(
-    ("style", "marker", "unread"),
-    [("MARQ TRIA", "v", ()), ("MARQ XXL TRIB REGU", "^", ()), ("MARQ POIN POIN", ".", ()),
-     ("marq tria titr m1", "v", ("TITR", "M1"))],
-)  # fmt: skip
+@together(
+    "style, marker, unread",
+    [
+        ("MARQ TRIA", "v", ()),
+        ("MARQ XXL TRIB REGU", "^", ()),
+        ("MARQ POIN POIN", ".", ()),
+        ("marq tria titr m1", "v", ("TITR", "M1")),
+    ],
+)
 def test_older_markers_are_drawn_and_idle_words_kept_apart(style, marker, unread) -> None:
     found = parse_style(style)
     assert (found.marker, found.unread) == (marker, unread)
@@ -126,7 +131,7 @@ def test_older_markers_are_drawn_and_idle_words_kept_apart(style, marker, unread
     assert axes.lines[0].get_marker() == marker
 
 
-@pytest.mark.parametrize(("style", "rows"), [("", range(11)), (" REGU", [0, 2, 4, 6, 8, 10])])
+@together("style, rows", [("", range(11)), (" REGU", [0, 2, 4, 6, 8, 10])])
 def test_points_have_the_label_of_their_style(style: str, rows: Sequence[int]) -> None:
     given = {2: parse_style("LABEL here" + style)}
     (axes,) = draw_curves(curve(0, 0), CurveOptions(styles=given)).axes
@@ -135,7 +140,7 @@ def test_points_have_the_label_of_their_style(style: str, rows: Sequence[int]) -
     np.testing.assert_allclose([text.xy for text in axes.texts], np.stack([t, 2.0 * t], axis=1))
 
 
-@pytest.mark.parametrize(("word", "end"), [("TRID", 5.0), ("TRIU", -2.0)])
+@together("word, end", [("TRID", 5.0), ("TRIU", -2.0)])
 def test_triangles_of_bars_stand_at_the_middle_of_their_curve(word: str, end: float) -> None:
     bars = Curve((CurvePart([1.0, 2.0, 4.0], [3.0, 5.0, -2.0], legend="shares"),), kind="HIST")
     (axes,) = draw_curves(bars, CurveOptions(styles={1: parse_style(f"MARQ {word}")})).axes
@@ -210,8 +215,8 @@ def test_differences_are_taken_at_the_points_of_the_coarser_curve() -> None:
     assert np.allclose(gap.get_ydata(), 0.01, atol=2e-5)
 
 
-@pytest.mark.parametrize(
-    ("other", "asked", "frames"),
+@together(
+    "other, asked, frames",
     [
         (np.cos, None, 1),
         (np.cos, True, 2),

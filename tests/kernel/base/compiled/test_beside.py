@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from numba.core import types
+from together import together
 
 from ssilang.kernel.base.compiled import PLAIN, beside, calls, compiler
 from ssilang.kernel.base.compiled.apart import apart, seldom
@@ -246,10 +247,7 @@ def test_a_room_is_told_when_its_first_function_is_compiled(monkeypatch):
     assert len(told) == len(tasks_ahead("solvers.cholesky"))
 
 
-@pytest.mark.parametrize(
-    ("jumps", "rooms"),
-    [(60, ["inverse"]), (100, ["blocks"]), (200, ["blocks"])],
-)
+@together("jumps, rooms", [(60, ["inverse"]), (100, ["blocks"]), (200, ["blocks"])])
 def test_the_solver_of_a_model_is_told_where_another_process_compiles(monkeypatch, jumps, rooms):
     entered = []
     monkeypatch.setattr(beside.BESIDE, "enter", entered.append)

@@ -10,6 +10,7 @@ from typing import get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
+from together import together
 
 import ssilang.kernel
 from ssilang.kernel.base.arrays import FloatArray
@@ -70,13 +71,10 @@ def test_uncounted_functions_take_scalars_from_numpy_and_from_what_they_call():
                 assert gives_numbers(called.py_func), (function, called)
 
 
-@pytest.mark.parametrize(
-    ("result", "text", "counted"),
-    [
+@together("result, text, counted", [
         (None, "None", False), (int, "int", False), (tuple[int, float], "tuple[int, float]", False),
         (Newmark, "Newmark", False), (Motion, "Motion", True), (FloatArray, "FloatArray", True),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_results_written_as_types_count_as_those_written_as_text(result, text, counted):
     def function():
         raise AssertionError
@@ -123,7 +121,7 @@ def sums_of_rows(A: FloatArray) -> FloatArray:
     return found
 
 
-@pytest.mark.parametrize("function", [rows_sum, sum_of_square, sums_of_rows])
+@together("function", [rows_sum, sum_of_square, sums_of_rows])
 def test_arrays_that_compiled_code_has_seen_are_freed(function):
     A = np.arange(6.0).reshape(2, 3)
     before = sys.getrefcount(A)

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
+from together import together
 
 from ssilang.kernel.base.compiled import PLAIN, cache, kept, kinds, machine
 from ssilang.kernel.base.compiled.machine import Code
@@ -120,7 +121,7 @@ def test_kinds_of_parts_of_arrays_are_those_of_numba_s_types(whole, data):
         assert kinds.words_of(kinds.key_of((part,))) == kinds.words_of_types((numba.typeof(part),))
 
 
-@pytest.mark.parametrize("text", [b"", b"nonsense", pickle.dumps((1, 2)), pickle.dumps("x")])
+@together("text", [b"", b"nonsense", pickle.dumps((1, 2)), pickle.dumps("x")])
 def test_a_file_that_is_no_code_counts_as_none(tmp_path, monkeypatch, text):
     monkeypatch.setattr(kept, "folder_of", lambda module: tmp_path)
     code = Code(b"machine code", "native", "wrapper", ["sin"], [], "own", "float64")

@@ -6,6 +6,7 @@ import pickle
 import numpy as np
 import pytest
 from numba.core import compiler, serialize, targetconfig
+from together import together
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled import PLAIN
@@ -61,7 +62,7 @@ def test_a_compiled_function_is_the_same_after_pickling():
     assert pickle.loads(serialize.dumps(scaled_sum)) is scaled_sum
 
 
-@pytest.mark.parametrize("collects", [True, False])
+@together("collects", [True, False])
 def test_compiling_leaves_the_collection_of_garbage_as_it_was(collects):
     @compiled
     def twice(x: float) -> float:

@@ -8,6 +8,7 @@ import sys
 from importlib.metadata import version
 
 import pytest
+from together import together
 
 from ssilang.kernel.base.compiled import tried
 from ssilang.kernel.base.compiled.tried import TRIED, untried, version_of
@@ -78,15 +79,12 @@ def test_what_was_tried_takes_our_own_ways(tmp_path):
     assert inside == "True"
 
 
-@pytest.mark.parametrize(
-    ("name", "version", "known"),
-    [
+@together("name, version, known", [
         ("numba", "0.68.1", True), ("numba", "0.68", True), ("numba", "0.680.0", False),
         ("numba", "0.69.0", False), ("numba", "", False), ("llvmlite", "0.51.0rc1", False),
         ("Python", "3.11.9", True), ("Python", "3.15.0", False), ("Python", "3.1.1", False),
         ("numpy", "2.4.6", True), ("numpy", "3.0.0", False),
-    ],
-)  # fmt: skip
+    ])  # fmt: skip
 def test_first_parts_of_versions_tell(name, version, known, monkeypatch):
     said = {n: f"{v[0]}.0" for n, v in TRIED.items()} | {name: version}
     monkeypatch.setattr(tried, "version_of", said.__getitem__)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements import families
@@ -181,7 +182,7 @@ def test_euler_buckling_load_from_the_geometric_stiffness():
     assert factors == pytest.approx(np.pi**2 * E * IZ / (4 * L**2), rel=1e-4)
 
 
-@pytest.mark.parametrize("stretch", [1.0, 1.3])
+@together("stretch", [1.0, 1.3])
 def test_second_order_strain_of_a_turned_bar_is_that_of_its_stretch(stretch):
     zone = line_zone("BARR", [(0, 0), (1, 2)], Mode.PLANE_STRESS)
     c, s = stretch * np.cos(0.7) - 1, stretch * np.sin(0.7)
@@ -226,7 +227,7 @@ def test_the_energy_of_a_section_is_that_of_its_fibres():
         assert strain @ section.rigidity @ strain == pytest.approx(energy, rel=1e-12)
 
 
-@pytest.mark.parametrize("sense", [1, -1])
+@together("sense", [1, -1])
 def test_areas_of_fibres_are_those_of_their_cells_whichever_way_round(sense):
     table = NodeTable()
     ids = table.add(np.array([[1.0, 0.0], [4.0, 0.0], [4.0, 2.0], [1.0, 2.0]]))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
@@ -30,7 +31,7 @@ def with_speed(two, **more):
     return CellField((block,), "CARACTERISTIQUES")
 
 
-@pytest.mark.parametrize(("element", "mode"), ELEMENTS)
+@together("element, mode", ELEMENTS)
 def test_coupling_is_the_mass_between_each_pair_of_directions(element, mode):
     two = Two(element, mode, turned(0.4, mode))
     coupled = inertia_coupling(two.zone, two.material, A)
@@ -69,7 +70,7 @@ W = (np.array([0.3, -0.8, 0.5]), np.array([-0.6, 0.2, 0.9]))
 T = (np.array([0.1, 0.7, -0.4]), np.array([0.8, -0.3, 0.2]))
 
 
-@pytest.mark.parametrize("element", ["POUT", "TUYA"])
+@together("element", ["POUT", "TUYA"])
 def test_beams_count_the_mass_on_their_line(element):
     two = Two(element, SPACE, turned(0.4, SPACE))
     coupled = inertia_coupling(two.zone, two.material, A)
@@ -87,7 +88,7 @@ def test_beams_count_the_mass_on_their_line(element):
     np.testing.assert_allclose(found, mass * expected, rtol=1e-10)
 
 
-@pytest.mark.parametrize("element", ["POUT", "TIMO", "TUYA"])
+@together("element", ["POUT", "TIMO", "TUYA"])
 def test_a_turning_section_answers_a_tilt_by_a_moment_about_the_other_axis(element):
     two = Two(element, SPACE, turned(0.4, SPACE))
     field = with_speed(two)

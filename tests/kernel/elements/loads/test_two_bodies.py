@@ -125,8 +125,8 @@ def test_pressures_work_on_the_sides_of_all_bodies(mode, given):
     assert got.nature == "DISCRET"
 
 
-@pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("given", ["vector", "forces", "displacements"])
+@together("mode", MODES)
+@together("given", ["vector", "forces", "displacements"])
 def test_tractions_work_on_the_sides_of_all_bodies(mode, given):
     b = Bodies(mode)
     d = len(b.names)
@@ -152,8 +152,8 @@ def test_tractions_work_on_the_sides_of_all_bodies(mode, given):
     assert b.work(found) == pytest.approx(expected, rel=1e-5 if b.space else 1e-10)
 
 
-@pytest.mark.parametrize("mode", PLANES)
-@pytest.mark.parametrize("cells", [False, True])
+@together("mode", PLANES)
+@together("cells", [False, True])
 def test_volume_forces_work_on_all_bodies(mode, cells):
     b = Bodies(mode)
     q = np.random.default_rng(2).uniform(1, 2, (len(b.ids), 2))
@@ -203,7 +203,7 @@ def test_volume_forces_that_name_nothing_or_stand_on_no_body_are_refused():
         loads.pipe_pressure(b.model, CellField((), ""))
 
 
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_sides_loaded_by_a_field_are_the_outer_ones_that_it_covers(mode):
     b = Bodies(mode)
     on = [0, 1, 4] if mode is Mode.PLANE_STRAIN else [0, 1, 6, 7, 4, 10]

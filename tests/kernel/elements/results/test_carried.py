@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.results.frames import (
@@ -112,9 +113,9 @@ def test_models_take_values_at_their_points_or_in_the_mean_of_squares(source, mo
 FIRST, OTHER = np.array([1.0, 2.0, 0.5]), np.array([0.3, -1.0, 2.0])
 
 
-@pytest.mark.parametrize("strains", [False, True])
-@pytest.mark.parametrize("said", ["plain", "toward", "normal", "otherwise"])
-@pytest.mark.parametrize("element", ["DKT", "DST"])
+@together("strains", [False, True])
+@together("said", ["plain", "toward", "normal", "otherwise"])
+@together("element", ["DKT", "DST"])
 def test_forces_and_strains_of_shells_turn_with_the_axes(strains, said, element):
     zone = tilted_plate(element)
     frames = flat_frames(zone)[0]
@@ -175,7 +176,7 @@ def test_axes_of_beams_turn_by_the_mean_rotation_and_those_of_joints_with_their_
     assert made.title == "t"
 
 
-@pytest.mark.parametrize("bound", [True, False])
+@together("bound", [True, False])
 def test_axes_of_bound_joints_turn_with_the_segment_and_about_it(bound):
     start = np.array([[0.0, 0, 0], [1.0, 0.5, 0.2]])
     u = np.array([[0.1, 0.2, -0.1], [-0.6, 0.9, 0.4]])

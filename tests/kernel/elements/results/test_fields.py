@@ -89,7 +89,7 @@ def test_equivalent_stresses_of_simple_states():
     assert von_mises(pull)[0, 0] == tresca(pull)[0, 0] == pytest.approx(7.0)
 
 
-@pytest.mark.parametrize("element", ["QUA8", "CU20", "TE10"])
+@together("element", ["QUA8", "CU20", "TE10"])
 def test_gradient_of_a_linear_field_and_its_second_order_strain(element):
     mode = _mode(element)
     zone = cell_zone(element, mode)

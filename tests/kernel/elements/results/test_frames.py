@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.results import frames, tensors
@@ -46,7 +47,7 @@ CASES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", CASES)
+@together("name", CASES)
 def test_rows_are_where_coordinates_grow(name):
     made, grows = CASES[name]
     found = made()
@@ -75,8 +76,8 @@ def test_fixed_frames_hold_their_vectors_and_zero_is_refused():
         frames.unit(np.zeros((2, 3)))
 
 
-@pytest.mark.parametrize("strains", [False, True])
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("strains", [False, True])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_a_field_seen_in_frames_is_the_turned_matrix(strains, mode):
     zone = cell_zone("CUB8" if mode is Mode.THREE_DIMENSIONAL else "QUA4", mode)
     names = ("XX", "YY", "ZZ", "XY", "XZ", "YZ")[: 6 if mode is Mode.THREE_DIMENSIONAL else 4]
@@ -121,7 +122,7 @@ def test_a_field_seen_in_frames_is_the_turned_matrix(strains, mode):
                 assert value[0] >= value[1]
 
 
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_stress_at_a_point_of_a_section_is_that_of_bending_about_both_axes(mode):
     zone = line_zone(
         "POUT",

@@ -3,7 +3,7 @@
 import itertools
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.materials.model import Mode
@@ -23,13 +23,16 @@ def integral(f, weight):
     return np.array(total)
 
 
-@pytest.mark.parametrize(
-    ("mode", "harmonic", "weight"),
-    [(Mode.PLANE_STRAIN, 0, lambda x: 1.0), (Mode.PLANE_STRESS, 0, lambda x: 0.4),
-     (Mode.AXISYMMETRIC, 0, lambda x: 2 * np.pi * x[:, 0]),
-     (Mode.FOURIER, 0, lambda x: 2 * np.pi * x[:, 0]),
-     (Mode.FOURIER, 2, lambda x: np.pi * x[:, 0])],
-)  # fmt: skip
+@together(
+    "mode, harmonic, weight",
+    [
+        (Mode.PLANE_STRAIN, 0, lambda x: 1.0),
+        (Mode.PLANE_STRESS, 0, lambda x: 0.4),
+        (Mode.AXISYMMETRIC, 0, lambda x: 2 * np.pi * x[:, 0]),
+        (Mode.FOURIER, 0, lambda x: 2 * np.pi * x[:, 0]),
+        (Mode.FOURIER, 2, lambda x: np.pi * x[:, 0]),
+    ],
+)
 def test_mass_is_that_of_the_matter_on_slides_and_turns(mode, harmonic, weight):
     zone = line_zone("COQ2", POINTS, mode)
     if mode is Mode.FOURIER:

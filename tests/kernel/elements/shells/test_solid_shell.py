@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
+from together import together
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.loads.thermal import thermal_strain
@@ -85,7 +86,7 @@ def test_constant_strain_passes_through_any_brick_and_is_held_by_nothing():
     assert np.abs(held).max() < 1e-15
 
 
-@pytest.mark.parametrize("h", [0.2, 0.002])
+@together("h", [0.2, 0.002])
 def test_membrane_and_bending_patches_are_in_balance_on_a_distorted_mesh(h):
     zone = distorted_plate(h)
     mat = material(zone, YOUN=E, NU=NU)
@@ -110,7 +111,7 @@ def test_membrane_and_bending_patches_are_in_balance_on_a_distorted_mesh(h):
     assert residual_inside(zone, mat, bent) < 1e-6  # round-off grows as the square of 1/h
 
 
-@pytest.mark.parametrize(("h", "rtol"), [(1.0, 0.01), (0.1, 0.004), (0.01, 0.004)])
+@together("h, rtol", [(1.0, 0.01), (0.1, 0.004), (0.01, 0.004)])
 def test_clamped_strip_bends_like_a_beam_at_any_thinness(h, rtol):
     L, n = 10.0, 10
     zone = bricks(n, 1, lambda s, t, z: np.column_stack([L * s, t, h * z]))

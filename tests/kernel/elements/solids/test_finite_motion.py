@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from refusing import refusal
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import support_rule
@@ -36,16 +37,14 @@ def test_a_gradient_is_a_rotation_times_a_stretch() -> None:
     np.testing.assert_allclose(found_U, np.stack([U, np.eye(3), U, np.eye(3)]), atol=1e-14)
 
 
-@pytest.mark.parametrize(
-    "bad", [np.diag([1.0, 1.0, -1.0]), np.zeros((3, 3)), np.full((3, 3), np.nan)]
-)
+@together("bad", [np.diag([1.0, 1.0, -1.0]), np.zeros((3, 3)), np.full((3, 3), np.nan)])
 def test_a_volume_that_is_turned_inside_out_is_refused(bad: np.ndarray) -> None:
     with refusal(FieldError, "kernel.elements.gradient-motion-determinant-not"):
         polar(bad)
 
 
-@pytest.mark.parametrize(
-    ("element", "mode", "F"),
+@together(
+    "element, mode, F",
     [
         ("QUA4", Mode.PLANE_STRAIN, [[1.2, 0.3, 0.0], [-0.1, 0.9, 0.0], [0.0, 0.0, 1.0]]),
         ("QUA4", Mode.PLANE_STRESS, [[0.7, 0.1, 0.0], [0.2, 1.4, 0.0], [0.0, 0.0, 1.0]]),
@@ -75,8 +74,8 @@ _RING = (
 )
 
 
-@pytest.mark.parametrize(
-    ("element", "mode"),
+@together(
+    "element, mode",
     [("QUA4", Mode.PLANE_STRAIN), ("TRI6", Mode.AXISYMMETRIC), ("TET4", Mode.THREE_DIMENSIONAL)],
 )
 def test_stresses_work_on_gradients_term_by_term(element, mode):
@@ -103,8 +102,8 @@ def test_stresses_work_on_gradients_term_by_term(element, mode):
     assert support == "STRESSES"
 
 
-@pytest.mark.parametrize(
-    ("text", "exact"),
+@together(
+    "text, exact",
     [
         # stresses 1, -2 and 1 in shear: 1 (3^2 + 2^2) - 2 (1^2 + 1^2) + 2 (3 - 2)
         (_PLANE, 11.0),

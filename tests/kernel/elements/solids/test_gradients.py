@@ -1,8 +1,8 @@
 """Gradients of one component, and logarithmic strains of gradients in every hypothesis."""
 
 import numpy as np
-import pytest
 import scipy.linalg as la
+from together import together
 
 from ssilang.kernel.elements.solids.gradients import (
     gradient_names,
@@ -13,9 +13,7 @@ from ssilang.kernel.materials.model import Mode
 from tests.kernel.elements.samples import cell_zone, field
 
 
-@pytest.mark.parametrize(
-    ("element", "mode"), [("QUA8", Mode.PLANE_STRAIN), ("CU20", Mode.THREE_DIMENSIONAL)]
-)
+@together("element, mode", [("QUA8", Mode.PLANE_STRAIN), ("CU20", Mode.THREE_DIMENSIONAL)])
 def test_a_linear_component_has_one_gradient(element, mode):
     zone = cell_zone(element, mode)
     found = scalar_gradient(zone, field(zone, T=lambda x: 3 * x[:, 0] - 2 * x[:, 1] + x[:, 2]), "T")
@@ -25,10 +23,8 @@ def test_a_linear_component_has_one_gradient(element, mode):
     )
 
 
-@pytest.mark.parametrize("of_displacement", [False, True])
-@pytest.mark.parametrize(
-    "mode", [Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSIONAL]
-)
+@together("of_displacement", [False, True])
+@together("mode", [Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSIONAL])
 def test_logarithmic_strains_are_those_of_the_matrix_logarithm(mode, of_displacement):
     space = mode is Mode.THREE_DIMENSIONAL
     zone = cell_zone("CUB8" if space else "QUA4", mode)

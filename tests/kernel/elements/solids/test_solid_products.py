@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
@@ -57,7 +58,7 @@ def matrices(zone, parameters, monkeypatch):
     return found, families.stiffness(zone, field).values, seen[0] is not None
 
 
-@pytest.mark.parametrize("d", [1, 2, 3])
+@together("d", [1, 2, 3])
 def test_cofactors_are_the_inverse_s_and_stay_in_their_matrix(d):
     J, room = np.random.default_rng(d).standard_normal((d, d)), np.full((5, d), 7.0)
     det = _cofactors(J, room[:d])
@@ -69,11 +70,11 @@ def test_cofactors_are_the_inverse_s_and_stay_in_their_matrix(d):
 STRESS = Mode.PLANE_STRESS
 
 
-@pytest.mark.parametrize(
-    ("cell_type", "mode"),
+@together(
+    "cell_type, mode",
     [("CUB8", SPACE), ("TET4", SPACE), ("QUA4", PLANE), ("TRI3", PLANE), ("QUA4", STRESS)],
 )
-@pytest.mark.parametrize("uniform", [True, False])
+@together("uniform", [True, False])
 def test_crooked_cells_have_the_same_matrices(cell_type, mode, uniform, monkeypatch):
     zone = zone_of(cell_type, mode)
     young = 1e9 * np.ones((5, 1)) if uniform else 1e9 * np.arange(1.0, 6.0)[:, None]
@@ -95,8 +96,8 @@ def test_moduli_that_change_inside_a_cell_are_summed_at_points(monkeypatch):
     assert (found == expected).all()
 
 
-@pytest.mark.parametrize("spoilt", ["folded", "flat"])
-@pytest.mark.parametrize(("cell_type", "mode"), [("CUB8", SPACE), ("QUA4", PLANE)])
+@together("spoilt", ["folded", "flat"])
+@together("cell_type, mode", [("CUB8", SPACE), ("QUA4", PLANE)])
 def test_folded_cells_are_named(cell_type, mode, spoilt, monkeypatch):
     zone = zone_of(cell_type, mode, spoilt)
     parameters = {"YOUN": np.full((5, 1), 1e9), "NU": np.full((5, 1), 0.3)}

@@ -1,7 +1,7 @@
 """The kept response of a condensed interface follows changes of its points."""
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.factors.inverse import (
@@ -37,7 +37,7 @@ def matrix(joints, condensed, D):
     return np.eye(len(S)) + S @ (c * K - R)
 
 
-@pytest.mark.parametrize("d", [2, 3])
+@together("d", [2, 3])
 def test_response_follows_points_that_change(d):
     rng = np.random.default_rng(d)
     joints, S, D = interface(rng, d)
@@ -62,8 +62,8 @@ def test_response_follows_points_that_change(d):
         np.testing.assert_allclose(solved, exact, atol=1e-10 * np.abs(exact).max())
 
 
-@pytest.mark.parametrize("n_pairs", [5, PLAIN // 2, PLAIN // 2 + 1, 60])
-@pytest.mark.parametrize("excess", [0.1, 0.0])
+@together("n_pairs", [5, PLAIN // 2, PLAIN // 2 + 1, 60])
+@together("excess", [0.1, 0.0])
 def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
     rng = np.random.default_rng(n_pairs)
     joints, S, D = interface(rng, 2, n_pairs)
@@ -83,7 +83,7 @@ def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
     assert counts == [*range(UPDATES + 1), 0]
 
 
-@pytest.mark.parametrize("n", [1, PLAIN + 1])
+@together("n", [1, PLAIN + 1])
 def test_no_response_is_made_of_a_singular_matrix(n):
     """S = 1, tangents of -1: `1 + S D` vanishes."""
     pairs = np.arange(n, dtype=np.int64)[:, None]

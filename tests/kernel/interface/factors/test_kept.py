@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.iterations import KINDS, at_rest, compiled_newton, plain_newton, room
 from references.soil_block import FRICTION, soil_block
+from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.factors.changed import ALL, LONG
@@ -40,10 +41,8 @@ def test_a_walk_of_steps_agrees(words, kind):
         now.delta[:] -= 0.1 * (now.delta - plain.y)
 
 
-@pytest.mark.parametrize("held", [False, True], ids=["", "stiffness held in excess"])
-@pytest.mark.parametrize(
-    ("kind", "digits"), [("LU", 1e-9), ("single LU", 1e-4)], ids=["double", "single"]
-)
+@together("held", [False, True])
+@together("kind, digits", [("LU", 1e-9), ("single LU", 1e-4)])
 def test_changed_tangents_of_no_symmetry_are_solved_with(kind, digits, held):
     """Some points, others, all, those of the start: by a Y that was made once, then made anew."""
     whole = soil_block(steps=2, size=(24, 4, 22), joint=FRICTION).interface
@@ -89,7 +88,7 @@ def test_what_takes_too_many_turns_gets_its_own_factors():
     np.testing.assert_array_equal(factors.tangents, D)
 
 
-@pytest.mark.parametrize("size", [(24, 4, 22), (40, 4, 30)])
+@together("size", [(24, 4, 22), (40, 4, 30)])
 def test_points_that_stay_are_taken_and_others_corrected_for(size):
     """One asked for twice; one that turns each time; all, by then worth a new response."""
     whole = soil_block(steps=2, size=size, joint=FRICTION).interface
@@ -123,7 +122,7 @@ def test_points_that_stay_are_taken_and_others_corrected_for(size):
     assert factors.updates[0] == 0  # made anew
 
 
-@pytest.mark.parametrize("n", [9, 32, 33, 100, 600])
+@together("n", [9, 32, 33, 100, 600])
 def test_many_right_sides_and_wide_blocks(n):
     random = np.random.default_rng(0)
     A, B = random.standard_normal((n, n)), random.standard_normal((n, 7))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from references.law_points import answer, table_of
 from scipy.integrate import solve_ivp
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode
@@ -97,7 +98,7 @@ def test_beta_is_that_of_wen_s_term_in_the_absolute_velocity(beta, eta):
     assert (t[-1, 0] - KPOS * corners[-1]) / QD == pytest.approx(z, abs=5e-4)
 
 
-@pytest.mark.parametrize(("code", "given"), [(LawCode.LEAD, LEAD), (LawCode.PENDULUM, BOWL)])
+@together("code, given", [(LawCode.LEAD, LEAD), (LawCode.PENDULUM, BOWL)])
 def test_axes_that_turn_do_not_matter(code, given):
     p, rng = table_of(**given), np.random.default_rng(1)
     path = np.cumsum(rng.normal(size=(40, 3)) * [UY, UY, 0], axis=0)
@@ -140,8 +141,8 @@ def test_a_bowl_without_friction_loses_nothing():
     assert abs((mean * moved).sum()) < 1e-3 * np.abs(mean * moved).sum()
 
 
-@pytest.mark.parametrize(
-    ("name", "change", "wrong"),
+@together(
+    "name, change, wrong",
     [
         ("APPUI_PLOMB", {"KPOS": 2 * KS}, "KPOS"),
         ("APPUI_PLOMB", {"QD": 0.0}, "QD"),

@@ -9,6 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from references.law_points import answer, table_of
 from scipy.optimize import minimize_scalar
+from together import together
 
 from ssilang.kernel.interface.laws.columns import N_STATE, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import point_energies
@@ -42,7 +43,7 @@ def rest():
     return np.zeros((1, N_STATE))
 
 
-@pytest.mark.parametrize("w", [[1e-3, -2e-3], [-2e-3, 4e-3], [1e-3, 2e-3, -5e-3], [0.0, 0.0]])
+@together("w", [[1e-3, -2e-3], [-2e-3, 4e-3], [1e-3, 2e-3, -5e-3], [0.0, 0.0]])
 def test_ground_of_great_strength_takes_nothing_from_the_elastic_bed(w):
     t, new, D = relief(w, rest(), parameters(COHE=1e12, QULT=5e12))
     assert not t.any()

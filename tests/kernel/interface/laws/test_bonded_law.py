@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 
 
-@pytest.mark.parametrize("d", [2, 3])
+@together("d", [2, 3])
 def test_a_bonded_joint_is_its_springs(d):
     rng = np.random.default_rng(4)
     springs = {"KS1": 3e8, "KS2": 5e8, "KN": 7e8}

@@ -80,8 +80,8 @@ def test_work_is_stored_and_lost(name, seed, d):
     assert moved > 0.0
 
 
-@pytest.mark.parametrize("d", [2, 3])
-@pytest.mark.parametrize("name", ALL)
+@together("d", [2, 3])
+@together("name", ALL)
 def test_the_same_jump_again_changes_nothing(name, d):
     """Whatever a large step did, on cones, caps and their edges at once: its end is admissible."""
     rng = np.random.default_rng(5)

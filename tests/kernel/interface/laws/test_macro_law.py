@@ -9,6 +9,7 @@ from references.assembled import Bench
 from references.footing import Disc, Strip
 from references.recorder import Recorder, recorded
 from references.rocking import macro_element_period
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
@@ -79,7 +80,7 @@ def test_forces_are_those_of_the_bed(code, given, jumps):
 WITH_SPRINGS = [*CASES, (SPRINGS, {"LARG": 3.0}, [*CASES[0][2], [0.0, 1e-3], [0.0, -1e-3]])]
 
 
-@pytest.mark.parametrize(("code", "given", "jumps"), WITH_SPRINGS)
+@together("code, given, jumps", WITH_SPRINGS)
 def test_what_is_told_of_a_footing_is_that_of_the_bed(code, given, jumps):
     """Share in contact, largest opening and pressure; turning both ways, pressed and lifted."""
     p = parameters(**given)
@@ -93,7 +94,7 @@ def test_what_is_told_of_a_footing_is_that_of_the_bed(code, given, jumps):
         assert outline.pressure(w) == pytest.approx(KN / area * max(-u.min(), 0.0), **near)
 
 
-@pytest.mark.parametrize(("code", "given", "jumps"), WITH_SPRINGS)
+@together("code, given, jumps", WITH_SPRINGS)
 def test_tangent_and_energy(code, given, jumps):
     p = parameters(**given)
     for w in np.array(jumps, float):
@@ -139,7 +140,7 @@ def pushed(mode, law, turn, normal, theta, **p):
 RATIOS = np.array([0.0, 0.5, 1.5, 2.0, 5.0, 10.0])
 
 
-@pytest.mark.parametrize("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
+@together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_strip_and_disc_follow_their_closed_forms(mode):
     strip = Strip(4.0, 1.0, 2e7, 6e5)
     disc = Disc(2.0, 2e7, 6e5)

@@ -5,6 +5,7 @@ from functools import partial
 import numpy as np
 import pytest
 from references import law_points
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import Variable
@@ -65,8 +66,8 @@ def test_second_normal_stiffness_beyond_a_closing():
     np.testing.assert_allclose(t[:, 1], [-5.0, -10.0 - 50.0], rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("path", "given", "plastic"),
+@together(
+    "path, given, plastic",
     [
         # slip of 0.1 - 0.01 / 0.5 at the pressure 1: dilatancy lifts by its tangent times the slip
         ([[0.1, -0.01]], {}, [[0.08, 0.0]]),
@@ -91,7 +92,7 @@ def test_dilatant_slip_counts_its_opening_in_the_cumulated_jump():
     assert states[-1, Variable.CUMULATED] == pytest.approx(np.sqrt(2 / 3) * np.hypot(slip, lift))
 
 
-@pytest.mark.parametrize("wrong", [{"KN": 0.0}, {"COHE": -1.0}, {"FNE": 1.0, "QT": 200.0}])
+@together("wrong", [{"KN": 0.0}, {"COHE": -1.0}, {"FNE": 1.0, "QT": 200.0}])
 def test_inadmissible_parameters_are_refused(wrong):
     with pytest.raises(
         MaterialError, check=lambda e: e.code == "kernel.interface.joint-parameter-must"

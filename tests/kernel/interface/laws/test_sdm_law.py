@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from references import law_points
 from references.sdm_arrays import normal_arrays, shear_arrays
+from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import (
@@ -41,7 +42,7 @@ def test_iteration_gives_lamberts_closed_form():
         assert found[2] == pytest.approx(slope[i], rel=1e-6, abs=1e-9 * k[i])
 
 
-@pytest.mark.parametrize("d", [2, 3])
+@together("d", [2, 3])
 def test_points_take_the_tractions_and_slips_of_the_arrays(d):
     """Paths through opening, sliding and closing; one shear direction in three has no stiffness."""
     rng, n = np.random.default_rng(d), 300
@@ -103,7 +104,7 @@ def test_shear_is_lost_when_open_and_starts_anew_when_closed():
     np.testing.assert_allclose(t[:, 0], [4e5, 0.0, 4e8 * 2e-3])
 
 
-@pytest.mark.parametrize("normal", [-1e-4, 2e-4])
+@together("normal", [-1e-4, 2e-4])
 def test_elastic_shear_stores_its_work_at_any_opening(normal):
     p = parameters(SHEAR=1.0)
     path = np.array([[0.0, normal], [1e-4, normal], [3e-4, normal], [-2e-4, normal]])
@@ -120,12 +121,9 @@ def test_too_soft_a_joint_is_refused_with_the_least_stiffness():
     check_sdm_parameters(parameters(KN=6e8, FU=1e5, GF=20.0))
 
 
-@pytest.mark.parametrize(
-    ("code", "wrong"),
-    [("parameter-must", {"KN": 0.0}), ("parameter-must", {"KS1": -1.0}),
+@together("code, wrong", [("parameter-must", {"KN": 0.0}), ("parameter-must", {"KS1": -1.0}),
      ("parameter-must", {"FC": 1.0}), ("parameter-must", {"FU": -1.0}),
-     ("fu-gf-perfectly", {"FU": 1e5}), ("parameter-not-finite", {"KN": np.nan})],
-)  # fmt: skip
+     ("fu-gf-perfectly", {"FU": 1e5}), ("parameter-not-finite", {"KN": np.nan})])  # fmt: skip
 def test_inadmissible_parameters_are_refused(code, wrong):
     with pytest.raises(
         MaterialError,
@@ -136,7 +134,7 @@ def test_inadmissible_parameters_are_refused(code, wrong):
         check_sdm_parameters(parameters(**wrong))
 
 
-@pytest.mark.parametrize("size", [1.0, 1e-6, 1e-9])
+@together("size", [1.0, 1e-6, 1e-9])
 def test_softening_lies_on_its_curve_whatever_the_unit_of_length(size):
     """Openings of `size` times 1e-4: t = fu exp(-fu xi / gf) = k (w - xi)."""
     k, fu, gf = 1e9 / size, 1e5, 20.0 * size
@@ -159,8 +157,8 @@ def test_slipped_points_store_the_work_of_their_traction_alone():
     np.testing.assert_allclose(lost, [0.0, stored[1]], rtol=1e-12, atol=1e-9)
 
 
-@pytest.mark.parametrize(("held", "kept"), [(CLOSED_SHEAR, True), (OPEN_SHEAR, False)])
-@pytest.mark.parametrize("normal", [-1e-4, 1e-4])
+@together("held, kept", [(CLOSED_SHEAR, True), (OPEN_SHEAR, False)])
+@together("normal", [-1e-4, 1e-4])
 def test_shear_that_a_step_holds_is_kept_or_given_up_with_its_energy(held, kept, normal):
     """HELD decides, whatever the normal traction does meanwhile."""
     p = parameters()

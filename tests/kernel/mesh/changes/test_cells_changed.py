@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from references.straight_line import line_between, straight_line
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import chained, contour, edges, envelope, faces, sharp_edges
@@ -53,14 +54,14 @@ def test_middles_go_along_their_edges_to_where_both_ends_are_as_far() -> None:
     np.testing.assert_allclose(np.cross(m - before, b - a), 0.0, atol=1e-15)
 
 
-@pytest.mark.parametrize("name", sorted(QUADRATIC.values()))
+@together("name", sorted(QUADRATIC.values()))
 def test_each_middle_stands_between_two_corners(name: str) -> None:
     places = middle_places(name)
     expected = {"SEG3": 1, "TRI6": 3, "QUA8": 4, "TE10": 6, "PY13": 8, "PR15": 9, "CU20": 12}
     assert len(places) == expected[name]
 
 
-@pytest.mark.parametrize(("surface", "cell"), [("QUA4", "CU20"), ("TRI3", "PR15")])
+@together("surface, cell", [("QUA4", "CU20"), ("TRI3", "PR15")])
 def test_quadratic_cells_have_their_middles_in_the_middle(surface: str, cell: str) -> None:
     volume = box(surface)
     made = quadratic(volume)
@@ -75,7 +76,7 @@ def test_quadratic_cells_have_their_middles_in_the_middle(surface: str, cell: st
     assert (back.connectivity == volume.single_block().connectivity).all()
 
 
-@pytest.mark.parametrize("surface", ["QUA4", "TRI3"])
+@together("surface", ["QUA4", "TRI3"])
 def test_bricks_and_prisms_split_into_conforming_tetrahedra(surface: str) -> None:
     volume = box(surface)
     made = Mesh(volume.nodes, (tetrahedra(volume.single_block()),))

@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import ran, refused
+from together import together
 
 CUBES = (
     "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; "
@@ -14,7 +15,7 @@ def found(script: str, *names: str) -> list[object]:
     return [result.session.root.find(n) for n in names]
 
 
-@pytest.mark.parametrize(("kind", "cells"), [("TET4", 96), ("CUB8", 16)])
+@together("kind, cells", [("TET4", 96), ("CUB8", 16)])
 def test_bricks_are_taken_apart_on_all_their_nodes(kind: str, cells: int) -> None:
     script = CUBES + f"Q = CHAN V 'QUAF' ; M = CHAN Q '{kind}' ; N = NBNO Q ; K = NBNO M ;"
     n, k, volume, count = found(script + "X = MESU M ; C = NBEL M ;", "N", "K", "X", "C")
@@ -23,8 +24,8 @@ def test_bricks_are_taken_apart_on_all_their_nodes(kind: str, cells: int) -> Non
     assert count == cells
 
 
-@pytest.mark.parametrize(
-    ("source", "kind", "target", "cells", "nodes"),
+@together(
+    "source, kind, target, cells, nodes",
     [
         ("TRI3", "TRI7", "TRI3", 24, 19),
         ("QUA4", "QUA9", "TRI3", 16, 15),
@@ -55,11 +56,16 @@ def test_tetrahedra_and_prisms_keep_their_volume() -> None:
     assert (n, k) == (4 * 36, 12 * 24)
 
 
-@pytest.mark.parametrize(
-    ("source", "target", "cells"),
-    [("TET4", "CUB8", 4 * 12), ("TET4", "PYR5", 12 * 12), ("PYR5", "PYR5", 16 * 48),
-     ("PYR5", "TET4", 32 * 48), ("CUB8", "PYR5", 24 * 2)],
-)  # fmt: skip
+@together(
+    "source, target, cells",
+    [
+        ("TET4", "CUB8", 4 * 12),
+        ("TET4", "PYR5", 12 * 12),
+        ("PYR5", "PYR5", 16 * 48),
+        ("PYR5", "TET4", 32 * 48),
+        ("CUB8", "PYR5", 24 * 2),
+    ],
+)
 def test_volumes_and_their_envelope_are_taken_apart_alike(
     source: str, target: str, cells: int
 ) -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, is_tie, parted
@@ -57,7 +58,7 @@ def grid(kind, n):
     return Mesh.of(nodes, kind, table)
 
 
-@pytest.mark.parametrize("kind", CELLS)
+@together("kind", CELLS)
 def test_one_division_keeps_measure_and_sense(kind):
     points, whole = CELLS[kind]
     nodes = NodeTable()
@@ -77,7 +78,7 @@ def test_one_division_keeps_measure_and_sense(kind):
         assert volumes[0] > 0
 
 
-@pytest.mark.parametrize("kind", CELLS)
+@together("kind", CELLS)
 def test_hanging_nodes_lie_in_the_middle_and_sizes_are_reached(kind):
     mesh = grid(kind, 3)
     whole = total_measure(mesh)
@@ -97,7 +98,7 @@ def test_hanging_nodes_lie_in_the_middle_and_sizes_are_reached(kind):
     assert np.linalg.norm(edges, axis=2).min() < 0.3
 
 
-@pytest.mark.parametrize("kind", ["TRI3", "QUA4", "TET4", "PRI6", "CUB8"])
+@together("kind", ["TRI3", "QUA4", "TET4", "PRI6", "CUB8"])
 def test_neighbours_differ_by_one_division_and_no_tear_is_left_untied(kind):
     """A node on an edge or face of a cell, and no corner of it, is tied to that very side."""
     mesh = grid(kind, 2)
@@ -132,8 +133,8 @@ def test_sides_of_volumes_are_divided_with_them():
     assert corners.all()
 
 
-@pytest.mark.parametrize(
-    ("kind", "sizes", "said"),
+@together(
+    "kind, sizes, said",
     [("QUA4", 0.0, "positive"), ("QUA4", 1e-5, "cells are needed"), ("QUA8", 1.0, "not divided")],
 )
 def test_what_cannot_be_divided_is_refused(kind, sizes, said):
@@ -157,7 +158,7 @@ PATCH = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("kind", PATCH)
+@together("kind", PATCH)
 def test_linear_displacements_pass_through_hanging_nodes(kind, tmp_path):
     """A linear field on the boundary is found inside: the ties are those of the patch test."""
     text, names = PATCH[kind]

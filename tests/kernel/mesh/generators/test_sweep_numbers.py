@@ -1,7 +1,7 @@
 """Numbers of the nodes that a swept surface makes (decks that say NOEUD N rely on them)."""
 
 import numpy as np
-import pytest
+from together import together
 
 from ssilang.kernel.mesh.generators.sweep import sweep_line, translation
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
@@ -9,7 +9,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
-@pytest.mark.parametrize("degree", [1, 2])
+@together("degree", [1, 2])
 def test_far_side_then_lateral_lines_then_inside(degree):
     table = NodeTable()
     x = np.linspace(0.0, 3.0, 3 * degree + 1)

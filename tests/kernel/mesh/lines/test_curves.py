@@ -64,7 +64,7 @@ POLYNOMIALS = {
 }
 
 
-@pytest.mark.parametrize("name", POLYNOMIALS)
+@together("name", POLYNOMIALS)
 def test_polynomials_are_run_through_at_one_speed(name):
     curve = POLYNOMIALS[name]
     steps = chords(curve(S))
@@ -144,10 +144,7 @@ def round_about(a):
     return place(a, RADIUS, 1.2)
 
 
-@pytest.mark.parametrize(
-    ("last", "turn", "share"),
-    [(2.6, 2.6, None), (3.6, 3.6 - 2 * np.pi, 0.6), (2.6, 2.6, 1.3)],
-)
+@together("last, turn, share", [(2.6, 2.6, None), (3.6, 3.6 - 2 * np.pi, 0.6), (2.6, 2.6, 1.3)])
 def test_a_crossing_is_followed_the_short_way_and_beyond(last, turn, share):
     length = None if share is None else share * RADIUS * abs(turn)
     curve = crossing_curve((sphere, flat), round_about(0.0), round_about(last), length)
@@ -170,11 +167,18 @@ def test_surfaces_that_touch_or_points_off_them_are_refused():
         crossing_curve((sphere, sphere), a, b)
 
 
-@pytest.mark.parametrize(
-    ("length", "start", "end", "count"),
-    [(7.0, 0.3, 1.1, 0), (7.0, 1.1, 0.3, 0), (7.0, 0.3, 1.1, -5), (0.02, 0.005, 0.001, 0),
-     (5.0, 0.8, 0.8, 0), (5.0, 0.8, 0.8, -4), (5.0, 0.0, 0.0, 7)],
-)  # fmt: skip
+@together(
+    "length, start, end, count",
+    [
+        (7.0, 0.3, 1.1, 0),
+        (7.0, 1.1, 0.3, 0),
+        (7.0, 0.3, 1.1, -5),
+        (0.02, 0.005, 0.001, 0),
+        (5.0, 0.8, 0.8, 0),
+        (5.0, 0.8, 0.8, -4),
+        (5.0, 0.0, 0.0, 7),
+    ],
+)
 def test_sizes_grow_by_one_ratio_whose_end_sizes_are_those_asked_for(length, start, end, count):
     cuts = subdivide(length, start, end, count)
     sizes = length * np.diff(cuts.fractions)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.lines.lines import (
@@ -40,8 +41,8 @@ def test_points_that_no_way_joins_are_refused():
         shortest_line(mesh, int(ids[0]), int(ids[0]))
 
 
-@pytest.mark.parametrize("kind", ["SEG2", "SEG3"])
-@pytest.mark.parametrize("closed", [False, True])
+@together("kind", ["SEG2", "SEG3"])
+@together("closed", [False, True])
 def test_cells_of_a_line_in_no_order_are_put_one_behind_the_other(kind, closed):
     nodes, step = NodeTable(), 1 if kind == "SEG2" else 2
     angle = np.arange(5 * step + 1) * 1.1 / step
@@ -73,10 +74,8 @@ def test_frames_of_an_arc_in_space_are_those_of_its_circle():
     np.testing.assert_allclose(frames, wanted, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("to", "binormal"), [([0.6, 0, 0.8], [-0.8, 0, 0.6]), ([0, 0, 1], [0, 1, 0])]
-)
-@pytest.mark.parametrize("count", [1, 3])
+@together("to, binormal", [([0.6, 0, 0.8], [-0.8, 0, 0.6]), ([0, 0, 1], [0, 1, 0])])
+@together("count", [1, 3])
 def test_straight_lines_have_their_binormal_near_the_z_axis(count, to, binormal):
     nodes = NodeTable()
     ids = nodes.add(np.arange(count + 1)[:, None] ** 1.5 * np.array(to))

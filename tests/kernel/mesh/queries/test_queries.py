@@ -133,7 +133,7 @@ def test_meshes_as_sets_of_cells():
     assert cells_of(combine.gathered([mesh, part])) == cells_of(both)
 
 
-@pytest.mark.parametrize("angle", [None, 20.0, 80.0])
+@together("angle", [None, 20.0, 80.0])
 def test_parts_are_those_that_sides_join(angle):
     mesh, at = grid()
     x = mesh.nodes.coordinates
@@ -200,7 +200,7 @@ def simplex(k):
     return corners[: k + 1]
 
 
-@pytest.mark.parametrize("k", [2, 3])
+@together("k", [2, 3])
 def test_quality_is_one_of_regular_simplices_alone_and_blind_to_turns(k):
     rng = np.random.default_rng(k)
     R = np.linalg.qr(rng.standard_normal((3, 3)))[0]
@@ -502,7 +502,7 @@ def test_maps_move_what_they_say_and_keep_what_they_hold():
     np.testing.assert_allclose(mesh.nodes.coordinates[at[0, 0]], before[at[0, 0]] + b)
 
 
-@pytest.mark.parametrize("name", ["TRI3", "QUA4", "TET4", "CUB8", "PRI6", "PYR5"])
+@together("name", ["TRI3", "QUA4", "TET4", "CUB8", "PRI6", "PYR5"])
 def test_a_linear_motion_of_what_is_held_is_followed_within(name):
     """One node is not held: the others, in no order and with a stranger, are."""
     rng = np.random.default_rng(8)

@@ -53,7 +53,7 @@ SHAPES = {
 }
 
 
-@pytest.mark.parametrize("name", SHAPES)
+@together("name", SHAPES)
 def test_distances_are_those_of_the_equation(name):
     shape, equation = SHAPES[name]
     x = ORIGIN + 2.5 * RNG.standard_normal((40, 3))

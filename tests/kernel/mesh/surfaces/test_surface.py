@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from references.straight_line import straight_line
 from scipy.spatial import ConvexHull, Delaunay
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour
@@ -41,7 +42,7 @@ def filled(line: Mesh, surface: str) -> Mesh:
     return fill_surface(line, plane_chart(*contour_chart_data(line)), surface)
 
 
-@pytest.mark.parametrize("surface", ["TRI3", "QUA4", "TRI6", "QUA8"])
+@together("surface", ["TRI3", "QUA4", "TRI6", "QUA8"])
 def test_square_is_filled_and_keeps_its_contour(surface: str) -> None:
     """Quadratic cells share their middles."""
     quadratic = surface in ("TRI6", "QUA8")
@@ -54,7 +55,7 @@ def test_square_is_filled_and_keeps_its_contour(surface: str) -> None:
     assert sorted(cell_keys(found).tolist()) == sorted(cell_keys(given).tolist())
 
 
-@pytest.mark.parametrize("side", [0.02, 2.0])
+@together("side", [0.02, 2.0])
 def test_inner_node_of_a_small_square_is_its_middle(side: float) -> None:
     """Middles and corners lie on circles with it: either diagonal may stand, none may pull."""
     nodes = NodeTable()

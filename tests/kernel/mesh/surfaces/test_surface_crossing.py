@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
@@ -76,7 +77,7 @@ def test_triangles_that_touch_in_a_point_or_lie_in_one_plane_share_no_segment() 
         assert len(crossing_segments(a, b)[0]) == 0
 
 
-@pytest.mark.parametrize("height", [0.0, 0.05, 0.137])
+@together("height", [0.0, 0.05, 0.137])
 def test_crossing_sheets_keep_their_areas_and_share_the_line_of_their_planes(height: float) -> None:
     nodes = NodeTable()
     flat = sheet(nodes, 5, [0, 0, 0], [1, 0, 0], [0, 1, 0])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, voronoi_partition
@@ -25,7 +26,7 @@ def areas(partition, n):
     return made
 
 
-@pytest.mark.parametrize("n", [1, 2, 5, 60])
+@together("n", [1, 2, 5, 60])
 def test_cells_hold_what_is_nearest_to_their_germ(n):
     rng = np.random.default_rng(3)
     germs = rng.random((n, 2))
@@ -57,8 +58,8 @@ def test_a_weight_moves_the_edge_by_the_difference_of_squares_over_twice_the_dis
     np.testing.assert_allclose(areas(partition, 2), [place, 1 - place], rtol=1e-12)
 
 
-@pytest.mark.parametrize("n", [2, 30])
-@pytest.mark.parametrize(("size", "shift"), [(1.0, 1e4), (1e8, -7.0), (1e-3, 0.2)])
+@together("n", [2, 30])
+@together("size, shift", [(1.0, 1e4), (1e8, -7.0), (1e-3, 0.2)])
 def test_cells_of_any_size_and_far_from_the_origin_keep_their_digits(n, size, shift):
     germs = np.random.default_rng(2).random((n, 2))
     near = voronoi_partition(germs, np.zeros(n), SQUARE, ring(4))
@@ -68,8 +69,8 @@ def test_cells_of_any_size_and_far_from_the_origin_keep_their_digits(n, size, sh
     assert (len(far.points), len(far.edges)) == (len(near.points), len(near.edges))
 
 
-@pytest.mark.parametrize(
-    ("germs", "weights", "told"),
+@together(
+    "germs, weights, told",
     [
         ([[0.5, 0.5], [1.5, 0.5]], [0.0, 0.0], "outside"),
         ([[0.5, 0.5], [0.5, 0.5]], [0.0, 0.0], "same place"),

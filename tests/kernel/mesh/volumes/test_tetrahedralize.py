@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.straight_line import straight_line
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
@@ -28,7 +29,7 @@ def box_skin(cuts: tuple[int, int, int]) -> Mesh:
     return envelope(sweep_surface(floor, translation(z), subdivide(1.5, count=cuts[2])))
 
 
-@pytest.mark.parametrize("cuts", [(1, 1, 1), (3, 4, 5), (6, 6, 2), (8, 8, 8)])
+@together("cuts", [(1, 1, 1), (3, 4, 5), (6, 6, 2), (8, 8, 8)])
 def test_tetrahedra_fill_a_box_and_keep_its_triangles(cuts: tuple[int, int, int]) -> None:
     skin = split_quadrangles(box_skin(cuts))
     volume = fill_volume(skin)

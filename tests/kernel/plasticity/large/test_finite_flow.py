@@ -101,8 +101,8 @@ def test_what_turns_on_its_way_gets_the_same_stresses_turned(mesh, law, word):
     np.testing.assert_allclose(seen, np.stack([T[..., i, j] for i, j in names], 1), atol=1e-12)
 
 
-@pytest.mark.parametrize("steps", [1, 4])
-@pytest.mark.parametrize("word", ["MI_PAS", "FIN_PAS"])
+@together("steps", [1, 4])
+@together("word", ["MI_PAS", "FIN_PAS"])
 def test_flow_keeps_the_volume_whatever_the_steps(word, steps):
     """Stretched at a volume that is kept, then to 1.02 of it: that alone is pressure."""
     zone, last, cells = zone_of("space", word=word)
@@ -137,7 +137,7 @@ def test_simple_shear_follows_dienes():
     np.testing.assert_allclose(seen[3], across, rtol=2e-4)
 
 
-@pytest.mark.parametrize(("word", "share"), [("FIN_PAS", 0.0), ("MI_PAS", 0.5)])
+@together("word, share", [("FIN_PAS", 0.0), ("MI_PAS", 0.5)])
 def test_elastic_stretch_between_rigid_walls(word, share):
     """Cauchy's stress `lambda^share D ln lambda`: for MI_PAS D (lambda - 1) but for third order."""
     zone, blank, cells = zone_of("space", "elastic", word)

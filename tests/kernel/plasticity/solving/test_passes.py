@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.backbone import hyperbola
@@ -55,7 +56,7 @@ def state_of(rng: np.random.Generator, law: PlasticLaw, nested: bool) -> PointSt
     return PointState(stress, rng.normal(size=(M, 6)), np.zeros((M, 6)), variables)
 
 
-@pytest.mark.parametrize("name", RANGES)
+@together("name", RANGES)
 def test_a_pass_gives_what_the_law_does(name: str) -> None:
     """Three steps: with strains that need no stress, back, and forth again."""
     rng, nested = np.random.default_rng(0), name.startswith("IWAN")

@@ -5,6 +5,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.solvers.active_set import coulomb
@@ -45,8 +46,8 @@ def check(problem, found):
     assert work == pytest.approx(-(length * np.linalg.norm(s, axis=1))[slipping], abs=1e-7 * size)
 
 
-@pytest.mark.parametrize("width", [1, 2])
-@pytest.mark.parametrize("mu", [0.0, 0.3, 1.0])
+@together("width", [1, 2])
+@together("mu", [0.0, 0.3, 1.0])
 def test_conditions_hold_for_random_bodies(width, mu):
     rng = np.random.default_rng(17)
     for m in (1, 2, 5, 12):
@@ -83,7 +84,7 @@ def all_sticking(forces, width, rng):
     )
 
 
-@pytest.mark.parametrize("width", [1, 2])
+@together("width", [1, 2])
 def test_redundant_frictions_do_not_follow_rounding(width):
     """Places outnumber what the body can do: what they share stays when rounding changes.
 

@@ -1,9 +1,9 @@
 """Singular matrices: free motions, and solutions for loads that do no work on them."""
 
 import numpy as np
-import pytest
 import scipy.sparse as sp
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.solvers.cholesky import inverse
@@ -39,7 +39,7 @@ def test_unknowns_that_meet_nothing_are_free_beside_the_other_free_motions():
     assert np.abs(found.work(b)).max() > 0.1
 
 
-@pytest.mark.parametrize("count", [1, 11])
+@together("count", [1, 11])
 def test_free_motions_without_symmetry(count):
     """More than are looked for at first, too."""
     rng, n = np.random.default_rng(6), 40

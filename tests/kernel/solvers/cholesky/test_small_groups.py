@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
@@ -27,8 +28,8 @@ def mixed(sizes, rest=9, seed=3):
     return A[np.ix_(order, order)]
 
 
-@pytest.mark.parametrize("sizes", [(3, 3, 1), (1,), (12, 2)])
-@pytest.mark.parametrize("columns", [(), (4,)])
+@together("sizes", [(3, 3, 1), (1,), (12, 2)])
+@together("columns", [(), (4,)])
 def test_solution_is_that_of_the_whole_matrix(sizes, columns):
     A = mixed(sizes)
     b = np.random.default_rng(1).standard_normal((len(A), *columns))

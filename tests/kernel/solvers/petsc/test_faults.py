@@ -18,6 +18,7 @@ import numpy as np
 import petsc_there
 import pytest
 from petsc_there import COMMAND, environment, lacking, ranks
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
@@ -81,12 +82,14 @@ def fake(tmp_path, monkeypatch):
     left = tmp_path / "tmp"
     left.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(left))
-    gc.collect()
+    gc.collect(1)  # what is young: a search through all that thousands of tests keep takes 0.4 s
     before = len(os.listdir("/dev/fd"))
     yield lambda mode: f"{sys.executable} {script} {mode}"
     assert list(left.iterdir()) == []
-    gc.collect()
-    assert len(os.listdir("/dev/fd")) == before
+    gc.collect(1)
+    if len(os.listdir("/dev/fd")) > before:
+        gc.collect()
+    assert len(os.listdir("/dev/fd")) <= before
 
 
 def refusal(command, limit=SOON):
@@ -95,8 +98,8 @@ def refusal(command, limit=SOON):
     return caught.value.code.rpartition(".")[2], str(caught.value)
 
 
-@pytest.mark.parametrize(
-    ("command", "code"),
+@together(
+    "command, code",
     [
         ("", "petsc-command"),
         ("mpirun -n 'two", "petsc-command"),

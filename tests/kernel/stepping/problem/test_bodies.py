@@ -1,13 +1,13 @@
 """Which bodies nothing but joints holds: several on one joint, one held by a spring or support."""
 
 import numpy as np
-import pytest
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.stepping.problem.bodies import full_uplift, loose_bodies
 
 
-@pytest.mark.parametrize("first", [0, 1])
+@together("first", [0, 1])
 def test_each_body_at_a_joint_counts_the_points_that_touch_it(first):
     """Two joints on three nodes above ground: two bodies meet on the first, one of them has mass.
 

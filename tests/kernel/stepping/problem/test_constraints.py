@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import scipy.linalg as la
 from scipy import sparse as sp
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.stepping.problem.constraints import (
@@ -30,7 +31,7 @@ WAYS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("way", WAYS)
+@together("way", WAYS)
 def test_motions_forces_and_multipliers_are_those_of_the_rows(way):
     made, push = WAYS[way]()
     rng = np.random.default_rng(1)

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
@@ -21,7 +22,7 @@ from ssilang.kernel.stepping.problem.initial import (
 COUNT, ROWS = 5, 4
 
 
-@pytest.mark.parametrize("seed", range(6))
+@together("seed", range(6))
 def test_what_touches_is_pushed_apart_or_opens(seed):
     """Reactions push, nothing accelerates through, and what opens is not pushed."""
     rng = np.random.default_rng(seed)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder, recorded
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.matrices.relations import Term, relation_rows
@@ -45,7 +46,7 @@ def where(problem, *nodes):
     return [problem.numbering.index_of(n, "UY") for n in nodes]
 
 
-@pytest.mark.parametrize("force", [-100.0, 80.0])
+@together("force", [-100.0, 80.0])
 def test_equilibrium_is_that_of_the_saddle_point(force):
     bench, one, two = lever()
     load = bench.load(bench.field((one, "FY", force), (two, "FY", 10.0)))

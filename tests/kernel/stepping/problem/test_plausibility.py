@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.assembled import Bench
+from together import together
 
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
@@ -48,8 +49,8 @@ def block(**change):
     return b, b.problem(T, Load(parts) if parts else None)
 
 
-@pytest.mark.parametrize(
-    ("change", "told"),
+@together(
+    "change, told",
     [
         ({}, []),  # pressed on its joint; nothing moves it along x
         ({"push": 50.0, "ks": 1e5}, []),
@@ -66,7 +67,7 @@ def test_bodies_that_nothing_holds_or_presses(change, told):
     assert all(x.node in map(b.table.told, b.n[1:3]) for x in found)
 
 
-@pytest.mark.parametrize(("kn", "size"), [(1e6, 2.0), (3.0, 2.0), (3.0, 90.0), (3.0, 350.0)])
+@together("kn, size", [(1e6, 2.0), (3.0, 2.0), (3.0, 90.0), (3.0, 350.0)])
 def test_bodies_that_their_joints_let_sink(kn, size):
     b, problem = block(kn=kn, size=size)
     found = list(Start(problem, None).sunk())

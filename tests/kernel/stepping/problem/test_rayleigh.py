@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from together import together
 
 from ssilang.kernel.stepping.problem.constraints import split_damping
 
@@ -15,9 +16,9 @@ def chain(n=60):
     return sp.csr_array(K), sp.csr_array(M)
 
 
-@pytest.mark.parametrize(("alpha", "beta"), [(0.7, 3e-4), (0.7, 0.0), (0.0, 3e-4)])
-@pytest.mark.parametrize("lumped", [True, False])
-@pytest.mark.parametrize("dashpots", [0, 9])
+@together("alpha, beta", [(0.7, 3e-4), (0.7, 0.0), (0.0, 3e-4)])
+@together("lumped", [True, False])
+@together("dashpots", [0, 9])
 def test_shares_and_rest(alpha, beta, lumped, dashpots):
     K, M = chain()
     if lumped:
@@ -43,7 +44,7 @@ def test_another_damping_is_all_rest():
     assert split_damping(sp.csr_array((60, 60)), M, K)[2].nnz == 0
 
 
-@pytest.mark.parametrize("size", [1e-12, 1e12])
+@together("size", [1e-12, 1e12])
 def test_dashpots_do_not_count_in_any_unit(size):
     K, M = chain()
     extra = np.zeros(60)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from references.assembled import Bench
 from references.recorder import Recorder
+from together import together
 
 from ssilang.kernel.stepping.choose import Case, choose, only
 from ssilang.kernel.stepping.newmark import Scheme, generalised_alpha, hht, newmark, newmark_of
@@ -129,7 +130,7 @@ def test_twenty_thousand_steps_with_uplift_agree():
     assert rows.w.min() < 0.0 < rows.w.max()
 
 
-@pytest.mark.parametrize("mass", [0.0, 1e-3])
+@together("mass", [0.0, 1e-3])
 def test_light_modes_step_by_the_law(mass):
     mode = Mode(mass, 0.0, STIFFNESS, 1.0, newmark_of(Scheme(), 5e-4))
     assert not branch_of(mode, SPRINGS["no tension"], (0.01, 0.0, 0.0, 0.01, 0.0, 0.01)).fits

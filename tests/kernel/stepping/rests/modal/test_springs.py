@@ -7,6 +7,7 @@ import pytest
 from references.recorder import assert_alike, recorded
 from references.rocking_beam import COUNT, rocking
 from scipy.optimize import nnls
+from together import together
 
 from ssilang.kernel.contact import active_set
 from ssilang.kernel.contact.active_set import active_set_of, anew, find_active, list_closed
@@ -29,8 +30,8 @@ def forces_of(contact, answer):
     return np.where(contact.closed, answer, 0.0)
 
 
-@pytest.mark.parametrize("at_once", [0, 20])
-@pytest.mark.parametrize("seed", range(6))
+@together("at_once", [0, 20])
+@together("seed", range(6))
 def test_forces_are_the_smallest_in_the_compliance(seed, at_once, monkeypatch):
     """`min f.Q f/2 - g.f` over f <= 0, by non-negative least squares on Q's factor."""
     monkeypatch.setattr(active_set, "ALL_AT_ONCE", at_once)
