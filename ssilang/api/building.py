@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
 from ssilang.api.fields import MeshView
+from ssilang.api.objects import CurveView
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart

@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ssilang.api import histories
-from ssilang.api.curves import CurveView
 from ssilang.api.errors import Error, MissingKey, Notice, refused
 from ssilang.api.html import rows_html
-from ssilang.api.objects import held, seen
+from ssilang.api.objects import CurveView, held, seen
 from ssilang.api.view import library
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among

@@ -4,7 +4,7 @@ import io
 from collections.abc import Iterator
 from typing import TextIO
 
-from ssilang.cli.checking.scope import assigned_names
+from ssilang.cli.checking.kinds import assigned_names
 from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.checking.walk import Checker
 from ssilang.cli.run import RunOptions, allow_nesting, make_session

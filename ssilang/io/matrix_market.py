@@ -10,12 +10,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.matrices.assembly import (
-    assemble,
-    constraint_matrix,
-    is_symmetric,
-    numbering_of,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import Matrix
 
 
@@ -37,14 +32,14 @@ def system_of(matrix: Matrix) -> System:
     """The system that RESO solves, before any elimination."""
     import scipy.sparse as sp
 
-    numbering = numbering_of(matrix)
-    stiffness = assemble(matrix, numbering)
-    held = constraint_matrix(matrix, numbering)
+    numbering = assembly.numbering_of(matrix)
+    stiffness = assembly.assemble(matrix, numbering)
+    held = assembly.constraint_matrix(matrix, numbering)
     whole: Any = stiffness
     if len(held.multipliers):
         parts: Any = [[stiffness, held.D.T], [held.C, None]]
         whole = sp.block_array(parts)
-    symmetric = is_symmetric(matrix)
+    symmetric = assembly.is_symmetric(matrix)
     terms = sp.coo_array(sp.tril(whole) if symmetric else whole)
     order = np.lexsort((terms.row, terms.col))
     count = len(held.multipliers)

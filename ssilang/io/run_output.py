@@ -14,13 +14,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
 
-from ssilang.io.atomic import (
-    fault_on_windows,
-    names_foreign_drive,
-    portable,
-    resolved,
-    write_text,
-)
+from ssilang.io import atomic
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
 from ssilang.messages.message import Sentence
@@ -49,7 +43,10 @@ class RunLock:
             there = self.path.stat()
         except OSError:
             return False
-        return os.path.samestat(there, os.fstat(self.handle)) and resolved(self.path) == self.path
+        return (
+            os.path.samestat(there, os.fstat(self.handle))
+            and atomic.resolved(self.path) == self.path
+        )
 
     def release(self) -> None:
         """Let another run have the folder."""
@@ -79,7 +76,7 @@ def hold(folder: Path) -> RunLock | None:
     path = folder / NAME
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
-    if resolved(folder) != folder:
+    if atomic.resolved(folder) != folder:
         raise OutputError("io.output-folder-gone", folder=folder)
     for _ in range(_TRIES):
         try:
@@ -203,8 +200,8 @@ class RunOutput:
     _flushed_at: float = 0.0
 
     def __post_init__(self) -> None:
-        self.directory, self.inputs = resolved(self.directory), resolved(self.inputs)
-        self.allowed = tuple(map(resolved, self.allowed))
+        self.directory, self.inputs = atomic.resolved(self.directory), atomic.resolved(self.inputs)
+        self.allowed = tuple(map(atomic.resolved, self.allowed))
         self.pictures = Pictures(self.directory)
 
     def target(self, name: str) -> Path | None:
@@ -216,7 +213,7 @@ class RunOutput:
             For a name that no file can have, or if the output folder is gone.
         """
         path = _place(self.directory, name)
-        if not POSIX and (reason := fault_on_windows(name)):
+        if not POSIX and (reason := atomic.fault_on_windows(name)):
             raise OutputError("io.no-such-place", name=_shown(name), reason=reason)
         self.check()
         return path if self._within(path, (self.directory, *self.allowed)) else None
@@ -297,7 +294,7 @@ class RunOutput:
     def flush(self) -> None:
         """Write the text files that have grown."""
         for path in list(self._pending):
-            write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
+            atomic.write_text(path, "".join(line + "\n" for line in self._pending.pop(path)))
         self._flushed_at = monotonic()
 
     def begin_series(
@@ -368,10 +365,10 @@ class RunOutput:
 
 def _place(folder: Path, name: str) -> Path:
     """Where a name leads, through all links."""
-    if names_foreign_drive(name):
+    if atomic.names_foreign_drive(name):
         raise OutputError("io.no-such-place", name=_shown(name), reason=Sentence("io.reason-drive"))
     try:
-        path = (folder / portable(name)).resolve()
+        path = (folder / atomic.portable(name)).resolve()
         with suppress(FileNotFoundError, NotADirectoryError):
             os.lstat(path)
         if any(map(os.path.islink, (path, *path.parents))):  # what resolve leaves is a loop

@@ -6,25 +6,9 @@ from urllib.parse import quote
 from ssilang import __version__
 from ssilang.io.atomic import inside
 from ssilang.messages.message import Teller, teller
+from ssilang.report import fragilities, sweep_table
 from ssilang.report.charts import Chart, Line, charts_html
-from ssilang.report.fragilities import (
-    asked_of,
-    fits_of,
-    floor_charts,
-    fragility_charts,
-    fragility_html,
-)
 from ssilang.report.html import asset, json_in_page, number, section, table, text
-from ssilang.report.sweep_table import (
-    MOTION,
-    Sweep,
-    edited,
-    grouped,
-    link_to,
-    real,
-    short,
-    warnings_of,
-)
 
 MOST_RUNS = 5000
 """Rows of the table."""
@@ -35,7 +19,7 @@ MOST_LINES = 12
 """Curves of a picture."""
 
 
-def sweep_page(sweep: Sweep, language: str) -> str:
+def sweep_page(sweep: sweep_table.Sweep, language: str) -> str:
     """The page.
 
     Parameters
@@ -43,14 +27,14 @@ def sweep_page(sweep: Sweep, language: str) -> str:
     language : 'en' or 'fr'
     """
     told = teller(language)
-    asked = asked_of(sweep.folder)
-    fits = [] if asked is None else fits_of(sweep, asked)
+    asked = fragilities.asked_of(sweep.folder)
+    fits = [] if asked is None else fragilities.fits_of(sweep, asked)
     charts = [
-        *fragility_charts(sweep, fits, told),
-        *floor_charts(sweep, told),
+        *fragilities.fragility_charts(sweep, fits, told),
+        *fragilities.floor_charts(sweep, told),
         *_charts(sweep, told),
     ]
-    fragility = "" if asked is None else fragility_html(sweep, fits, charts, told)
+    fragility = "" if asked is None else fragilities.fragility_html(sweep, fits, charts, told)
     body = [
         _head(sweep, told),
         section("fragility", told("report.fragility"), fragility),
@@ -79,13 +63,13 @@ def sweep_page(sweep: Sweep, language: str) -> str:
     )
 
 
-def _head(sweep: Sweep, told: Teller) -> str:
+def _head(sweep: sweep_table.Sweep, told: Teller) -> str:
     failed = sum(row["exit_code"] != "0" for row in sweep.rows)
     state = ("bad", told("report.sweep-failed", count=failed)) if failed else (
         "good", told("report.sweep-ran"))  # fmt: skip
-    if runs := edited(sweep):
+    if runs := sweep_table.edited(sweep):
         state = "bad", told("report.sweep-edited", count=len(runs), runs=runs[:MOST_LINES])
-    seconds = sum(real(row["seconds"]) or 0.0 for row in sweep.rows)
+    seconds = sum(sweep_table.real(row["seconds"]) or 0.0 for row in sweep.rows)
     cards = [
         (told("report.sweep-runs"), str(len(sweep.rows))),
         *((name, _span(sweep, name)) for name in sweep.swept),
@@ -98,47 +82,50 @@ def _head(sweep: Sweep, told: Teller) -> str:
     )
 
 
-def _span(sweep: Sweep, name: str) -> str:
+def _span(sweep: sweep_table.Sweep, name: str) -> str:
     """Values of a name: both ends of numbers, how many words."""
     values = list(dict.fromkeys(row[name] for row in sweep.rows))
-    numbers = [x for v in values if (x := real(v)) is not None]
+    numbers = [x for v in values if (x := sweep_table.real(v)) is not None]
     if len(numbers) == len(values):
         low, high = f"{min(numbers):g}", f"{max(numbers):g}"
         return low if low == high else f"{low} … {high}"
-    return short(values[0]) if len(values) == 1 else str(len(values))
+    return sweep_table.short(values[0]) if len(values) == 1 else str(len(values))
 
 
-def _warnings(sweep: Sweep, told: Teller) -> str:
+def _warnings(sweep: sweep_table.Sweep, told: Teller) -> str:
     """What runs were warned of."""
-    found = [told("cli.sweep-warning", **vars(w)) for w in warnings_of(sweep.folder, sweep.rows)]
+    found = [
+        told("cli.sweep-warning", **vars(w))
+        for w in sweep_table.warnings_of(sweep.folder, sweep.rows)
+    ]
     return f"<ul>{''.join(f'<li>{text(t)}' for t in found)}</ul>" if found else ""
 
 
-def _runs(sweep: Sweep, told: Teller) -> str:
+def _runs(sweep: sweep_table.Sweep, told: Teller) -> str:
     """The table of runs; the number of each leads to its report, or to what it printed."""
     heads = ["", *sweep.swept, *sweep.figures, told("report.seconds"), told("report.sweep-error")]
     rows = []
     for row in sweep.rows[:MOST_RUNS]:
         name = text(row["run"])
-        link = link_to(sweep.folder, row["folder"])
+        link = sweep_table.link_to(sweep.folder, row["folder"])
         error = f'<b class="bad">{text(row["error"])}</b>' if row["exit_code"] != "0" else ""
         rows.append(
             [
                 f'<a href="{link}">{name}</a>' if link else name,
-                *(text(short(row[n])) for n in sweep.swept),
-                *(number(real(row[n])) or text(row[n]) for n in sweep.figures),
-                number(real(row["seconds"])),
+                *(text(sweep_table.short(row[n])) for n in sweep.swept),
+                *(number(sweep_table.real(row[n])) or text(row[n]) for n in sweep.figures),
+                number(sweep_table.real(row["seconds"])),
                 error,
             ]
         )
     note = ""
     if len(sweep.rows) > MOST_RUNS:
         note = f"<p class=note>{text(told('report.sweep-rows-left', count=MOST_RUNS))}</p>"
-    plain = [i for i in range(1, len(heads) - 1) if heads[i] != MOTION]
+    plain = [i for i in range(1, len(heads) - 1) if heads[i] != sweep_table.MOTION]
     return note + table(heads, rows, [0, *plain])
 
 
-def _histories(sweep: Sweep, told: Teller) -> str:
+def _histories(sweep: sweep_table.Sweep, told: Teller) -> str:
     """Joined tables."""
     folder = sweep.folder / "histories"
     found = sorted(p for p in folder.glob("*") if inside(sweep.folder, f"histories/{p.name}"))
@@ -154,7 +141,7 @@ def _histories(sweep: Sweep, told: Teller) -> str:
     return f"<p class=note>{text(told('report.sweep-joined'))}</p>" + table(("", ""), rows, (1,))
 
 
-def _charts(sweep: Sweep, told: Teller) -> list[Chart]:
+def _charts(sweep: sweep_table.Sweep, told: Teller) -> list[Chart]:
     """One picture a figure over the first name that takes several numbers."""
     axis = next((n for n in sweep.swept if _varies(sweep, n)), None)
     if axis is None:
@@ -162,7 +149,7 @@ def _charts(sweep: Sweep, told: Teller) -> list[Chart]:
     others = [n for n in sweep.swept if n != axis]
     made = []
     for figure in sweep.figures:
-        groups = grouped(sweep.rows, axis, figure, others)
+        groups = sweep_table.grouped(sweep.rows, axis, figure, others)
         lines = [Line(label or figure, x, y) for label, (x, y) in groups.items()]
         left = len(lines) - MOST_LINES
         title = figure if left <= 0 else f"{figure} ({told('report.sweep-lines-left', count=left)})"
@@ -171,6 +158,6 @@ def _charts(sweep: Sweep, told: Teller) -> list[Chart]:
     return made
 
 
-def _varies(sweep: Sweep, name: str) -> bool:
-    values = {real(row[name]) for row in sweep.rows}
+def _varies(sweep: sweep_table.Sweep, name: str) -> bool:
+    values = {sweep_table.real(row[name]) for row in sweep.rows}
     return None not in values and len(values) > 1

@@ -11,21 +11,13 @@ from ssilang.cli.checking.kinds import (
     UNKNOWN,
     Ambiguous,
     AnyWord,
+    Scope,
     kind_word,
     known_model,
     one_of,
     typed,
 )
-from ssilang.cli.checking.scope import Scope
-from ssilang.language import vocabulary
-from ssilang.language.registry import (
-    OPERATORS,
-    SCALAR_RULES,
-    Operator,
-    When,
-    find_operator,
-    keywords_of,
-)
+from ssilang.language import registry, vocabulary
 from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call, is_operator
@@ -82,9 +74,9 @@ class AbstractCall(Call):
             raise Ambiguous
         return super().take_name(optional)
 
-    met: When | None = None  # condition that the session is taken to meet
+    met: registry.When | None = None  # condition that the session is taken to meet
 
-    def meets(self, when: When) -> bool:
+    def meets(self, when: registry.When) -> bool:
         return when is self.met
 
     def main_operand(self, *types: str) -> int | None:
@@ -149,7 +141,7 @@ class PhraseReader:
         operand = call.operands[i]
         if operand.result and len(call.operands) == 1:
             return False
-        found = find_operator(str(operand.value).rstrip())
+        found = registry.find_operator(str(operand.value).rstrip())
         if found is None:
             return False
         del call.operands[i]
@@ -157,7 +149,7 @@ class PhraseReader:
         self._operate(found, operand, call)
         return not found.terminal
 
-    def _operate(self, found: Operator, operand: Operand, call: AbstractCall) -> None:
+    def _operate(self, found: registry.Operator, operand: Operand, call: AbstractCall) -> None:
         if found.name in SIGNS.split() or found.name in _COMPARISONS:
             self._sign(found.name, operand, call)
             return
@@ -168,7 +160,7 @@ class PhraseReader:
         bound = self._bound(found, call)
         results = results_of(bound.form, bound.values)
         if bound.form.by_hand:
-            self._free(results, operand, call, frozenset(keywords_of(found)))
+            self._free(results, operand, call, frozenset(registry.keywords_of(found)))
             return
         self._push(results, operand.span, call)
         foresee = _FORESEEN.get(found.name)
@@ -212,7 +204,7 @@ class PhraseReader:
         del self.session.warnings[before:]
 
     @staticmethod
-    def _bound(found: Operator, call: AbstractCall) -> Bound:
+    def _bound(found: registry.Operator, call: AbstractCall) -> Bound:
         """The form meant. What the session meets is not known: all that fits must do the same."""
         whens = tuple({id(f.when): f.when for f in found.forms if f.when is not None}.values())
         start, problem = list(call.operands), None
@@ -241,7 +233,11 @@ class PhraseReader:
             if other.value is UNKNOWN or isinstance(other.value, Procedure | AnyWord):
                 raise Ambiguous
             ours = isinstance(other.value, Mot) and str(other.value).upper()[:4] in own
-            if isinstance(other.value, Mot) and not ours and find_operator(str(other.value)):
+            if (
+                isinstance(other.value, Mot)
+                and not ours
+                and registry.find_operator(str(other.value))
+            ):
                 raise Ambiguous
         if not results:
             raise Ambiguous  # what it leaves unread is not known
@@ -306,7 +302,7 @@ class PhraseReader:
         """Value of a sign on two operands, as far as it is known."""
         if type(a) in (int, float) and type(b) in (int, float):
             try:
-                value = SCALAR_RULES[sign](a, b)
+                value = registry.SCALAR_RULES[sign](a, b)
             except (ArithmeticError, ValueError, TypeError):
                 return UNKNOWN
             if sign == "/" and type(value) is int and b and a % b:
@@ -388,7 +384,7 @@ class PhraseReader:
         procedure = self.session.library.find(item.text)
         if procedure is not None:
             return Operand(procedure, item.span, item.text)
-        if scope.open and find_operator(item.text) is None:
+        if scope.open and registry.find_operator(item.text) is None:
             return Operand(UNKNOWN, item.span, item.text)
         return Operand(Mot(item.word), item.span)
 
@@ -454,12 +450,12 @@ def _only_unknown_is_mesh(call: AbstractCall) -> None:
 
 def _unknown_is_value(call: AbstractCall) -> None:
     """What stands behind a word of MATE that is neither keyword nor operator is a value."""
-    keywords = {word[:4].rstrip() for word in keywords_of(OPERATORS["MATE"])}
+    keywords = {word[:4].rstrip() for word in registry.keywords_of(registry.OPERATORS["MATE"])}
     for name, operand in pairwise(call.operands):
         if operand.value is not UNKNOWN or not isinstance(name.value, Mot) or name.result:
             continue
         word = str(name.value).upper().rstrip()
-        own = word in vocabulary.names("parameter") or find_operator(word) is None
+        own = word in vocabulary.names("parameter") or registry.find_operator(word) is None
         if own and name.value is not ANY_WORD and word[:4] not in keywords:
             operand.value = typed("FLOTTANT")
 

@@ -10,7 +10,7 @@ last check met, so that what is remembered never grows beyond a text.
 from collections.abc import Hashable, Iterable, Iterator
 from typing import Any
 
-from ssilang.cli.checking.scope import Scope
+from ssilang.cli.checking.kinds import Scope
 from ssilang.language.run.library import Library
 from ssilang.language.run.session import Session
 from ssilang.language.text import tree

@@ -4,9 +4,8 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from ssilang.cli.checking.kinds import SOMETHING, UNKNOWN, kind_word, typed
+from ssilang.cli.checking.kinds import SOMETHING, UNKNOWN, Scope, assigned_names, kind_word, typed
 from ssilang.cli.checking.phrases import PhraseReader
-from ssilang.cli.checking.scope import Scope, assigned_names
 from ssilang.cli.checking.sound import SoundStatements, Values
 from ssilang.cli.checking.tables import doubtful_entries
 from ssilang.cli.checking.usage import (

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Literal
 
-from ssilang.cli.editor.document import Document, Place
-from ssilang.cli.editor.tables import entries_at, suiting
+from ssilang.cli.editor.document import Document, Place, entries_at, suiting
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.language import vocabulary
 from ssilang.language.registry import keywords_of, operators_by_family

@@ -3,10 +3,9 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from ssilang.cli.editor.document import Document, Place, knows
+from ssilang.cli.editor.document import Document, Place, entries_at, knows
 from ssilang.cli.editor.names import Occurrence
 from ssilang.cli.editor.problems import Findings
-from ssilang.cli.editor.tables import entries_at
 from ssilang.language import vocabulary
 from ssilang.language.registry import Keyword, Operator, Select, keywords_in
 from ssilang.language.run.library import Library

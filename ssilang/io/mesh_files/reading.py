@@ -7,19 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.mesh_files import foreign
 from ssilang.io.mesh_files.abaqus import read_abaqus
 from ssilang.io.mesh_files.file_mesh import FileMesh
-from ssilang.io.mesh_files.foreign import (
-    FOREIGN,
-    NAMES,
-    foreign_mesh,
-    library,
-    read_foreign,
-    vtk_order,
-)
 from ssilang.io.mesh_files.geo import read_geo
-from ssilang.io.mesh_files.stl import read_stl
-from ssilang.io.mesh_files.unv import read_unv
+from ssilang.io.mesh_files.unv_stl import read_stl, read_unv
 
 
 @dataclass(frozen=True)
@@ -53,7 +45,7 @@ _OWN: dict[str, tuple[tuple[str, ...], Callable[[Path, Asked], FileMesh]]] = {
     "STL": ((".stl",), _stl),
     "GEO": ((".geo",), lambda path, asked: read_geo(path, asked.dimension)),
 }
-ENDINGS = {e: kind for kind, f in FOREIGN.items() for e in f.endings} | {
+ENDINGS = {e: kind for kind, f in foreign.FOREIGN.items() for e in f.endings} | {
     e: kind for kind, (endings, _) in _OWN.items() for e in endings
 }
 """Formats by the ending of the file."""
@@ -72,7 +64,7 @@ def read_mesh_file(path: Path, kind: str, asked: Asked) -> FileMesh:
     InputError
         If it cannot be read, or a library for it is missing.
     """
-    return _OWN[kind][1](path, asked) if kind in _OWN else read_foreign(path, kind)
+    return _OWN[kind][1](path, asked) if kind in _OWN else foreign.read_foreign(path, kind)
 
 
 def mesh_with_fields(path: Path, kind: str) -> Any:
@@ -80,13 +72,13 @@ def mesh_with_fields(path: Path, kind: str) -> Any:
 
     Of other formats the cells have `part`, the last named part that has them, from 1.
     """
-    if kind in FOREIGN:
-        return foreign_mesh(path, kind)
+    if kind in foreign.FOREIGN:
+        return foreign.foreign_mesh(path, kind)
     read = read_mesh_file(path, kind, Asked())
-    cells = [(NAMES[k], rows[:, vtk_order(k)]) for k, rows in read.cells.items()]
+    cells = [(foreign.NAMES[k], rows[:, foreign.vtk_order(k)]) for k, rows in read.cells.items()]
     numbers = {k: np.zeros(len(rows)) for k, rows in read.cells.items()}
     for number, part in enumerate(read.parts.values(), 1):
         for k, rows in part.cells.items():
             numbers[k][rows] = number
     data = {"part": list(numbers.values())} if read.parts else None
-    return library().Mesh(read.points, cells, cell_data=data)
+    return foreign.library().Mesh(read.points, cells, cell_data=data)

@@ -15,12 +15,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.contact.unilateral import ContactOptions
-from ssilang.kernel.interface.response import (
-    accept,
-    interface_response,
-    interface_stiffness,
-    new_trial,
-)
+from ssilang.kernel.interface import response
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 from ssilang.kernel.solvers.active_set.coulomb import CoulombProblem, solve_coulomb
@@ -138,7 +133,7 @@ class ContactSolver:
         joints, e, seen = self.interface, self.effective, self.contact.seen
         assert joints is not None
         SJP, SGJ = joints.J @ self.Y, seen @ e.Y
-        trial, found = new_trial(motion.w.shape, joints.size), motion.contact.copy()
+        trial, found = response.new_trial(motion.w.shape, joints.size), motion.contact.copy()
         now = motion.joints
         y0, y = trial.y0, trial.y
         y0[:] = joints.J @ du
@@ -146,16 +141,16 @@ class ContactSolver:
         K = np.zeros((joints.size, joints.size))
         residual = np.inf
         for turn in range(1, MOST_TURNS + 1):
-            interface_response(joints.points, motion.state, motion.delta + y, trial)
+            response.interface_response(joints.points, motion.state, motion.delta + y, trial)
             h = self.share * (trial.f - motion.f) - e.R @ y
             rest = y - (y0 - e.S @ h + SJP @ found)
             scale = max(np.abs(y).max(), np.abs(motion.delta).max(), np.abs(y0).max(), 1e-300)
             residual = float(np.abs(rest).max() / scale)
             if turn > 1 and residual <= TOLERANCE:
                 motion.contact[:] = found
-                accept(trial, now)
+                response.accept(trial, now)
                 return StepOutcome(du - e.Y @ h + self.Y @ found, turn, residual)
-            interface_stiffness(joints.points, trial.D, K)
+            response.interface_stiffness(joints.points, trial.D, K)
             tangent = self.share * K - e.R
             inverse = np.linalg.inv(np.eye(joints.size) + e.S @ tangent)
             # y = base + slope forces with the law linearised

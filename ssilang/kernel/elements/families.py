@@ -7,6 +7,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
+from ssilang.kernel.elements import zone_fields
 from ssilang.kernel.elements.beams.bar import Bar, Hoop
 from ssilang.kernel.elements.beams.beam import Beam, FibreBeam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_section import Fibre
@@ -22,18 +23,8 @@ from ssilang.kernel.elements.shells.meridian_shell import MeridianShell
 from ssilang.kernel.elements.shells.plate import Mindlin, Plate
 from ssilang.kernel.elements.shells.solid_shell import SolidShell
 from ssilang.kernel.elements.shells.thick_shell import ThickShell
+from ssilang.kernel.elements.solids import solid_moduli
 from ssilang.kernel.elements.solids.solid import Incompressible, OnePoint, Solid
-from ssilang.kernel.elements.solids.solid_moduli import (
-    inverted,
-    moduli_from_field,
-    solid_compliance,
-)
-from ssilang.kernel.elements.zone_fields import (
-    ZoneField,
-    missing_parameter,
-    none_of,
-    zone_field,
-)
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -85,9 +76,9 @@ def family_of(zone: Zone) -> ElementFamily:
     return family
 
 
-def moduli_of(zone: Zone, material: ZoneField, support: Support) -> FloatArray:
+def moduli_of(zone: Zone, material: zone_fields.ZoneField, support: Support) -> FloatArray:
     """Moduli from a field of Hooke matrices if there is one, else from parameters."""
-    given = moduli_from_field(zone, material, support)
+    given = solid_moduli.moduli_from_field(zone, material, support)
     return family_of(zone).moduli(zone, material, support) if given is None else given
 
 
@@ -105,7 +96,7 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
     MaterialError
         For a missing or inadmissible parameter.
     """
-    family, parameters = family_of(zone), zone_field(zone, material)
+    family, parameters = family_of(zone), zone_fields.zone_field(zone, material)
     whole = family.whole_matrices(zone, parameters, "RIGIDITE")
     if whole is not None:
         return element_matrices(zone, whole[1], whole[0], "RIGIDITE")
@@ -130,12 +121,12 @@ def unlike(given: Iterable[ElementMatrices], zone: Zone, material: CellField) ->
 
 def viscosity(zone: Zone, material: CellField) -> ElementMatrices:
     """Viscous damping of a zone: its stiffness with VISQ in the place of YOUN, or dashpots."""
-    family, given = family_of(zone), zone_field(zone, material)
+    family, given = family_of(zone), zone_fields.zone_field(zone, material)
     whole = family.whole_matrices(zone, given, "AMORTISSEMENT")
     if whole is not None:
         return element_matrices(zone, whole[1], whole[0], "AMORTISSEMENT", keep_zone=False)
     if "VISQ" not in given and "MATS" not in given:
-        raise missing_parameter(zone, "VISQ", given.names)
+        raise zone_fields.missing_parameter(zone, "VISQ", given.names)
     parameters = renamed(given, {"VISQ": "YOUN"})
     moduli = family.moduli(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)
@@ -148,7 +139,7 @@ def mass(zone: Zone, material: CellField, lumped: bool = False) -> ElementMatric
     Lumping sums rows for linear continuous elements and bars; elsewhere it scales the diagonal
     so that the total mass in each direction is kept (Hinton, Rock, Zienkiewicz 1976).
     """
-    family, parameters = family_of(zone), zone_field(zone, material)
+    family, parameters = family_of(zone), zone_fields.zone_field(zone, material)
     values, layout = family.mass_values(zone, parameters)
     if lumped:
         rotations = np.array([u.startswith("R") for u in layout.unknowns])
@@ -189,7 +180,7 @@ def geometric_stiffness(
     """Geometric stiffness of a stress field."""
     family = family_of(zone)
     values = components_of(zone, stress, family.stress_names(zone))
-    matrices = family.geometric_values(zone, values, zone_field(zone, material))
+    matrices = family.geometric_values(zone, values, zone_fields.zone_field(zone, material))
     return element_matrices(zone, family.layout(zone), matrices, "RIGIDITE", keep_zone=False)
 
 
@@ -198,13 +189,13 @@ def strain(
 ) -> CellFieldBlock:
     """Strains at the points of 'STRESSES'."""
     family = family_of(zone)
-    values = family.strain_values(zone, displacement, zone_field(zone, material))
+    values = family.strain_values(zone, displacement, zone_fields.zone_field(zone, material))
     return cell_block(zone, family.strain_names(zone), values)
 
 
 def stress(zone: Zone, material: CellField, displacement: NodeField) -> CellFieldBlock:
     """Elastic stresses (section forces for bars and beams) at the points of 'STRESSES'."""
-    family, parameters = family_of(zone), zone_field(zone, material)
+    family, parameters = family_of(zone), zone_fields.zone_field(zone, material)
     moduli = moduli_of(zone, parameters, "STRESSES")
     values = family.stress_values(zone, displacement, moduli, parameters)
     return cell_block(zone, family.stress_names(zone), values)
@@ -212,7 +203,7 @@ def stress(zone: Zone, material: CellField, displacement: NodeField) -> CellFiel
 
 def elastic_stress(zone: Zone, material: CellField, strains: CellField) -> CellFieldBlock:
     """Stresses of given strains."""
-    family, parameters = family_of(zone), zone_field(zone, material)
+    family, parameters = family_of(zone), zone_fields.zone_field(zone, material)
     moduli = moduli_of(zone, parameters, "STRESSES")
     values = apply_moduli(moduli, components_of(zone, strains, family.strain_names(zone)))
     return cell_block(zone, family.stress_names(zone), values)
@@ -226,20 +217,20 @@ def elastic_strain(zone: Zone, material: CellField, stresses: CellField) -> Cell
     MaterialError
         If the moduli cannot be inverted (a beam whose shear is neglected).
     """
-    family, parameters = family_of(zone), zone_field(zone, material)
+    family, parameters = family_of(zone), zone_fields.zone_field(zone, material)
     compliance = compliance_of(zone, parameters)
     values = apply_moduli(compliance, components_of(zone, stresses, family.stress_names(zone)))
     return cell_block(zone, family.strain_names(zone), values)
 
 
-def compliance_of(zone: Zone, parameters: ZoneField) -> FloatArray:
+def compliance_of(zone: Zone, parameters: zone_fields.ZoneField) -> FloatArray:
     """Compliance (n_cells or 1, n_points or 1, s, s) at the points of 'STRESSES'."""
     family = family_of(zone)
     if isinstance(family, Solid) and "MAHO" not in parameters:
-        return solid_compliance(zone, parameters, "STRESSES")
+        return solid_moduli.solid_compliance(zone, parameters, "STRESSES")
     if isinstance(family, Solid) and zone.mode is Mode.PLANE_STRESS:
         raise MaterialError("kernel.elements.hooke-matrix-of-plane-stress", element=zone.element)
-    return inverted(zone, moduli_of(zone, parameters, "STRESSES"))
+    return solid_moduli.inverted(zone, moduli_of(zone, parameters, "STRESSES"))
 
 
 def internal_forces(
@@ -248,7 +239,7 @@ def internal_forces(
     """Nodal forces in balance with a stress field (BSIG)."""
     family = family_of(zone)
     values = components_of(zone, stresses, family.stress_names(zone))
-    vectors = family.force_vectors(zone, values, zone_field(zone, material))
+    vectors = family.force_vectors(zone, values, zone_fields.zone_field(zone, material))
     return family.layout(zone).scatter(vectors)
 
 
@@ -256,7 +247,7 @@ def integration_weights(
     zone: Zone, support: Support, material: CellField | None = None
 ) -> FloatArray:
     """Weights (n_cells, n_points) that integrate over a zone (thickness or 2 pi r included)."""
-    return family_of(zone).weights(zone, zone_field(zone, material), support)
+    return family_of(zone).weights(zone, zone_fields.zone_field(zone, material), support)
 
 
 def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
@@ -271,18 +262,18 @@ def inelastic(names: tuple[str, ...]) -> tuple[str, ...]:
 
 def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:
     """Components (n_cells, n_names, n_points) at 'STRESSES', zero where absent."""
-    seen = zone_field(zone, field)
+    seen = zone_fields.zone_field(zone, field)
     if not any(name in seen for name in names):
-        raise none_of(names, zone, seen)
+        raise zone_fields.none_of(names, zone, seen)
     return seen.matrix(names, "STRESSES")
 
 
-def renamed(parameters: ZoneField, names: dict[str, str]) -> ZoneField:
+def renamed(parameters: zone_fields.ZoneField, names: dict[str, str]) -> zone_fields.ZoneField:
     """The same field with some components under other names (others of that name are dropped)."""
     parts = []
     for block, rows in parameters.parts:
         parts.append((_renamed(block, names), rows))
-    return ZoneField(parameters.zone, tuple(parts))
+    return zone_fields.ZoneField(parameters.zone, tuple(parts))
 
 
 def _renamed(block: CellFieldBlock, names: dict[str, str]) -> CellFieldBlock:

@@ -13,13 +13,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.matrices.matrix import (
-    PRIMAL_TO_DUAL,
-    ElementMatrices,
-    Matrix,
-    Relations,
-    dual_of,
-)
+from ssilang.kernel.matrices import matrix
 from ssilang.kernel.mesh.nodes import NodeTable
 
 _ROUNDING = 1e-14  # of the largest coefficient: what a sum of others leaves
@@ -62,7 +56,7 @@ class Term:
     nodes: IntArray
 
 
-def relation_rows(table: NodeTable, terms: Sequence[Term], sense: int = 0) -> Relations:
+def relation_rows(table: NodeTable, terms: Sequence[Term], sense: int = 0) -> matrix.Relations:
     """Row i: the sum of the terms at their i-th nodes.
 
     Raises
@@ -88,7 +82,7 @@ def rows_from_table(
     coefficients: FloatArray,
     sense: int = 0,
     multipliers: IntArray | None = None,
-) -> Relations:
+) -> matrix.Relations:
     """Rows with the same unknowns: nodes and coefficients (n_rows, n_terms); zeros are dropped.
 
     Multiplier nodes (n_rows,) are made where none are given.
@@ -108,14 +102,14 @@ def rows_from_table(
     names = np.array(unknowns, dtype=object)
     where = np.broadcast_to(np.arange(len(unknowns)), kept.shape)[kept]
     own = _multiplier_nodes(table, nodes[:, 0]) if multipliers is None else multipliers
-    return Relations(
+    return matrix.Relations(
         table, np.concatenate([[0], np.cumsum(counts)]).astype(np.int64), nodes[kept],
         tuple(names[where]), np.asarray(coefficients[kept], dtype=float), own,
         np.full(len(nodes), sense, dtype=np.int8),
     )  # fmt: skip
 
 
-def saying_nothing(relations: Relations) -> IntArray:
+def saying_nothing(relations: matrix.Relations) -> IntArray:
     """Rows whose coefficients cancel: unknowns of theirs that stand there twice, of other signs."""
     rows = np.repeat(np.arange(len(relations)), np.diff(relations.row_start))
     names = np.unique(relations.unknowns, return_inverse=True)[1]
@@ -140,10 +134,10 @@ def _multiplier_nodes(table: NodeTable, beside: IntArray) -> IntArray:
     return table.add(table.coordinates[table.resolve(beside)].copy())
 
 
-def joined(parts: Sequence[Relations]) -> Relations:
+def joined(parts: Sequence[matrix.Relations]) -> matrix.Relations:
     """Rows of all parts (at least one), one after the other, in one object."""
     starts = np.concatenate([[0], *(np.diff(p.row_start) for p in parts)]).cumsum()
-    return Relations(
+    return matrix.Relations(
         parts[0].table,
         starts.astype(np.int64),
         np.concatenate([p.raw_nodes for p in parts]),
@@ -156,7 +150,7 @@ def joined(parts: Sequence[Relations]) -> Relations:
 
 def blocked(
     table: NodeTable, nodes: IntArray, unknowns: Sequence[str], sense: int = 0
-) -> Relations:
+) -> matrix.Relations:
     """`u = d` for each unknown at each node: rows by unknown, then by node."""
     return joined([relation_rows(table, [Term(1.0, u, nodes)], sense) for u in unknowns])
 
@@ -167,7 +161,7 @@ def blocked_along(
     unknowns: Sequence[str],
     directions: FloatArray,
     sense: int = 0,
-) -> Relations:
+) -> matrix.Relations:
     """`u . direction = d` with directions (n_nodes, dim) or (dim,), made of length one.
 
     Raises
@@ -213,7 +207,9 @@ def orthoradial_directions(radial: FloatArray, axis: FloatArray | None) -> Float
     return np.cross(turn, radial)
 
 
-def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = None) -> Relations:
+def from_field(
+    field: NodeField, sense: int = 0, multiplier: IntArray | None = None
+) -> matrix.Relations:
     """One row: the sum of all values of a field times the unknowns of their names.
 
     Raises
@@ -229,7 +225,7 @@ def from_field(field: NodeField, sense: int = 0, multiplier: IntArray | None = N
     if len(nodes) == 0:
         raise FieldError("kernel.matrices.field-relation-no-coefficient")
     own = _multiplier_nodes(field.table, nodes[:1]) if multiplier is None else multiplier
-    return Relations(
+    return matrix.Relations(
         field.table, np.array([0, len(nodes)]), nodes,
         tuple(name for name, n, _ in parts for _ in n), np.concatenate([v for _, _, v in parts]),
         own, np.array([sense], dtype=np.int8),
@@ -241,7 +237,7 @@ def primal_names(field: NodeField) -> NodeField:
 
     Components that are no force's names stay as they are.
     """
-    names = {dual: primal for primal, dual in PRIMAL_TO_DUAL.items()}
+    names = {dual: primal for primal, dual in matrix.PRIMAL_TO_DUAL.items()}
     parts = {names.get(name, name): part for name, part in field.components.items()}
     return NodeField(field.table, parts, field.nature)
 
@@ -284,7 +280,7 @@ def mirror_rows(
     displacement: Sequence[str],
     rotation: Sequence[str],
     mirrored: bool,
-) -> Relations:
+) -> matrix.Relations:
     """Conditions on a plane of symmetry (`mirrored`) or antisymmetry.
 
     Symmetry holds the displacement along the normal and the rotations about the axes in the
@@ -323,7 +319,7 @@ def across(vectors: FloatArray) -> list[FloatArray]:
 def springs(
     table: NodeTable, nodes: IntArray, unknowns: Sequence[str], stiffness: float,
     directions: FloatArray | None = None,
-) -> Matrix:  # fmt: skip
+) -> matrix.Matrix:  # fmt: skip
     """A spring of the given stiffness at each node on each unknown, or along a direction.
 
     `directions` (n, dim) or (dim,) are made of length one.
@@ -335,8 +331,8 @@ def springs(
         d = np.broadcast_to(directions, (len(nodes), m))
         d = d / np.linalg.norm(d, axis=1, keepdims=True)
         values = d[:, :, None] * d[:, None, :]
-    block = ElementMatrices(
+    block = matrix.ElementMatrices(
         table, np.asarray(nodes)[:, None], np.zeros(m, dtype=np.int64), tuple(unknowns),
-        tuple(dual_of(u) for u in unknowns), stiffness * values,
+        tuple(matrix.dual_of(u) for u in unknowns), stiffness * values,
     )  # fmt: skip
-    return Matrix(table, (block,))
+    return matrix.Matrix(table, (block,))

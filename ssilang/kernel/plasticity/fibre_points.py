@@ -5,13 +5,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements.beams import fibre_section
 from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
-from ssilang.kernel.elements.beams.fibre_section import (
-    STRESSES,
-    FibreSection,
-    SectionZone,
-    section_of_beam,
-)
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -46,7 +41,7 @@ class FibreGroup:
         What `tiled` made.
     """
 
-    part: SectionZone
+    part: fibre_section.SectionZone
     law: PlasticLaw
     parameters: PointParameters
     shear: FloatArray
@@ -91,7 +86,7 @@ class FibreGroup:
         return self.kept[n]
 
 
-def fibre_groups(section: FibreSection) -> tuple[FibreGroup, ...]:
+def fibre_groups(section: fibre_section.FibreSection) -> tuple[FibreGroup, ...]:
     """The fibres of a section by zone, with the law of each."""
     groups = []
     for part in section.zones:
@@ -157,7 +152,7 @@ def section_fields(
         rows, zone = group.part.rows, group.part.zone
         shape = (len(zone.cells), -1)
         own = [stress[rows, c].reshape(shape) for c in COMPONENTS]
-        stresses.append(cell_block(zone, STRESSES, np.stack(own, axis=1)))
+        stresses.append(cell_block(zone, fibre_section.STRESSES, np.stack(own, axis=1)))
         names = group.law.variables
         if names:
             kept = [variables[rows, k].reshape(shape) for k in range(len(names))]
@@ -188,7 +183,7 @@ class FibreParameters(PointParameters):
 class FibrePoints(PlasticPoints):
     """Points (n_cells, n_fibres) of beams; results are forces of sections."""
 
-    fibres: FibreSection
+    fibres: fibre_section.FibreSection
 
     def stress_block(self, state: PointState) -> CellFieldBlock:
         """Forces and moments of the sections."""
@@ -226,7 +221,7 @@ class FibrePoints(PlasticPoints):
         for c in range(n):
             for group in _groups(self):
                 zone, rows = group.part.zone, group.part.rows
-                own = zone_field(zone, fields[0][c, 0]).matrix(STRESSES, "STRESSES")
+                own = zone_field(zone, fields[0][c, 0]).matrix(fibre_section.STRESSES, "STRESSES")
                 sigma[c, :, rows] = own.transpose(1, 0, 2).reshape(3, -1)
                 names = group.law.variables
                 if names:
@@ -252,7 +247,7 @@ def fibre_points(zone: Zone, characteristics: CellField) -> FibrePoints:
     """
     given = zone_field(zone, characteristics)
     family = family_of(zone)
-    section = section_of_beam(given)
+    section = fibre_section.section_of_beam(given)
     groups = fibre_groups(section)
     law = SectionLaw(groups, len(section.areas))
     inner = tuple(f"V{i}" for i in range(law.width))

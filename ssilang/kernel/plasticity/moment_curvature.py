@@ -10,12 +10,7 @@ from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.elements.beams.fibre_section import FibreSection
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.plastic.uniaxial import Along
-from ssilang.kernel.plasticity.fibre_points import (
-    FibreGroup,
-    SectionLaw,
-    fibre_groups,
-    section_fields,
-)
+from ssilang.kernel.plasticity import fibre_points
 
 TURNS = 200
 SOFT = 0.01  # of the elastic stiffness: slopes that lead too far
@@ -38,7 +33,7 @@ class BentSection:
 
     moments: FloatArray
     strains: FloatArray
-    groups: tuple[FibreGroup, ...]
+    groups: tuple[fibre_points.FibreGroup, ...]
     ends: list[Along]
 
     def fields(self) -> tuple[list[CellField], list[CellField]]:
@@ -47,7 +42,7 @@ class BentSection:
         for end in self.ends:
             stress = np.zeros((len(end.stress), 6))
             stress[:, 0] = end.stress
-            found.append(section_fields(self.groups, stress, end.variables))
+            found.append(fibre_points.section_fields(self.groups, stress, end.variables))
         return [s for s, _ in found], [v for _, v in found]
 
 
@@ -70,9 +65,9 @@ def bend(
     ConvergenceError
         If the section cannot carry the normal force.
     """
-    groups = fibre_groups(section)
+    groups = fibre_points.fibre_groups(section)
     f = len(section.areas)
-    law = SectionLaw(groups, f)
+    law = fibre_points.SectionLaw(groups, f)
     y, z = section.places.T
     end = Along(np.zeros(f), np.zeros((f, law.width)), np.zeros(f))
     eps, bent = 0.0, np.zeros(2)

@@ -19,11 +19,7 @@ from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps, leaves, memory, rebuilt, recall
 from ssilang.kernel.stepping.newmark import newmark_of
-from ssilang.kernel.stepping.problem.initial import (
-    admissible_velocity,
-    closed_at_start,
-    motion_at_rest,
-)
+from ssilang.kernel.stepping.problem import initial
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import (
     SparseLoop,
@@ -81,7 +77,7 @@ class BulkRun:
         self.force, self._energy = self.bulk.force(self.state), (self.state, np.nan)
         if p.scheme.conserving or p.scheme.adaptive:
             raise KernelError("kernel.plasticity.plastic-bodies-stepped-newmark")
-        self.motion = motion_at_rest(p)
+        self.motion = initial.motion_at_rest(p)
         self.motion.energies[ELASTIC] += self.stored()
 
     def stored(self) -> float:
@@ -293,9 +289,9 @@ def _start(run: BulkRun, factors: FloatArray) -> None:
     from ssilang.kernel.stepping.problem.initial import accelerated, with_contact
 
     p, m = run.problem, run.motion
-    m.v[:] = admissible_velocity(p)
+    m.v[:] = initial.admissible_velocity(p)
     rest = run.imbalance(run.force, factors) + p.C @ m.v
-    m.a[:], m.contact[:] = with_contact(p, m.v, accelerated(p, -rest), closed_at_start(p))
+    m.a[:], m.contact[:] = with_contact(p, m.v, accelerated(p, -rest), initial.closed_at_start(p))
     m.reaction[:] = rest + p.M @ m.a
     m.energies[0] = 0.5 * m.v @ (p.M @ m.v)
 
@@ -317,7 +313,7 @@ class _BulkLoop(SparseLoop):
         super().__init__(run.problem, run.motion)
         self.bulk_run = run
         self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
-        self._closed = closed_at_start(run.problem)
+        self._closed = initial.closed_at_start(run.problem)
         self._increments = np.zeros((0, run.problem.numbering.size))
         self._carries = type(run.bulk) is Bulk and run.problem.contact is None
         self._begin()

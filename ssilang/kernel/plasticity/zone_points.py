@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, MaterialError
+from ssilang.kernel.elements import zone_fields
 from ssilang.kernel.elements.beams.beam import paired
 from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
@@ -19,10 +20,6 @@ from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.tensors import LEVERS, SHELLS, section_form
 from ssilang.kernel.elements.shapes.geometry import chunks
-from ssilang.kernel.elements.zone_fields import (
-    ZoneField,
-    zone_field,
-)
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Mode, Zone
@@ -56,7 +53,7 @@ BENT = ("beam", "pipe")
 class EndPoints(PlasticPoints):
     """Points at both ends of beams; forces and work are those of what is linear between them."""
 
-    characteristics: ZoneField
+    characteristics: zone_fields.ZoneField
 
     def paired(self, full: FloatArray) -> FloatArray:
         """Two thirds of an end's values (m, ...) and one of the other end's."""
@@ -90,7 +87,7 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     """
     kind, family, law = ELEMENTS[zone.element].family, family_of(zone), plastic_law(zone.behaviour)
     assert law is not None
-    given = zone_field(zone, characteristics)
+    given = zone_fields.zone_field(zone, characteristics)
     if zone.mode is Mode.FOURIER:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     if kind in ("beam", "timoshenko") and not any(d in given for d, _ in LEVERS.values()):
@@ -144,7 +141,7 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         return section_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
-    given = zone_field(zone, characteristics)
+    given = zone_fields.zone_field(zone, characteristics)
     bar, thick = (ELEMENTS[zone.element].family in n for n in (("bar", "hoop"), ("thick",)))
     if not bar and zone.mode not in COMPONENTS:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)

@@ -19,18 +19,7 @@ from ssilang.kernel.elements.springs import dynamic_stiffness
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.matrices.assembly import (
-    ConstraintRows,
-    Numbering,
-    assemble,
-    assemble_blocks,
-    constraint_matrix,
-    field_to_vector,
-    imposed_values,
-    numbering_of,
-    outside,
-    vector_to_field,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
 from ssilang.kernel.stepping.problem.loading import is_mechanical, terms_of
 
@@ -95,12 +84,16 @@ class _System:
         self.springs = inputs.springs
         matrices = [m for m in (inputs.stiffness, inputs.mass, inputs.damping) if m is not None]
         here = Matrix(inputs.stiffness.table, tuple(b for b, _ in self._spring_blocks(1.0)))
-        self.numbering = numbering_of(*matrices, here)
-        self.rows: ConstraintRows = constraint_matrix(inputs.stiffness, self.numbering)
+        self.numbering = assembly.numbering_of(*matrices, here)
+        self.rows: assembly.ConstraintRows = assembly.constraint_matrix(
+            inputs.stiffness, self.numbering
+        )
         if self.rows.sense.any():
             raise KernelError("kernel.statics.unilateral-condition-no-harmonic")
         self.K, self.M, self.C = (
-            sp.csr_array((self.numbering.size,) * 2) if m is None else assemble(m, self.numbering)
+            sp.csr_array((self.numbering.size,) * 2)
+            if m is None
+            else assembly.assemble(m, self.numbering)
             for m in (inputs.stiffness, inputs.mass, inputs.damping)
         )
         self.loads = list(_loads(inputs.load, self.numbering, self.rows))
@@ -124,7 +117,7 @@ class _System:
         pairs = self._spring_blocks(frequency)
         for factor, blocks in ((1.0, [r for r, _ in pairs]), (1j, [i for _, i in pairs])):
             if blocks:
-                part: Any = assemble_blocks(blocks, self.numbering)
+                part: Any = assembly.assemble_blocks(blocks, self.numbering)
                 total = total + factor * part
         return sp.csr_array(total)
 
@@ -155,7 +148,7 @@ class _System:
             more = None
             if multipliers is not None:
                 more = (self.rows.multipliers, getattr(multipliers, take))
-            return vector_to_field(getattr(values, take), self.numbering, dual, more)
+            return assembly.vector_to_field(getattr(values, take), self.numbering, dual, more)
 
         real = part("real")
         parts = {**real.components}
@@ -178,7 +171,7 @@ def _solved(A: sp.csc_array, b: ComplexArray | FloatArray, frequency: float) -> 
 
 
 def _loads(
-    load: Load | None, numbering: Numbering, rows: ConstraintRows
+    load: Load | None, numbering: assembly.Numbering, rows: assembly.ConstraintRows
 ) -> Iterator[tuple[ComplexArray, ComplexArray, tuple[FloatArray, FloatArray]]]:
     """Complex forces, imposed values and functions of the frequency of the parts of a load."""
     for part in load.parts if load is not None else ():
@@ -188,15 +181,15 @@ def _loads(
             if not isinstance(field, NodeField):
                 raise FieldError("kernel.statics.mechanical-load-made-nodal")
             real, other = split(field, numbering)
-            lost = outside(real, numbering) + outside(other, numbering)
+            lost = assembly.outside(real, numbering) + assembly.outside(other, numbering)
             if lost:
                 raise FieldError("kernel.statics.load-matrices-lack", name=part.name, lost=lost[0])
-            forces = [field_to_vector(g, numbering) for g in (real, other)]
-            imposed = [imposed_values(g, rows.multipliers) for g in (real, other)]
+            forces = [assembly.field_to_vector(g, numbering) for g in (real, other)]
+            imposed = [assembly.imposed_values(g, rows.multipliers) for g in (real, other)]
             yield forces[0] + 1j * forces[1], imposed[0] + 1j * imposed[1], curve
 
 
-def split(field: NodeField, numbering: Numbering) -> tuple[NodeField, NodeField]:
+def split(field: NodeField, numbering: assembly.Numbering) -> tuple[NodeField, NodeField]:
     """Real and imaginary parts of a field of forces, both under the names of real ones."""
     names = {imaginary(d): d for d in (*numbering.duals, "FLX")}
     other = {names[n]: p for n, p in field.components.items() if n in names}
@@ -256,7 +249,9 @@ def natural_frequencies(system: _System) -> FloatArray:
     if system.rows.C.shape[0]:
         free = null_space(system.rows.C.toarray())
     springs = [r for r, _ in system._spring_blocks(0.0)]
-    K = system.K + (assemble_blocks(springs, system.numbering) if springs else 0.0 * system.K)
+    K = system.K + (
+        assembly.assemble_blocks(springs, system.numbering) if springs else 0.0 * system.K
+    )
     pair = [np.asarray(free.T @ np.asarray(matrix @ free)) for matrix in (K, system.M)]
     values = np.asarray(eig(pair[0], pair[1], right=False))
     real = np.asarray(values[np.isfinite(values)].real, float)

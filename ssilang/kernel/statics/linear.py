@@ -10,12 +10,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base import errors
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.kernel.base.errors import (
-    ConvergenceError,
-    KernelError,
-    SingularFactorError,
-)
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import assembly
@@ -25,13 +21,8 @@ from ssilang.kernel.solvers.backends import MULTIGRID, SuperLUFactor, dissection
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import FIRST_FIT, Ordering, Solver
+from ssilang.kernel.statics import linear_motion
 from ssilang.kernel.statics.doubled import lying_on
-from ssilang.kernel.statics.linear_motion import (
-    named_motions,
-    rigid_motions,
-    singular,
-    tied,
-)
 from ssilang.kernel.waves.matched_layer import refuse_layer_at_rest
 
 BALANCED = 1e-7  # work of the loads on a free motion (of norms 1) taken for rounding
@@ -138,8 +129,10 @@ class LinearSystem:
         excited = np.abs(work) > BALANCED
         if excited.any():
             motions = self.free_motions[:, excited]
-            bodies = tied(self.numbering, self.rows.C, self.K)
-            raise singular("kernel.statics.loads-drive-motions", self.numbering, motions, bodies)
+            bodies = linear_motion.tied(self.numbering, self.rows.C, self.K)
+            raise linear_motion.singular(
+                "kernel.statics.loads-drive-motions", self.numbering, motions, bodies
+            )
         return b
 
     def _solve_contact(
@@ -166,20 +159,20 @@ class LinearSystem:
         )
         try:
             found = solve_contact(problem, self.last_active)
-        except ConvergenceError as failure:
+        except errors.ConvergenceError as failure:
             raise self._loose(failure) from None
         self.last_active = found.active
         reaction = sign * found.p
         z = self.inverse.solve(b + D @ reaction) + kernel @ found.a
         return z, -reaction, found.active, found.iterations
 
-    def _loose(self, failure: ConvergenceError) -> ConvergenceError:
+    def _loose(self, failure: errors.ConvergenceError) -> errors.ConvergenceError:
         """The failure with the motions that only contact holds."""
         if not self.inverse.singular:
             return failure
-        bodies = tied(self.numbering, self.rows.C[self.saddle], self.K)
-        named = named_motions(self.numbering, self.free_motions, bodies)
-        return ConvergenceError(
+        bodies = linear_motion.tied(self.numbering, self.rows.C[self.saddle], self.K)
+        named = linear_motion.named_motions(self.numbering, self.free_motions, bodies)
+        return errors.ConvergenceError(
             "kernel.statics.held-by-contact-alone", failure=failure, motions=named
         )
 
@@ -190,7 +183,7 @@ class LinearSystem:
             worst = int(np.argmax(mismatch))
             terms = self.rows.C[[worst]]
             names = [self.numbering.label(i) for i in terms.indices[:6]]
-            raise KernelError(
+            raise errors.KernelError(
                 "kernel.statics.conditions-contradict-cannot-take", names=names, d=d[worst]
             )
 
@@ -216,7 +209,7 @@ def linear_system(matrix: Matrix, options: SolveOptions = SolveOptions()) -> Lin
 
 def _prepare(matrix: Matrix, numbering: assembly.Numbering, options: SolveOptions) -> LinearSystem:
     if numbering.size == 0:
-        raise KernelError("kernel.statics.matrix-empty-nothing-solve")
+        raise errors.KernelError("kernel.statics.matrix-empty-nothing-solve")
     K = assembly.assemble(matrix, numbering)
     rows = assembly.constraint_matrix(matrix, numbering)
     equality = (rows.sense == 0) | (not options.unilateral)
@@ -243,7 +236,7 @@ def _ordering(
     if solver.name != MULTIGRID and not goes_to_petsc(solver, n) and not dissection_pays(n):
         return None
     nodes = numbering.nodes[elimination.masters]
-    rigid = rigid_motions(numbering)[elimination.masters]
+    rigid = linear_motion.rigid_motions(numbering)[elimination.masters]
     points = numbering.table.coordinates[nodes]
     return Ordering(points, np.zeros(0, np.int64), rigid, nodes, once)
 
@@ -281,7 +274,7 @@ def stabilised(A: sp.csr_array, n: int) -> sp.csr_array:
         try:
             if SuperLUFactor(raised[:n, :n], True).negative_pivots() == 0:
                 return raised
-        except SingularFactorError:
+        except errors.SingularFactorError:
             continue
     return raised
 
@@ -309,7 +302,7 @@ def solve(
         wrong = np.flatnonzero(~np.isfinite(f))
         if len(wrong) or not np.isfinite(d).all():
             at = [system.numbering.label(int(i)) for i in wrong[:1]]
-            raise KernelError("kernel.statics.load-not-finite", at=at)
+            raise errors.KernelError("kernel.statics.load-not-finite", at=at)
         found = system.solve(f, d, options.project)
         pair = (system.rows.multipliers, found.multipliers)
         solutions.append(assembly.vector_to_field(found.u, system.numbering, multipliers=pair))
@@ -325,7 +318,7 @@ def _taken(load: NodeField, numbering: assembly.Numbering) -> None:
         told = {"lost": lost[:4], "more": len(lost[4:]), "n_above": len(above)}
         first = [load.table.told(n[0]) if len(above) else None for n in (above, below)]
         code = "kernel.statics.matrix-no-unknown-force"
-        raise KernelError(code, above=first[0], below=first[1], **told)
+        raise errors.KernelError(code, above=first[0], below=first[1], **told)
 
 
 def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
@@ -365,7 +358,7 @@ def _require_multipliers(
     held = rows.C[[int(missing[0])]].indices
     told = {"missing": len(missing), "n_rows": len(rows.multipliers), "others": len(there)}
     at = [numbering.label(int(i)) for i in held[:1]]
-    raise KernelError("kernel.statics.solution-without-multipliers", at=at, **told)
+    raise errors.KernelError("kernel.statics.solution-without-multipliers", at=at, **told)
 
 
 def product(matrix: Matrix, field_: NodeField) -> NodeField:

@@ -20,12 +20,8 @@ from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
+from ssilang.kernel.stepping.rests.sparse import iterated
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
-from ssilang.kernel.stepping.rests.sparse.iterated import (
-    IteratedSolver,
-    iterated_system,
-    pays,
-)
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import View
@@ -92,7 +88,7 @@ class Case:
     @cached_property
     def iterated(self) -> bool:
         """Whether multigrid solves each step."""
-        return pays(self.problem, self.A)
+        return iterated.pays(self.problem, self.A)
 
     @cached_property
     def modal(self) -> "SmallLoop | None":
@@ -128,8 +124,8 @@ def _adaptive(case: Case) -> Loop:
 
 
 def _iterated(case: Case) -> Loop:
-    system = iterated_system(case.problem, case.A, case.share)
-    return _sparse(case, IteratedSolver(case.problem, system, case.share))
+    system = iterated.iterated_system(case.problem, case.A, case.share)
+    return _sparse(case, iterated.IteratedSolver(case.problem, system, case.share))
 
 
 def _condensed(case: Case) -> SparseSteps:

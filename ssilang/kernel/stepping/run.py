@@ -20,15 +20,8 @@ from ssilang.kernel.stepping.choose import (
     rule_named,
 )
 from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.problem import initial
 from ssilang.kernel.stepping.problem.bodies import full_uplift
-from ssilang.kernel.stepping.problem.initial import (
-    admissible_velocity,
-    closed_at_start,
-    initial_acceleration,
-    initial_energies,
-    joint_state,
-    with_contact,
-)
 from ssilang.kernel.stepping.problem.problem import Problem, react
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
@@ -153,11 +146,13 @@ class Integration:
 
             self._drive = Drive(self.problem, self.driver, self.full_newton)
             p = self._drive.start()
-        joints = joint_state(p)
-        v = admissible_velocity(p)
-        self._closed = closed_at_start(p)
-        a, pushing = with_contact(p, v, initial_acceleration(p, v, joints), self._closed)
-        energies = initial_energies(p, v, joints)
+        joints = initial.joint_state(p)
+        v = initial.admissible_velocity(p)
+        self._closed = initial.closed_at_start(p)
+        a, pushing = initial.with_contact(
+            p, v, initial.initial_acceleration(p, v, joints), self._closed
+        )
+        energies = initial.initial_energies(p, v, joints)
         self.motion = Motion(
             p.u.copy(), v, a, joints.delta, joints.f, joints.w, joints.t, joints.state,
             np.zeros_like(a), energies, pushing,

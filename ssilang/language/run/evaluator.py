@@ -5,19 +5,12 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.language.run import phrases
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
 from ssilang.language.run.not_built import put_off
-from ssilang.language.run.phrases import (
-    PhraseRunner,
-    name_as_word,
-    no_result,
-    tell_held_word,
-    tell_line_begun,
-    tell_quoted_operator,
-)
 from ssilang.language.run.session import LoopObserver, Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -44,7 +37,7 @@ def _behind_condition(items: Sequence[tree.Item]) -> tree.Item | None:
     return word if said else None
 
 
-class Evaluator(PhraseRunner):
+class Evaluator(phrases.PhraseRunner):
     """Executes the nodes of parsed scripts in a session, whose evaluator it is from now on."""
 
     def __init__(self, session: Session) -> None:
@@ -143,7 +136,7 @@ class Evaluator(PhraseRunner):
             return SsiError(code, span, found="nothing")
         words = [o for o in results if isinstance(o.value, Mot) and not o.name and not o.result]
         if words:
-            error = name_as_word(code, words, self.session.frame.find(str(words[0].value)))
+            error = phrases.name_as_word(code, words, self.session.frame.find(str(words[0].value)))
             error = error or leftover_error(words, self.session.assignments)
             if error is not None:
                 return error
@@ -202,7 +195,7 @@ class Evaluator(PhraseRunner):
             word = self.word_of_entry(statement, error)
             if word is None:
                 if error.code in _NOTHING_TO_READ:
-                    tell_quoted_operator(error, statement.items)
+                    phrases.tell_quoted_operator(error, statement.items)
                 raise
             left = [word]
         self._assign(statement, left)
@@ -309,10 +302,10 @@ class Evaluator(PhraseRunner):
             if wanted:
                 at = next((i for i, o in enumerate(left) if type_of(o.value) == wanted), -1)
             if at < 0 or at >= len(left):
-                error = no_result(statement.targets, target, len(targets), wanted)
+                error = phrases.no_result(statement.targets, target, len(targets), wanted)
                 if self._silent is not None:
-                    tell_held_word(error, self._silent)
-                    tell_line_begun(error, self._silent)
+                    phrases.tell_held_word(error, self._silent)
+                    phrases.tell_line_begun(error, self._silent)
                 raise error
             taken.append(left.pop(at))
             self.store(target, taken[-1].value)

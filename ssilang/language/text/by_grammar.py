@@ -7,16 +7,7 @@ from typing import Any
 from lark import Lark, Token, Transformer, UnexpectedInput
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.text import tree
-from ssilang.language.text.reader import (
-    attribute_name,
-    integer_of,
-    name_of,
-    quoted_of,
-    real_of,
-    statement_of,
-    symbol_of,
-)
+from ssilang.language.text import reader, tree
 from ssilang.language.text.source import STATEMENT_END, STRING, Source, Span
 from ssilang.resources import resource
 
@@ -34,19 +25,19 @@ class _Builder(Transformer[Token, Any]):
         return Span(self.source, start or 0, end or 0)
 
     def word(self, c: list[Token]) -> tree.Name:
-        return name_of(str(c[0]), self._span(c[0], c[0]))
+        return reader.name_of(str(c[0]), self._span(c[0], c[0]))
 
     def string(self, c: list[Token]) -> tree.Quoted:
-        return quoted_of(str(c[0]), self._span(c[0], c[0]))
+        return reader.quoted_of(str(c[0]), self._span(c[0], c[0]))
 
     def integer(self, c: list[Token]) -> tree.Number:
-        return integer_of(str(c[0]), self._span(c[0], c[0]))
+        return reader.integer_of(str(c[0]), self._span(c[0], c[0]))
 
     def real(self, c: list[Token]) -> tree.Number:
-        return real_of(str(c[0]), self._span(c[0], c[0]))
+        return reader.real_of(str(c[0]), self._span(c[0], c[0]))
 
     def symbol(self, c: list[Token]) -> tree.Symbol:
-        return symbol_of(str(c[0]), self._span(c[0], c[0]))
+        return reader.symbol_of(str(c[0]), self._span(c[0], c[0]))
 
     def items(self, c: list[Any]) -> tuple[tree.Item, ...]:
         return tuple(c)
@@ -66,22 +57,22 @@ class _Builder(Transformer[Token, Any]):
         return tree.Path(c[0], tuple(c[1:]), self._span(c[0], c[-1]))
 
     def attribute(self, c: list[Any]) -> tree.Attribute:
-        return tree.Attribute(c[0], attribute_name(c[2]), self._span(c[0], c[2]))
+        return tree.Attribute(c[0], reader.attribute_name(c[2]), self._span(c[0], c[2]))
 
     def own_attribute(self, c: list[Any]) -> tree.Attribute:
-        return tree.Attribute(None, attribute_name(c[1]), self._span(c[0], c[1]))
+        return tree.Attribute(None, reader.attribute_name(c[1]), self._span(c[0], c[1]))
 
     def empty(self, c: list[Any]) -> None:
         return None
 
     def plain(self, c: list[Any]) -> tree.Statement:
-        return statement_of(None, c[0])
+        return reader.statement_of(None, c[0])
 
     def assignment(self, c: list[Any]) -> tree.Statement:
-        return statement_of(c[0], c[1])
+        return reader.statement_of(c[0], c[1])
 
     def empty_assignment(self, c: list[Any]) -> tree.Statement:
-        return statement_of(c[0], [])
+        return reader.statement_of(c[0], [])
 
     def start(self, c: list[Any]) -> list[tree.Statement]:
         return [s for s in c if s is not None]

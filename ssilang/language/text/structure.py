@@ -3,23 +3,9 @@
 from dataclasses import dataclass, field, replace
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
+from ssilang.language.text import tree
 from ssilang.language.text.parser import decimal_commas, end_of_run, parse_statements
 from ssilang.language.text.source import Source, Span
-from ssilang.language.text.tree import (
-    Definition,
-    If,
-    Item,
-    Loop,
-    Name,
-    Node,
-    Number,
-    Parameter,
-    Paren,
-    Quoted,
-    Script,
-    Statement,
-    Symbol,
-)
 from ssilang.late_imports import without_collections
 
 _CONTROL = {
@@ -29,7 +15,7 @@ _CONTROL = {
 _OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
 
 
-def control_word(statement: Statement) -> str:
+def control_word(statement: tree.Statement) -> str:
     """The control word that a statement begins with, '' if none."""
     return _CONTROL.get(statement.first_word[:4].rstrip(), "")
 
@@ -39,14 +25,14 @@ class _Open:
     """A block under construction."""
 
     kind: str
-    statement: Statement | None
-    body: list[Node] = field(default_factory=list)
+    statement: tree.Statement | None
+    body: list[tree.Node] = field(default_factory=list)
     name: str = ""
-    then: tuple[Node, ...] = ()
+    then: tuple[tree.Node, ...] = ()
     unnamed: bool = False  # its name is missing: any end fits
 
 
-def parse(source: Source) -> Script:
+def parse(source: Source) -> tree.Script:
     """Parse and structure a script.
 
     Raises
@@ -69,7 +55,7 @@ def parse(source: Source) -> Script:
         return replace(script, warnings=(*commas, *script.warnings)) if commas else script
 
 
-def structure(statements: list[Statement], source: Source) -> Script:
+def structure(statements: list[tree.Statement], source: Source) -> tree.Script:
     """Nest a flat list of statements; see `parse`."""
     errors: list[SsiError] = []
     stack = [_Open("", None)]
@@ -80,7 +66,7 @@ def structure(statements: list[Statement], source: Source) -> Script:
         word = control_word(statement)
         if word == "FIN" and not any(getattr(i, "items", i) for i in statement.items[1:]):
             word = ""  # FIN alone stops the run, with empty parentheses, too
-            statement = Statement((), statement.items[:1], statement.span)
+            statement = tree.Statement((), statement.items[:1], statement.span)
         try:
             _STEPS.get(word, _plain)(stack, statement)
         except SsiError as error:
@@ -109,13 +95,13 @@ def structure(statements: list[Statement], source: Source) -> Script:
         else:
             _finsi(stack, statements[-1])
     whole = Span(source, 0, len(source.text))
-    return Script(tuple(stack[0].body), whole, tuple(unclosed), tuple(strays))
+    return tree.Script(tuple(stack[0].body), whole, tuple(unclosed), tuple(strays))
 
 
 def _ends_run(stack: list[_Open]) -> bool:
     """Whether what is left open ends the run: FIN alone in the innermost of loops and branches."""
     return not any(left.kind[:3] == "DEB" for left in stack) and any(
-        isinstance(node, Statement) and control_word(node) == "FIN" for node in stack[-1].body
+        isinstance(node, tree.Statement) and control_word(node) == "FIN" for node in stack[-1].body
     )
 
 
@@ -129,21 +115,21 @@ def _unclosed(left: _Open) -> SsiError:
     )
 
 
-def _without_strays(statement: Statement) -> Statement:
+def _without_strays(statement: tree.Statement) -> tree.Statement:
     """`3 SINON ;` is SINON: numbers in front of the word are operands that nothing reads."""
     items = statement.items
-    if len(items) < 2 or statement.assigns or not isinstance(items[0], Number):
+    if len(items) < 2 or statement.assigns or not isinstance(items[0], tree.Number):
         return statement
-    at = next((i for i, item in enumerate(items) if not isinstance(item, Number)), 0)
-    rest = Statement((), items[at:], statement.span)
+    at = next((i for i, item in enumerate(items) if not isinstance(item, tree.Number)), 0)
+    rest = tree.Statement((), items[at:], statement.span)
     return rest if at and control_word(rest) in ("SINO", "FINS") else statement
 
 
-def _inside(stack: list[_Open], statement: Statement) -> list[SsiError]:
+def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     """Words of blocks that a statement takes as operands, as its own end is missing."""
     found = []
     for i, item in enumerate(statement.items[1:], 1):
-        if not isinstance(item, Name):
+        if not isinstance(item, tree.Name):
             continue
         word = _CONTROL.get(item.text[:4], "")
         loop = word == "FIN" and [getattr(x, "text", "").upper() for x in statement.items[i + 1 :]]
@@ -153,21 +139,21 @@ def _inside(stack: list[_Open], statement: Statement) -> list[SsiError]:
     return found
 
 
-def _plain(stack: list[_Open], statement: Statement) -> None:
+def _plain(stack: list[_Open], statement: tree.Statement) -> None:
     stack[-1].body.append(statement)
 
 
-def _rest(statement: Statement) -> Statement:
-    return Statement((), statement.items[1:], statement.span)
+def _rest(statement: tree.Statement) -> tree.Statement:
+    return tree.Statement((), statement.items[1:], statement.span)
 
 
-def _si(stack: list[_Open], statement: Statement) -> None:
+def _si(stack: list[_Open], statement: tree.Statement) -> None:
     stack.append(_Open("SI", statement))
 
 
-def _sinon(stack: list[_Open], statement: Statement) -> None:
+def _sinon(stack: list[_Open], statement: tree.Statement) -> None:
     top = stack[-1]
-    if any(isinstance(item, Paren) for item in statement.items):
+    if any(isinstance(item, tree.Paren) for item in statement.items):
         raise SsiError("sinon-condition", statement.span)
     if top.kind == "SINO" and top.statement is not None:
         line = top.statement.span.source.position(top.statement.span.start)[0]
@@ -177,7 +163,7 @@ def _sinon(stack: list[_Open], statement: Statement) -> None:
     top.then, top.body, top.kind = tuple(top.body), [], "SINO"
 
 
-def _finsi(stack: list[_Open], statement: Statement) -> None:
+def _finsi(stack: list[_Open], statement: tree.Statement) -> None:
     top = stack[-1]
     if top.kind not in ("SI", "SINO") or top.statement is None:
         raise _stray(stack, statement, "SI")
@@ -185,25 +171,25 @@ def _finsi(stack: list[_Open], statement: Statement) -> None:
     body = tuple(top.body)
     then, otherwise = (body, ()) if top.kind == "SI" else (top.then, body)
     span = top.statement.span.to(statement.span)
-    stack[-1].body.append(If(_rest(top.statement), then, otherwise, span))
+    stack[-1].body.append(tree.If(_rest(top.statement), then, otherwise, span))
 
 
-def _repe(stack: list[_Open], statement: Statement) -> None:
+def _repe(stack: list[_Open], statement: tree.Statement) -> None:
     rest = list(statement.items[1:])
-    at = next((i for i, item in enumerate(rest) if isinstance(item, Name | Quoted)), None)
+    at = next((i for i, item in enumerate(rest) if isinstance(item, tree.Name | tree.Quoted)), None)
     if at is None:
         stack.append(_Open("REPE", statement, unnamed=True))
         raise SsiError("loop-name", statement.span)
     item = rest.pop(at)
-    assert isinstance(item, Name | Quoted)
-    opened = _Open("REPE", Statement((), (statement.items[0], *rest), statement.span))
+    assert isinstance(item, tree.Name | tree.Quoted)
+    opened = _Open("REPE", tree.Statement((), (statement.items[0], *rest), statement.span))
     opened.name = item.text.upper()
     stack.append(opened)
 
 
-def _fin(stack: list[_Open], statement: Statement) -> None:
+def _fin(stack: list[_Open], statement: tree.Statement) -> None:
     item = statement.items[1]
-    name = item.text.upper() if isinstance(item, Name | Quoted) else ""
+    name = item.text.upper() if isinstance(item, tree.Name | tree.Quoted) else ""
     top = stack[-1]
     if top.kind != "REPE" or top.statement is None:
         raise _crossed(stack, statement, name) or _stray(stack, statement, "REPE")
@@ -214,7 +200,7 @@ def _fin(stack: list[_Open], statement: Statement) -> None:
     stack[-1].body.append(_loop(top, statement))
 
 
-def _crossed(stack: list[_Open], statement: Statement, name: str) -> SsiError | None:
+def _crossed(stack: list[_Open], statement: tree.Statement, name: str) -> SsiError | None:
     """FIN of a loop inside of which other blocks are open: these are taken as closed."""
     at = next((i for i, o in enumerate(stack) if o.kind == "REPE" and o.name == name), 0)
     if not at:
@@ -228,15 +214,15 @@ def _crossed(stack: list[_Open], statement: Statement, name: str) -> SsiError | 
     return SsiError("crossed-blocks", statement.span, name=name, **told)
 
 
-def _loop(top: _Open, end: Statement) -> Loop:
+def _loop(top: _Open, end: tree.Statement) -> tree.Loop:
     assert top.statement is not None
     count = top.statement.items[1:]
-    return Loop(top.name, count, tuple(top.body), top.statement.span.to(end.span))
+    return tree.Loop(top.name, count, tuple(top.body), top.statement.span.to(end.span))
 
 
-def _debp(stack: list[_Open], statement: Statement) -> None:
+def _debp(stack: list[_Open], statement: tree.Statement) -> None:
     kind = control_word(statement)
-    if len(statement.items) < 2 or not isinstance(statement.items[1], Name | Quoted):
+    if len(statement.items) < 2 or not isinstance(statement.items[1], tree.Name | tree.Quoted):
         stack.append(_Open(kind, statement))
         raise SsiError("procedure-name", statement.span)
     opened = _Open(kind, statement)
@@ -244,7 +230,7 @@ def _debp(stack: list[_Open], statement: Statement) -> None:
     stack.append(opened)
 
 
-def _finp(stack: list[_Open], statement: Statement) -> None:
+def _finp(stack: list[_Open], statement: tree.Statement) -> None:
     kind = "DEBP" if control_word(statement) == "FINP" else "DEBM"
     at = next((i for i in reversed(range(len(stack))) if stack[i].kind == kind), 0)
     top = stack[at]
@@ -254,36 +240,38 @@ def _finp(stack: list[_Open], statement: Statement) -> None:
     del stack[at:]
     parts = _parameters(top.statement.items[2:]), tuple(top.body), statement.items[1:]
     whole = top.statement.span.to(statement.span)
-    stack[-1].body.append(Definition(top.name, *parts, kind == "DEBM", whole))
+    stack[-1].body.append(tree.Definition(top.name, *parts, kind == "DEBM", whole))
     if inner and not inner[0].unnamed:
         raise _unclosed(inner[0])
 
 
-def _parameters(items: tuple[Item, ...]) -> tuple[Parameter, ...]:
-    found: list[Parameter] = []
+def _parameters(items: tuple[tree.Item, ...]) -> tuple[tree.Parameter, ...]:
+    found: list[tree.Parameter] = []
     i = 0
     while i < len(items):
         item = items[i]
-        if not isinstance(item, Name | Quoted):
+        if not isinstance(item, tree.Name | tree.Quoted):
             raise SsiError("parameter", item.span)
         name, span, optional, types = item.text.upper(), item.span, False, []
         i += 1
-        while i + 1 < len(items) and isinstance(sign := items[i], Symbol) and sign.text in "*/":
+        while (
+            i + 1 < len(items) and isinstance(sign := items[i], tree.Symbol) and sign.text in "*/"
+        ):
             kind = items[i + 1]
-            if not isinstance(kind, Name | Quoted):
+            if not isinstance(kind, tree.Name | tree.Quoted):
                 raise SsiError("parameter", kind.span)
             optional = optional or sign.text == "/"
             types.append(kind.text.upper()[:8].rstrip())  # type words have 8 letters
             span = span.to(kind.span)
             i += 2
-        if i < len(items) and isinstance(items[i], Number | Symbol):
+        if i < len(items) and isinstance(items[i], tree.Number | tree.Symbol):
             raise SsiError("parameter", items[i].span)
         kinds = [*types, "", ""]
-        found.append(Parameter(name, kinds[0], optional, kinds[1], span))
+        found.append(tree.Parameter(name, kinds[0], optional, kinds[1], span))
     return tuple(found)
 
 
-def _stray(stack: list[_Open], statement: Statement, opener: str) -> SsiError:
+def _stray(stack: list[_Open], statement: tree.Statement, opener: str) -> SsiError:
     opened, told = stack[-1].statement, {"inside_name": stack[-1].name, "inside": "", "line": 0}
     if opened is not None:
         line = opened.span.source.position(opened.span.start)[0]

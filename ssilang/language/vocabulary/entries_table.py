@@ -5,13 +5,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby, zip_longest
 
 from ssilang.language.registry import HelpTable
-from ssilang.language.vocabulary.entries import (
-    ANYTHING,
-    NUMBER,
-    Declaration,
-    TableEntry,
-    as_written,
-)
+from ssilang.language.vocabulary import entries
 from ssilang.language.vocabulary.terms import Range
 from ssilang.messages.message import COLON, spoken, teller
 
@@ -31,7 +25,7 @@ Row = tuple[str, str, str, str, str]
 """Index, types, unit, default, meaning."""
 
 
-def entries_text(declared: Declaration, language: str, width: int) -> list[str]:
+def entries_text(declared: entries.Declaration, language: str, width: int) -> list[str]:
     """Lines of all tables, a column each for index, types, unit, default and meaning."""
     lines: list[str] = []
     for argument in declared.arguments:
@@ -67,14 +61,14 @@ def heads_of(language: str) -> Row:
     return index, types, unit, default, meaning
 
 
-def title_of(declared: Declaration, name: str, language: str) -> str:
+def title_of(declared: entries.Declaration, name: str, language: str) -> str:
     """Title of the entries of an argument."""
     subtype = next(a.subtype for a in declared.arguments if a.name == name)
     return teller(language)("help.entries", name=name, subtype=subtype)
 
 
 def blocks_of(
-    declared: Declaration, argument: str, language: str
+    declared: entries.Declaration, argument: str, language: str
 ) -> Iterator[tuple[str, list[Row]]]:
     """Rows of an argument by theme."""
     for theme, members in groupby(declared.of(argument), key=lambda e: e.theme):
@@ -82,13 +76,13 @@ def blocks_of(
         yield theme, [_row(list(group), declared, language) for _, group in alike]
 
 
-def _sameness(entry: TableEntry) -> tuple[object, ...]:
+def _sameness(entry: entries.TableEntry) -> tuple[object, ...]:
     """What entries that share a row have in common."""
-    table = entry.path[:-2] if entry.index == ANYTHING else entry.path[:-1]
+    table = entry.path[:-2] if entry.index == entries.ANYTHING else entry.path[:-1]
     return (table, entry.types, entry.unit, str(entry.default), entry.en, entry.needed, entry.range)
 
 
-def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> Row:
+def _row(group: Sequence[entries.TableEntry], declared: entries.Declaration, language: str) -> Row:
     entry = group[0]
     deep, names = len(entry.path) - 2, [_index(e, language) for e in group]
     if deep and declared.at(entry.path[:-2], entry.path[-2]) is None:  # the table has no row
@@ -99,7 +93,7 @@ def _row(group: Sequence[TableEntry], declared: Declaration, language: str) -> R
     meaning = entry.said(language)
     if entry.values:
         meaning += "\n" + teller(language)(
-            "help.allowed", values=" | ".join(map(as_written, entry.values))
+            "help.allowed", values=" | ".join(map(entries.as_written, entry.values))
         )
     for bound, code in ((entry.range, "help.range"), (entry.usual, "help.usual-range")):
         if told := bounds_told(bound, entry.index, language):
@@ -117,12 +111,14 @@ def bounds_told(bound: Range, name: str, language: str) -> str:
 _ANY = {"": "help.any-index", "unknown": "help.any-unknown"}
 
 
-def _index(entry: TableEntry, language: str) -> str:
-    special = {NUMBER: "help.any-integer", ANYTHING: _ANY[entry.by]}.get(entry.index)
+def _index(entry: entries.TableEntry, language: str) -> str:
+    special = {entries.NUMBER: "help.any-integer", entries.ANYTHING: _ANY[entry.by]}.get(
+        entry.index
+    )
     return teller(language)(special) if special else entry.index
 
 
-def _default(entry: TableEntry, language: str) -> str:
+def _default(entry: entries.TableEntry, language: str) -> str:
     if entry.needed:
         return teller(language)("help.needed")
     default = entry.default
@@ -133,7 +129,7 @@ def _default(entry: TableEntry, language: str) -> str:
         return spoken(en, fr, language)
     if isinstance(default, bool):
         return "VRAI" if default else "FAUX"
-    return as_written(default) if isinstance(default, str) else f"{default:g}"
+    return entries.as_written(default) if isinstance(default, str) else f"{default:g}"
 
 
 def _widths(rows: Sequence[Sequence[str]], width: int) -> list[int]:

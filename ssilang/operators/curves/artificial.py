@@ -1,14 +1,6 @@
 """SIAR PERT PRNS: artificial signals, random perturbations, spectra of modulated signals."""
 
-from ssilang.kernel.records.modulated import (
-    Band,
-    ModulatedSignal,
-    Resolution,
-    modulated_response_spectrum,
-    motion,
-    perturbed,
-    sines,
-)
+from ssilang.kernel.records import modulated
 from ssilang.operators.curves.accelerograms import ABSCISSA, KIND, PERIODS, spectrum_part
 from ssilang.operators.curves.words import COLOUR, one_part, shade
 from ssilang.operators.numbers.noise import session_generator
@@ -64,12 +56,12 @@ def siar(
     if samples < 2 or count < 1:
         raise call.error("operators.curves.signal-too-short")
     times = np.linspace(begin, end, samples)
-    f, amplitudes = sines(part.abscissas, part.ordinates, count)
+    f, amplitudes = modulated.sines(part.abscissas, part.ordinates, count)
     generator = _drawn(call, seed)
     drawn = []
     for _ in range(n_signals):
         phases = 2.0 * np.pi * generator.random(count)
-        drawn.append(motion(times, f, amplitudes, phases, bands, float(held[0])))
+        drawn.append(modulated.motion(times, f, amplitudes, phases, bands, float(held[0])))
     asked = zip(_SERIES, (acceleration, velocity, displacement), strict=True)
     wanted = [w for w, said in asked if said] or _SERIES
     made = [_series(times, drawn, w, part.colour) for w in wanted]
@@ -87,7 +79,7 @@ def _series(times: FloatArray, drawn: list[Any], word: str, colour: int) -> Curv
 
 def _bands(
     call: Call, spectrum: CurvePart, modulation: Curve | None, limits: Any, end: float | None
-) -> tuple[Band, ...]:
+) -> tuple[modulated.Band, ...]:
     f = spectrum.abscissas
     if len(f) < 2 or (np.diff(f) <= 0).any() or f[0] < 0:
         raise call.error("operators.curves.not-a-power-spectrum")
@@ -95,13 +87,13 @@ def _bands(
         if end is None:
             raise call.missing(("FLOTTANT",))
         times = np.array([min(0.0, end), end])
-        return (Band(float(f[0]), float(f[-1]), times, np.ones(2)),)
+        return (modulated.Band(float(f[0]), float(f[-1]), times, np.ones(2)),)
     if len(limits) != len(modulation.parts) + 1:
         told = {"n_parts": len(modulation.parts), "least": len(modulation.parts) + 1}
         told |= {"n_limits": len(limits)}
         raise call.error("operators.curves.limits-of-bands", **told)
     pairs = zip(limits[:-1], limits[1:], modulation.parts, strict=True)
-    bands = tuple(Band(float(a), float(b), p.abscissas, p.ordinates) for a, b, p in pairs)
+    bands = tuple(modulated.Band(float(a), float(b), p.abscissas, p.ordinates) for a, b, p in pairs)
     ends = np.array([[b.times[0], b.times[-1]] for b in bands])
     if np.ptp(ends, axis=0).max() > 1e-6:
         raise call.error("operators.curves.modulations-differ", modulation)
@@ -124,7 +116,9 @@ def pert(
 ) -> ListReel:
     """Perturb values."""
     generator = _drawn(call, seed)
-    return ListReel(perturbed(values.values, generator, signs or degrees is None, degrees))
+    return ListReel(
+        modulated.perturbed(values.values, generator, signs or degrees is None, degrees)
+    )
 
 
 @operator(
@@ -203,7 +197,7 @@ def prns(
     if wavelets:
         raise call.error("operators.curves.no-modulation-of-wavelets")
     power = one_part(call, curve)
-    signal = ModulatedSignal(
+    signal = modulated.ModulatedSignal(
         power.abscissas, power.ordinates, np.asarray(bands.values, dtype=float),
         tuple(p.abscissas for p in modulation.parts), tuple(p.ordinates for p in modulation.parts),
     )  # fmt: skip
@@ -212,9 +206,9 @@ def prns(
     over = np.geomspace(0.04, signal.duration, 75) if periods is None else periods.values
     if n_processes is None:
         n_processes = max(round(signal.duration / 2.0), 1)
-    resolution = Resolution(n_processes, n_instants, rest, precision)
+    resolution = modulated.Resolution(n_processes, n_instants, rest, precision)
     order = np.argsort(over)
-    values = modulated_response_spectrum(signal, over[order], damping, kind, resolution)
+    values = modulated.modulated_response_spectrum(signal, over[order], damping, kind, resolution)
     index = shade(colour, power.colour)
     part = spectrum_part(over[order], values, abscissa, kind, damping, index)
     return Curve((part,), curve.title)

@@ -5,14 +5,7 @@ from weakref import WeakKeyDictionary
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.language.vocabulary.unit_systems import result_unit
-from ssilang.operators.curves.instants import (
-    InstantField,
-    RecordedFields,
-    RecordedPoints,
-    components_in_time,
-    refused_place,
-    value_in_time,
-)
+from ssilang.operators.curves import instants
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
 from ssilang.operators.prelude import *
 
@@ -233,7 +226,7 @@ def _along_line(call: Call, colours: list[int]) -> Curve:
     s = np.concatenate(([0.0], np.cumsum(steps)))
     missing = ~np.isin(nodes, part.nodes)
     if np.all(missing):
-        raise refused_place(call, [field], name, int(nodes[0]))
+        raise instants.refused_place(call, [field], name, int(nodes[0]))
     if np.any(missing):
         call.session.warn(
             "operators.curves.no-value-on-line", call.span, operator="EVOL", name=name,
@@ -277,7 +270,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
         if np.any(places < 0) or np.any(places >= len(fields)):
             raise call.error("operators.curves.no-such-step", chosen, n_fields=len(fields))
         fields, times = [fields[int(i)] for i in places], times[places]
-    if isinstance(fields, RecordedPoints) or (fields and isinstance(fields[0], CellField)):
+    if isinstance(fields, instants.RecordedPoints) or (fields and isinstance(fields[0], CellField)):
         return _in_a_cell(call, fields, times, colours[0], partial(_unit_in_time, results, title))
     names = names_in_time(call, fields)
     support = call.needed("POINT", "MAILLAGE")
@@ -290,7 +283,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     for name in names:
         relative = _are_relative(fields, title, name)
         for node in nodes:
-            values = value_in_time(call, fields, name, node)
+            values = instants.value_in_time(call, fields, name, node)
             _tell_peak(call, fields, values, name)
             _tell_rounding(call, fields, values, name, node)
             legend = f"{name} {called[node]}"
@@ -302,7 +295,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
 
 def _are_relative(fields: Sequence[Any], index: str, name: str) -> bool:
     """Whether results are accelerations relative to a ground that shakes along their axis."""
-    if index != "ACCE" or not isinstance(fields, RecordedFields):
+    if index != "ACCE" or not isinstance(fields, instants.RecordedFields):
         return False
     from ssilang.kernel.waves.shaken import is_shaken
 
@@ -314,7 +307,7 @@ def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str)
 
     The parabola through it and its neighbours bends by an eighth of the second difference.
     """
-    if not isinstance(fields, RecordedFields) or len(fields) != len(values):
+    if not isinstance(fields, instants.RecordedFields) or len(fields) != len(values):
         return
     steps, top = len(fields.track.wanted), int(np.abs(values).argmax())
     code = "operators.curves.peak-between"
@@ -335,7 +328,7 @@ def _tell_rounding(
 
     A script that has looked at these first knows, and asks what is left.
     """
-    if not isinstance(fields, RecordedFields):
+    if not isinstance(fields, instants.RecordedFields):
         return
     from ssilang.kernel.stepping.problem.bodies import held
     from ssilang.kernel.waves.shaken import axes_of
@@ -358,7 +351,7 @@ def _tell_rounding(
         call.warn(code, name=name, node=node_told, **told, moved=ways[other])
 
 
-def _tell_held_side(call: Call, fields: RecordedFields, name: str, node: int) -> None:
+def _tell_held_side(call: Call, fields: instants.RecordedFields, name: str, node: int) -> None:
     """Warn of a fixed side of a joint that is read, and its other side moves and was not."""
     problem, code = fields.track.problem, "operators.curves.held-side"
     table, joints = problem.numbering.table, problem.interface
@@ -383,8 +376,8 @@ def _point_names(call: Call, support: Operand) -> dict[int, str]:
     return found
 
 
-def _made(field: NodeField | InstantField) -> NodeField:
-    return field.make() if isinstance(field, InstantField) else field
+def _made(field: NodeField | instants.InstantField) -> NodeField:
+    return field.make() if isinstance(field, instants.InstantField) else field
 
 
 def _in_a_cell(
@@ -398,7 +391,7 @@ def _in_a_cell(
     name = str(call.required("MOT")).rstrip()
     zone, cell, point = (call.given(_CELL) for _ in range(3))
     legend = f"{name} {zone} {cell} {point}"
-    if isinstance(fields, RecordedPoints):
+    if isinstance(fields, instants.RecordedPoints):
         recorded = fields.history(name, zone, cell, point)
         if recorded is not None:
             part = CurvePart(times, recorded, "TEMP", name[:12], legend, colour)
@@ -428,7 +421,9 @@ def names_in_time(call: Call, fields: Sequence[Any]) -> list[str]:
     if operand is not None:
         return [str(w).rstrip() for w in operand.value.values]
     word = call.peek_word()
-    if word is not None and (call.at_word() or word.rstrip() in components_in_time(fields)):
+    if word is not None and (
+        call.at_word() or word.rstrip() in instants.components_in_time(fields)
+    ):
         return [str(call.word()).rstrip()]
     return []
 

@@ -1,11 +1,6 @@
 """PROL CONC LSQF MAPP CMOY LAPL: curves made longer, joined, simplified, and read off others."""
 
-from ssilang.kernel.records.signals import (
-    constant_step,
-    energy_envelope,
-    inverse_laplace,
-    mean_shock,
-)
+from ssilang.kernel.records import signals
 from ssilang.operators.curves.words import COLOUR, CURVE, shade
 from ssilang.operators.prelude import *
 
@@ -102,11 +97,11 @@ def lsqf(
         raise call.error("operators.curves.no-optimal-fit")
     parts = []
     for p in curve.parts:
-        constant_step(p.abscissas)
+        signals.constant_step(p.abscissas)
         wanted = count if size is None else max(count, (len(p.abscissas) - 1) // size)
         if wanted > len(p.abscissas) - 1:
             call.warn("operators.curves.few-samples", wanted=wanted, count=len(p.abscissas))
-        x, y = energy_envelope(p.abscissas, p.ordinates, wanted)
+        x, y = signals.energy_envelope(p.abscissas, p.ordinates, wanted)
         parts.append(replace(p, abscissas=x, ordinates=y))
     return Curve(tuple(parts), curve.title)
 
@@ -163,8 +158,8 @@ def cmoy(
     """Mean shock."""
     parts = []
     for p in records.parts:
-        constant_step(p.abscissas)
-        x, y = mean_shock(p.abscissas, p.ordinates, percent, duration, count)
+        signals.constant_step(p.abscissas)
+        x, y = signals.mean_shock(p.abscissas, p.ordinates, percent, duration, count)
         parts.append(replace(p, abscissas=x, ordinates=y))
     return Curve(tuple(parts), records.title)
 
@@ -186,5 +181,5 @@ def lapl(
         raise call.error(
             "operators.curves.parts-differ", n_real=len(real), n_imaginary=len(imaginary)
         )
-    t, y = inverse_laplace(omega.values, real.values + 1j * imaginary.values, shift, group)
+    t, y = signals.inverse_laplace(omega.values, real.values + 1j * imaginary.values, shift, group)
     return Curve((CurvePart(t, y, "TEMPS", "F(T)", "LAPLACE INVERSE"),))

@@ -5,12 +5,7 @@ from itertools import count
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LINE_OPTIONS, LineStyle, parse_style
 from ssilang.language.registry import Select, words_in
-from ssilang.operators.drawing.pictures import (
-    picture_formats,
-    picture_name,
-    refuse_rest,
-    save_picture,
-)
+from ssilang.operators.drawing import pictures
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
 
@@ -112,7 +107,7 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     first: Curve = curves[0].value
     parts = [part for c in curves for part in c.value.parts]
     curve = Curve(tuple(parts), first.title, first.kind)
-    refuse_rest(call, words_in(_OPTIONS))
+    pictures.refuse_rest(call, words_in(_OPTIONS))
     found = _settings(**said)
     for name, word, along in (("x_limits", "XBOR", "abscissas"), ("y_limits", "YBOR", "ordinates")):
         low, high = sorted(found.get(name, (-np.inf, np.inf)))
@@ -138,8 +133,10 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     options = CurveOptions(**found, written=units.written if units else None)
     figure = draw_curves(curve, options)
     title = str(found.get("title") or curve.title)
-    stem = picture_name(call.session, title, curves[0].name or "dess")
-    files = save_picture(call.session, figure, stem, picture_formats(call.session, ("png", "svg")))
+    stem = pictures.picture_name(call.session, title, curves[0].name or "dess")
+    files = pictures.save_picture(
+        call.session, figure, stem, pictures.picture_formats(call.session, ("png", "svg"))
+    )
     recording = run_output(call.session).recording
     if recording is not None:
         _take_down(recording, curve, options, title, [f.name for f in files])

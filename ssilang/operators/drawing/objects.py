@@ -3,27 +3,19 @@
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
 from ssilang.io.plots.palette import NAMES, index_of
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.fields.deformed import (
-    Arrows,
-    Deformed,
-    DeformedPart,
-    arrows_at_nodes,
-    arrows_in_cells,
-    automatic_scale,
-    principal_strokes,
-)
+from ssilang.kernel.fields import deformed
 from ssilang.operators.dispatch import COUL, EXTR, union
 from ssilang.operators.prelude import *
 
 
 @union(("DEFORME", "DEFORME"))
-def _deformed_union(left: Deformed, right: Deformed) -> Deformed:
-    return Deformed(left.parts + right.parts)
+def _deformed_union(left: deformed.Deformed, right: deformed.Deformed) -> deformed.Deformed:
+    return deformed.Deformed(left.parts + right.parts)
 
 
 @union(("VECTEUR", "VECTEUR"))
-def _arrows_union(left: Arrows, right: Arrows) -> Arrows:
-    return Arrows(left.parts + right.parts)
+def _arrows_union(left: deformed.Arrows, right: deformed.Arrows) -> deformed.Arrows:
+    return deformed.Arrows(left.parts + right.parts)
 
 
 def is_colour(word: str) -> bool:
@@ -38,18 +30,20 @@ def defo(
     mesh: Mesh = Arg("MAILLAGE", en="mesh"),
     displacement: NodeField = Arg("CHPOINT", en="displacements", unit="m"),
     scale: float | None = Opt("FLOTTANT", en="amplification", range=ANY_NUMBER),
-    arrows: Arrows | None = Opt("VECTEUR", en="arrows drawn on it"),
+    arrows: deformed.Arrows | None = Opt("VECTEUR", en="arrows drawn on it"),
     field: NodeField | None = Opt("CHPOINT", en="field shown on it"),
     cells: CellField | None = Opt("MCHAML", en="field in cells shown on it"),
     model: Model | None = Opt("MMODEL", en="its model"),
-) -> Deformed:
+) -> deformed.Deformed:
     """Mesh, displacement and what goes with them."""
     moved = [p.nodes for p in displacement.components.values()]
     if moved and len(mesh.node_ids) and not np.isin(mesh.node_ids, np.concatenate(moved)).any():
         call.warn("operators.drawing.moves-nothing", displacement)
     shade = None if colour is None else index_of(colour)
     shown = field if cells is None else cells
-    return Deformed((DeformedPart(mesh, displacement, scale, shade, arrows, shown, model),))
+    return deformed.Deformed(
+        (deformed.DeformedPart(mesh, displacement, scale, shade, arrows, shown, model),)
+    )
 
 
 _FAMILIES = {
@@ -72,7 +66,7 @@ def _nodal(
         "LISTMOTS", "MOT", en="DEPL, FORC or components, and a colour", kind="component"
     ),
     scale: float | None = _SCALE,
-) -> Arrows:
+) -> deformed.Arrows:
     words: list[str] = []
     colour = 0
     for value in names:
@@ -83,7 +77,7 @@ def _nodal(
         else:
             words.append(str(value))
     columns = _columns(call, chpoint, words)
-    made = arrows_at_nodes(chpoint, columns, scale, colour)
+    made = deformed.arrows_at_nodes(chpoint, columns, scale, colour)
     if not any(c in chpoint.components for c in columns):
         known = ", ".join(chpoint.components) or "none"
         raise call.error(
@@ -120,7 +114,7 @@ def _in_cells(
         "LISTMOTS", "MOT", en="components, principal stresses or colours", kind="component"
     ),
     scale: float | None = _SCALE,
-) -> Arrows:
+) -> deformed.Arrows:
     single = [str(w).strip() for w in words if isinstance(w, str)]
     lists = [[str(v).strip() for v in w.values] for w in words if isinstance(w, ListMots)]
     names = {c for block in mchaml.blocks for c in block.components}
@@ -129,15 +123,15 @@ def _in_cells(
     colours += [index_of(w) for w in single if is_colour(w) and w not in names]
     if columns is not None:
         shade = colours[0] if colours else 0
-        return arrows_in_cells(mchaml, tuple([*columns, "", "", ""][:3]), scale, shade)  # type: ignore[arg-type]
+        return deformed.arrows_in_cells(mchaml, tuple([*columns, "", "", ""][:3]), scale, shade)  # type: ignore[arg-type]
     chosen = [w for w in single if w in names]
-    return principal_strokes(mchaml, scale, tuple(chosen), tuple(colours))
+    return deformed.principal_strokes(mchaml, scale, tuple(chosen), tuple(colours))
 
 
 @EXTR.form()
 def amplification(
     call: Call,
-    shape: Deformed = Main("DEFORME", en="deformed shapes"),
+    shape: deformed.Deformed = Main("DEFORME", en="deformed shapes"),
     what: str = Choice(("AMPL",), optional=False, en="amplification"),
 ) -> float:
     """By how much the displacement is amplified."""
@@ -146,7 +140,7 @@ def amplification(
     first = shape.parts[0]
     if first.scale is not None:
         return float(first.scale)
-    return automatic_scale(first.mesh, first.displacement)
+    return deformed.automatic_scale(first.mesh, first.displacement)
 
 
 ANNO = shared("ANNO", "drawing")

@@ -18,12 +18,7 @@ from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.combine import union as united
 from ssilang.language.registry import words_in
 from ssilang.language.vocabulary.unit_systems import result_unit
-from ssilang.operators.drawing.pictures import (
-    picture_formats,
-    picture_name,
-    refuse_rest,
-    save_picture,
-)
+from ssilang.operators.drawing import pictures
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
 
@@ -151,7 +146,7 @@ def trac(call: Call, objects: tuple[Operand, ...], **options: Any) -> None:
         _OBJECTS[type_of(operand.value)](said, operand.value)
         if operand.name and type_of(operand.value) not in ("ENTIER", "LISTREEL", "POINT", "MMODEL"):
             said.names.append(operand.name)
-    refuse_rest(call, words_in(_OPTIONS))
+    pictures.refuse_rest(call, words_in(_OPTIONS))
     _draw(call, call.session, said)
 
 
@@ -222,8 +217,10 @@ def _draw_files(
 ) -> None:
     stage = run_output(session).pictures.stage
     figure = draw_scene(made.layers, (view,), options, made.arrows, made.components, stage)
-    stem = picture_name(session, options.title, "-".join(said.names[:3]) or "trac")
-    files = save_picture(session, figure, stem, picture_formats(session, ("png",)))
+    stem = pictures.picture_name(session, options.title, "-".join(said.names[:3]) or "trac")
+    files = pictures.save_picture(
+        session, figure, stem, pictures.picture_formats(session, ("png",))
+    )
     deformed = said.subjects.deformed
     if said.animation and deformed is not None and len(deformed.parts) > 1:
         frames = animation_frames(deformed, said.subjects, view, options, stage)

@@ -13,8 +13,7 @@ from ssilang.io.recording import Recording
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.operators.dynamics.motion_files import stress_of
-from ssilang.operators.dynamics.motion_observers import VtkObserver
+from ssilang.operators.dynamics.motion_files import VtkObserver, stress_of
 from ssilang.operators.dynamics.reports import ENERGIES
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.tables.entries import Entries

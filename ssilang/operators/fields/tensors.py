@@ -4,23 +4,8 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.results import skin
+from ssilang.kernel.elements.results import skin, structural_gradients, tensors
 from ssilang.kernel.elements.results.integrals import integrals
-from ssilang.kernel.elements.results.structural_gradients import (
-    is_structural,
-    structural_gradient,
-    structural_names,
-)
-from ssilang.kernel.elements.results.tensors import (
-    PRINCIPAL,
-    components_at_home,
-    invariants,
-    principal,
-    section_equivalent,
-    tensor,
-    tresca,
-    von_mises,
-)
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.solids.gradients import (
     gradient_names,
@@ -62,12 +47,12 @@ def _equivalent(
 
     def make(zone: Zone) -> CellFieldBlock:
         if what == "VMIS" and skin.is_shell(zone) and material is not None:
-            return _scalar(zone, *section_equivalent(zone, field, material))
+            return _scalar(zone, *tensors.section_equivalent(zone, field, material))
         if is_solid(zone) or skin.is_shell(zone) or skin.is_thick_shell(zone):
             T, support = _tensor(zone, field, material, side)
             return _scalar(zone, compute(T), support)
         if what == "VMIS":
-            return _scalar(zone, *section_equivalent(zone, field, material))
+            return _scalar(zone, *tensors.section_equivalent(zone, field, material))
         raise FieldError(
             "operators.fields.continuous-elements-only", what=what, element=zone.element
         )
@@ -80,7 +65,7 @@ def _tensor(
 ) -> tuple[FloatArray, Support]:
     """Tensors of a continuous zone, or of a shell at one side."""
     if is_solid(zone):
-        return tensor(zone, field)[:2]
+        return tensors.tensor(zone, field)[:2]
     if skin.is_thick_shell(zone):
         if side != "MOYE":
             raise FieldError("operators.fields.no-side-of-thick-shell", element=zone.element)
@@ -96,7 +81,7 @@ def vmis(call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = STATE
     strains = next((f for f in fields if f.title == "DEFORMATIONS"), None)
     if strains is not None:
         call.warn("operators.fields.equivalent-of-strains", strains)
-    return _equivalent(call, model, fields, "MOYE", von_mises, "VMIS")
+    return _equivalent(call, model, fields, "MOYE", tensors.von_mises, "VMIS")
 
 
 @operator("TRES", family="stress", full_name="TRESCA")
@@ -104,7 +89,7 @@ def tres(
     call: Call, model: Model = MODEL, fields: tuple[CellField, ...] = STATE, side: str = _SIDE
 ) -> CellField:
     """Equivalent stress."""
-    return _equivalent(call, model, fields, side, tresca, "TRES")
+    return _equivalent(call, model, fields, side, tensors.tresca, "TRES")
 
 
 @operator("PRIN", family="stress", full_name="PRINCIPALE")
@@ -124,8 +109,8 @@ def prin(
         T, support = _tensor(zone, field, material, side)
         if skin.is_shell(zone):
             T = skin.in_global_axes(zone, T)
-        values = principal(zone, T, ordered and is_solid(zone))
-        return cell_block(zone, PRINCIPAL, values, support)
+        values = tensors.principal(zone, T, ordered and is_solid(zone))
+        return cell_block(zone, tensors.PRINCIPAL, values, support)
 
     return on_zones(present(call, model), "PRINCIPALE", make)
 
@@ -139,7 +124,7 @@ def inva(
     rows: list[list[CellFieldBlock]] = [[], [], []]
     for zone in present(call, model).zones:
         T, support = _tensor(zone, field, material, side)
-        for row, values in zip(rows, invariants(T), strict=True):
+        for row, values in zip(rows, tensors.invariants(T), strict=True):
             row.append(_scalar(zone, values, support))
     one, two, three = (CellField(tuple(r), "SCALAIRE") for r in rows)
     return one, two, three
@@ -160,8 +145,8 @@ def ener(
         family = families.family_of(zone)
         stress, strain = family.stress_names(zone), family.strain_names(zone)
         pair = [_holding(zone, given, names) for names in (stress, strain)]
-        s, support = components_at_home(zone, pair[0], stress)
-        e, other = components_at_home(zone, pair[1], strain)
+        s, support = tensors.components_at_home(zone, pair[0], stress)
+        e, other = tensors.components_at_home(zone, pair[1], strain)
         if s.shape[2] != e.shape[2] and 1 not in (s.shape[2], e.shape[2]):
             raise FieldError(
                 "operators.fields.stresses-and-strains-apart", support=support, other=other
@@ -190,10 +175,10 @@ def grad(
     names = tuple(field.components)
 
     def make(zone: Zone) -> CellFieldBlock:
-        if is_structural(zone):
+        if structural_gradients.is_structural(zone):
             seen = zone_field(zone, joined(given) if given else None)
-            values = structural_gradient(zone, field, seen)
-            return cell_block(zone, structural_names(zone), values)
+            values = structural_gradients.structural_gradient(zone, field, seen)
+            return cell_block(zone, structural_gradients.structural_names(zone), values)
         if not is_solid(zone):
             raise FieldError("operators.fields.grad-of-solids-only", element=zone.element)
         if any(n in names for n in families.family_of(zone).layout(zone).unknowns):
@@ -248,7 +233,7 @@ def jaco(model: Model = MODEL) -> CellField:
             geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
             weights = support_rule(zone.element, "RIGIDITE").weights
             return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
-        if not (skin.is_shell(zone) or is_structural(zone)):
+        if not (skin.is_shell(zone) or structural_gradients.is_structural(zone)):
             raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         points = support_rule(zone.element, "RIGIDITE").points
         slopes = shape_gradients(zone.cells.cell_type, points)

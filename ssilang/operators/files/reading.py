@@ -1,7 +1,7 @@
 """LIRE: tables of numbers, procedures and meshes from files."""
 
 from ssilang.io.mesh_files.avs import Structure, read_avs
-from ssilang.io.mesh_files.stl import read_stl
+from ssilang.io.mesh_files.unv_stl import read_stl
 from ssilang.io.tables import as_columns, read_csv
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.queries.quality import repeated_cells

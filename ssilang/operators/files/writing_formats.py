@@ -7,7 +7,7 @@ from ssilang.io.atomic import replacing, write_text
 from ssilang.io.matrix_market import market_text, node_lines, system_of, unknown_lines
 from ssilang.io.mesh_files.avs import avs_lines, structure_of
 from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
-from ssilang.io.mesh_files.stl import stl_lines
+from ssilang.io.mesh_files.unv_stl import stl_lines
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.operators.files.meshes import PLANE, mesh_table

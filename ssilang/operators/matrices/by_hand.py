@@ -1,12 +1,6 @@
 """Matrices of no model: MANU 'RIGI' by hand, MFIL, XXT and ZXXT, CABL."""
 
-from ssilang.kernel.matrices.build import (
-    cable_stiffness,
-    field_diagonal,
-    filter_weights,
-    repeated_matrix,
-    sum_of_outer_products,
-)
+from ssilang.kernel.matrices import build
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
 from ssilang.kernel.mesh.cells import many_noded
 from ssilang.operators.dispatch import MANU
@@ -51,7 +45,7 @@ def repeated(
     factor = _SIGN[sign or "SYME"]
     terms = square([r.values for r in rows], size, factor)
     equations = None if dual is None else _names(dual)
-    return repeated_matrix(mesh, unknowns, equations, terms, _kind(kind), factor == 1.0)
+    return build.repeated_matrix(mesh, unknowns, equations, terms, _kind(kind), factor == 1.0)
 
 
 @MANU.form(said("RIGIDITE"), of=("CHPOINT",))
@@ -92,7 +86,7 @@ def diagonal(
     field: NodeField = Arg("CHPOINT", en="terms of the diagonal"),
 ) -> Matrix:
     """A diagonal matrix."""
-    return field_diagonal(field, _kind(kind))
+    return build.field_diagonal(field, _kind(kind))
 
 
 @MANU.form(said("RIGIDITE"), of=("LISTCHPO",))
@@ -139,7 +133,7 @@ def mfil(
 ) -> Matrix:
     """Weights of a filter."""
     name = "SCAL" if unknown is None else unknown.rstrip()
-    return filter_weights(
+    return build.filter_weights(
         weights, radius, power, least, name, name if dual is None else dual.rstrip()
     )
 
@@ -151,7 +145,7 @@ def zxxt(
 ) -> Matrix:
     """Sum of the outer products."""
     vectors = [f for f in fields.values if isinstance(f, NodeField)]
-    return sum_of_outer_products(vectors, [float(a) for a in factors.values], "AMORTISSEMENT")
+    return build.sum_of_outer_products(vectors, [float(a) for a in factors.values], "AMORTISSEMENT")
 
 
 @operator("XXT", family="matrix")
@@ -160,7 +154,7 @@ def xxt(
     factor: float = Opt("FLOTTANT", default=1.0, en="a", range=ANY_NUMBER),
 ) -> Matrix:
     """Outer product."""
-    return sum_of_outer_products([field], [factor], "RIGIDITE")
+    return build.sum_of_outer_products([field], [factor], "RIGIDITE")
 
 
 @operator("CABL", family="matrix", full_name="CABLE")
@@ -173,4 +167,4 @@ def cabl(
     ),
 ) -> Matrix:
     """Cables."""
-    return cable_stiffness(mesh, workspace(call.session).dimension, force, percent)
+    return build.cable_stiffness(mesh, workspace(call.session).dimension, force, percent)

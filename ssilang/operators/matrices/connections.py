@@ -4,14 +4,7 @@ from itertools import product
 
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.mesh.nodes import told_coordinates
-from ssilang.kernel.statics import doubled
-from ssilang.kernel.statics.cells_amiss import (
-    bent_layer,
-    bordered_solids,
-    hanging_nodes,
-    overlapping_cells,
-    passed_by_joints,
-)
+from ssilang.kernel.statics import cells_amiss, doubled
 from ssilang.kernel.statics.linear_motion import crossed_lines, wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
 from ssilang.kernel.statics.swapped_joints import repeated_joints
@@ -61,8 +54,8 @@ def warn_connections(
     _warn_swapped_joints(tell, matrix, model, characteristics)
     _warn_footings(tell, matrix, model, characteristics)
     _warn_hinges(tell, matrix, model)
-    solids = bordered_solids(matrix)
-    if (layer := bent_layer(matrix, solids)) is not None:
+    solids = cells_amiss.bordered_solids(matrix)
+    if (layer := cells_amiss.bent_layer(matrix, solids)) is not None:
         told = vars(layer) | {"node": matrix.table.told(layer.node), "stiffer": layer.stiffer}
         tell("operators.matrices.layer-bends", **told)
     zones = () if model is None else model.zones
@@ -70,9 +63,9 @@ def warn_connections(
     used, joints = np.concatenate(others), [z for z in zones if is_joint(z)]
     springs = [b for b in matrix.blocks if b.raw_nodes.shape[1] == 1]
     found = {
-        "operators.matrices.nodes-hang": hanging_nodes(matrix, solids),
-        "operators.matrices.joints-pass-by": passed_by_joints(matrix, joints),
-        "operators.matrices.cells-overlap": overlapping_cells(matrix, solids),
+        "operators.matrices.nodes-hang": cells_amiss.hanging_nodes(matrix, solids),
+        "operators.matrices.joints-pass-by": cells_amiss.passed_by_joints(matrix, joints),
+        "operators.matrices.cells-overlap": cells_amiss.overlapping_cells(matrix, solids),
         "operators.matrices.springs-held": doubled.idle_nodes(springs, matrix),
         "operators.matrices.clamped-alone": doubled.clamped_alone(matrix),
         "operators.matrices.relation-sign": wrong_signs(matrix),

@@ -1,15 +1,8 @@
 """SUPE CMCT: static condensation of a body, matrices without some unknowns."""
 
+from ssilang.kernel.matrices import superelement
 from ssilang.kernel.matrices.condensation import condensed_by_relations, condensed_on_multipliers
 from ssilang.kernel.matrices.submatrices import support_mesh
-from ssilang.kernel.matrices.superelement import (
-    SuperElement,
-    condense,
-    condensed_load,
-    condensed_mass,
-    inner_displacement,
-    shape_fields,
-)
 from ssilang.operators.dispatch import EXTR, listing
 from ssilang.operators.prelude import *
 
@@ -29,45 +22,46 @@ def stiffness(
         "POINT",
         en="masters: nodes, unknowns of a matrix or components of a field",
     ),
-) -> SuperElement:
+) -> superelement.SuperElement:
     """Stiffness condensed onto the masters."""
     if isinstance(chosen, Matrix | NodeField):
-        return condense(matrix, chosen, inside)
+        return superelement.condense(matrix, chosen, inside)
     nodes = chosen.node_ids if isinstance(chosen, Mesh) else np.array([chosen.node])
-    return condense(matrix, nodes, inside)
+    return superelement.condense(matrix, nodes, inside)
 
 
 @SUPE.form(said("CHARGE"))
 def load(
-    element: SuperElement = _ELEMENT, load: NodeField = Arg("CHPOINT", en="loads on the body")
+    element: superelement.SuperElement = _ELEMENT,
+    load: NodeField = Arg("CHPOINT", en="loads on the body"),
 ) -> NodeField:
     """Loads on the masters."""
-    return condensed_load(element, load)
+    return superelement.condensed_load(element, load)
 
 
 @SUPE.form(said("DEPLA"))
 def displacement(
     alone: bool = _ACCEPTED,
-    element: SuperElement = _ELEMENT,
+    element: superelement.SuperElement = _ELEMENT,
     masters: NodeField = Arg("CHPOINT", en="displacement of the masters"),
     load: NodeField | None = Opt("CHPOINT", en="loads on the body"),
 ) -> NodeField:
     """Displacement of the whole body."""
-    return inner_displacement(element, masters, load)
+    return superelement.inner_displacement(element, masters, load)
 
 
 @SUPE.form(said("MASSE"), gives=by("shapes", {True: ("LISTCHPO", "RIGIDITE")}, "RIGIDITE"))
 def mass(
     shapes: bool = Flag("LCHP", en="the displacement for a unit of each master first"),
-    element: SuperElement = _ELEMENT,
+    element: superelement.SuperElement = _ELEMENT,
     mass: Matrix = Arg("RIGIDITE", en="mass of the body"),
 ) -> Matrix | tuple[ListChpo, Matrix]:
     """Mass that the masters feel."""
-    made = condensed_mass(element, mass)
-    return (ListChpo(tuple(shape_fields(element))), made) if shapes else made
+    made = superelement.condensed_mass(element, mass)
+    return (ListChpo(tuple(superelement.shape_fields(element))), made) if shapes else made
 
 
-_PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
+_PARTS: dict[str, Callable[[superelement.SuperElement], Matrix | Mesh]] = {
     "RIGI": lambda element: element.stiffness,
     "RIGT": lambda element: element.source,
     "BLOQ": lambda element: Matrix(element.source.table, (), element.source.relations),
@@ -78,7 +72,7 @@ _PARTS: dict[str, Callable[[SuperElement], Matrix | Mesh]] = {
 @EXTR.form(gives=by("what", {"ELEM": "MAILLAGE"}, "RIGIDITE"))
 def extract_from_superelement(
     call: Call,
-    element: SuperElement = Main("SUPERELE", en="super-element"),
+    element: superelement.SuperElement = Main("SUPERELE", en="super-element"),
     what: str | None = Choice(
         tuple(_PARTS), en="condensed stiffness, stiffness, conditions or mesh of the masters"
     ),
@@ -90,7 +84,7 @@ def extract_from_superelement(
 
 
 @listing("SUPERELE")
-def _listed(element: SuperElement, short: bool, say: Teller) -> str:
+def _listed(element: superelement.SuperElement, short: bool, say: Teller) -> str:
     masters = len(element.masters)
     inner = element.numbering.size - masters
     return say("operators.matrices.super-element", masters=masters, inner=inner)

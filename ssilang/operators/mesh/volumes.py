@@ -1,15 +1,7 @@
 """Volumes: VOLU by translation, rotation, along a line, between two surfaces, by thickness."""
 
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.generators.sweep import (
-    Path,
-    layer_cuts,
-    listed_cuts,
-    mean_density,
-    ruling,
-    sweep_surface,
-    translation,
-)
+from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.orientation import surface_normals
 from ssilang.kernel.mesh.volumes.block import fill_block
@@ -36,14 +28,16 @@ def stacked(lower: Mesh, upper: Mesh) -> Mesh:
     return Mesh(made.nodes, made.blocks, (lower.sides[0], upper.sides[1], *lateral))
 
 
-def _make(base: Mesh, path: Path, end_size: float, cuts: Cuts, listed: ListReel | None) -> Mesh:
+def _make(
+    base: Mesh, path: sweep.Path, end_size: float, cuts: Cuts, listed: ListReel | None
+) -> Mesh:
     surface = surface_to_sweep(base, 1)
     layers: Subdivision
     if listed is not None:
-        layers = listed_cuts(listed.values, path.length)
+        layers = sweep.listed_cuts(listed.values, path.length)
     else:
-        layers = layer_cuts(surface, path, end_size, cuts.count, (cuts.first, cuts.last))
-    made = sweep_surface(surface, path, layers)
+        layers = sweep.layer_cuts(surface, path, end_size, cuts.count, (cuts.first, cuts.last))
+    made = sweep.sweep_surface(surface, path, layers)
     return made if surface is base else stacked(base, made)
 
 
@@ -87,8 +81,8 @@ def volu(
     """Fill a volume, span one between two surfaces, or thicken a shell."""
     if goal is not None:
         end = surface_to_sweep(goal, 0)
-        path = ruling(surface_to_sweep(base, 1), end)
-        made = _make(base, path, mean_density(end), cuts_of(count, sizes), places)
+        path = sweep.ruling(surface_to_sweep(base, 1), end)
+        made = _make(base, path, sweep.mean_density(end), cuts_of(count, sizes), places)
         return made if end is goal else stacked(made, goal)
     if thickness is None and count:
         thickness = float(count)
@@ -115,7 +109,7 @@ def translated(
     vector: Point,
 ) -> Mesh:
     """Sweep a volume along a vector."""
-    path = translation(vector.coordinates.copy())
+    path = sweep.translation(vector.coordinates.copy())
     return _make(base, path, vector.density, cuts_of(count, sizes), places)
 
 
@@ -157,7 +151,7 @@ def along_line(
     """Sweep a volume along a line, a layer for each of its cells."""
     path, layers = generator_path(along["line"])
     surface = surface_to_sweep(base, 1)
-    made = sweep_surface(surface, path, layers)
+    made = sweep.sweep_surface(surface, path, layers)
     return made if surface is base else stacked(base, made)
 
 
@@ -190,8 +184,10 @@ def thickened(shell: Mesh, thickness: float | NodeField, direction: FloatArray) 
     blocks = tuple(
         type(b).make(b.nodes, b.cell_type, table[b.connectivity], b.colours) for b in shell.blocks
     )
-    path = Path(lambda x, s: x + s * size * normal, float(size.mean()))
-    return sweep_surface(Mesh(shell.nodes, blocks), path, Subdivision(np.array([0.0, 1.0]), 0, 0))
+    path = sweep.Path(lambda x, s: x + s * size * normal, float(size.mean()))
+    return sweep.sweep_surface(
+        Mesh(shell.nodes, blocks), path, Subdivision(np.array([0.0, 1.0]), 0, 0)
+    )
 
 
 def _thickness_at(shell: Mesh, thickness: float | NodeField) -> FloatArray:

@@ -6,8 +6,7 @@ from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 from ssilang.kernel.continuation.harmonics import basis_of, exponents, unstable
 from ssilang.kernel.matrices import assembly
 from ssilang.kernel.stepping.problem.loading import loading_of
-from ssilang.operators.modal.harmonic_tables import asked_results, curve, joined, longer
-from ssilang.operators.modal.hbm import known_names
+from ssilang.operators.modal.hbm import asked_results, curve, joined, known_names, longer
 from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries

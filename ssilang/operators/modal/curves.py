@@ -2,16 +2,7 @@
 
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.statics.linear import product
-from ssilang.operators.curves.evol import (
-    COUNT,
-    KINDS,
-    SHAPES,
-    STEPS,
-    TIMES,
-    history,
-    names_in_time,
-    nodes_named,
-)
+from ssilang.operators.curves import evol
 from ssilang.operators.curves.instants import tell_zero, value_in_time
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
 from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
@@ -40,20 +31,20 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     first = next((o.value for o in call.operands if isinstance(o.value, ListChpo | Table)), None)
     if isinstance(first, Table):
         return _recombined_results(call, colours)
-    fields, times, _ = history(call)
-    steps = call.given(STEPS)
+    fields, times, _ = evol.history(call)
+    steps = call.given(evol.STEPS)
     shapes = _basis(call)
-    shapes = shapes[: call.given(COUNT)]
+    shapes = shapes[: call.given(evol.COUNT)]
     if steps is not None:
         places = _places(call, steps, len(fields))
         fields, times = [fields[i] for i in places], times[places]
     known = [s.field for s in shapes]
-    names = names_in_time(call, known)
+    names = evol.names_in_time(call, known)
     support = call.needed("POINT", "MAILLAGE")
-    names = names or names_in_time(call, known)
+    names = names or evol.names_in_time(call, known)
     if not names:
         raise call.missing(("MOT",))
-    places_of = [(name, node) for name in names for node in nodes_named(support.value)]
+    places_of = [(name, node) for name in names for node in evol.nodes_named(support.value)]
     return _curves(call, times, contributions(list(fields), shapes), known, places_of, colours)
 
 
@@ -95,7 +86,7 @@ def _recombined_results(call: Call, colours: list[int]) -> Curve:
         weights = np.column_stack([weights, *(p.at(times) for p in pseudo)])
         known += [p.field for p in pseudo]
     places = _places_asked(call, known)
-    at = call.given(TIMES)
+    at = call.given(evol.TIMES)
     if at is not None:
         weights, times = _at(call, at, times, weights), np.asarray(at.values)
     return _curves(call, times, weights, known, places, colours)
@@ -110,10 +101,10 @@ def _places_asked(call: Call, fields: list[NodeField]) -> list[tuple[str, int]]:
     support = call.read("POINT", "MAILLAGE")
     if support is None:
         raise call.missing(("POINT", "MAILLAGE", "CHPOINT"))
-    names = names_in_time(call, fields)
+    names = evol.names_in_time(call, fields)
     if not names:
         raise call.missing(("MOT",))
-    return [(name, node) for name in names for node in nodes_named(support.value)]
+    return [(name, node) for name in names for node in evol.nodes_named(support.value)]
 
 
 def _at(call: Call, asked: ListReel, times: FloatArray, weights: FloatArray) -> FloatArray:
@@ -145,7 +136,7 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
         places = _places_asked(call, list(fields[:1]))
     names = [c for c, _ in places]
     weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
-    at = call.given(TIMES)
+    at = call.given(evol.TIMES)
     if at is not None:
         weights, times = _at(call, at, times, weights), np.asarray(at.values)
     parts = [
@@ -163,10 +154,10 @@ def _places(call: Call, steps: ListEnti, count: int) -> list[int]:
 
 
 def _projected(call: Call, colours: list[int]) -> Curve:
-    fields, times, _ = history(call)
-    steps = call.given(STEPS) if _lists_before_table(call) else None
+    fields, times, _ = evol.history(call)
+    steps = call.given(evol.STEPS) if _lists_before_table(call) else None
     shapes = _basis(call)
-    chosen = call.given(SHAPES)
+    chosen = call.given(evol.SHAPES)
     matrix = call.optional("RIGIDITE")
     if steps is not None:
         places = _places(call, steps, len(fields))
@@ -197,6 +188,6 @@ def _lists_before_table(call: Call) -> bool:
     return False
 
 
-KINDS["RECO"] = _recombined
-KINDS["PJBA"] = _projected
-KINDS["SOLU"] = _of_contributions
+evol.KINDS["RECO"] = _recombined
+evol.KINDS["PJBA"] = _projected
+evol.KINDS["SOLU"] = _of_contributions

@@ -1,15 +1,7 @@
 """DYNE: time stepping on modes, with shocks, friction, plastic links and couplings."""
 
 from ssilang.kernel.matrices.assembly import Numbering, assemble, field_to_vector, numbering_of
-from ssilang.kernel.modal.explicit import (
-    SCHEMES,
-    VARIABLES,
-    ModalProblem,
-    ModalRun,
-    ModalState,
-    ModalSteps,
-    integrate_modes,
-)
+from ssilang.kernel.modal import explicit
 from ssilang.kernel.modal.link_laws import STATES
 from ssilang.kernel.modal.modes import eigenvalue
 from ssilang.kernel.stepping.problem.loading import loading_of
@@ -64,11 +56,15 @@ def _dyne(
     if tables.keys().isdisjoint(("start", "loads", "links")):
         call.warn("operators.modal.nothing-moves")
     damping = damping_of(call, tables.get("damping"), system)
-    return _integrated(call, tables, system, damping, ModalSteps(h, steps, every, scheme))
+    return _integrated(call, tables, system, damping, explicit.ModalSteps(h, steps, every, scheme))
 
 
 def _integrated(
-    call: Call, tables: dict[str, Table], system: System, damping: FloatArray, steps: ModalSteps
+    call: Call,
+    tables: dict[str, Table],
+    system: System,
+    damping: FloatArray,
+    steps: explicit.ModalSteps,
 ) -> Table:
     """The table of results of a run."""
     links, arrays = links_of(call, tables.get("links"), system.basis)
@@ -82,13 +78,13 @@ def _integrated(
     loading = loading_of(given, system.numbering, np.zeros(0, dtype=np.int64))
     times = start.time + 0.5 * steps.h * np.arange(2 * max(steps.count, 0) + 1, dtype=np.float64)
     spaces, amplitudes = loading.forces.T.copy(), loading.at(times).T.copy()
-    problem = ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
-    run = integrate_modes(problem, start, steps)
+    problem = explicit.ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
+    run = explicit.integrate_modes(problem, start, steps)
     return _results(call, run, system, links, tables.get("output"))
 
 
 def results_of_models(
-    call: Call, entries: Entries, steps: ModalSteps, reached: Table | None
+    call: Call, entries: Entries, steps: explicit.ModalSteps, reached: Table | None
 ) -> tuple[Table, list[tuple[Zone, Model | None, Table]]]:
     """Step models MODAL and LIAISON of a table PASAPAS.
 
@@ -212,10 +208,10 @@ def damping_of(call: Call, table: Table | None, system: System) -> FloatArray:
 
 
 def _start(
-    call: Call, table: Table | None, system: System, links: int, steps: ModalSteps
-) -> ModalState:
+    call: Call, table: Table | None, system: System, links: int, steps: explicit.ModalSteps
+) -> explicit.ModalState:
     n = len(system.M)
-    rest = ModalState(steps.begin, np.zeros(n), np.zeros(n), None, None, None)
+    rest = explicit.ModalState(steps.begin, np.zeros(n), np.zeros(n), None, None, None)
     if table is None:
         return rest
     again = table.get("REPRISE")
@@ -255,7 +251,7 @@ def _values(call: Call, table: Table, name: str, system: System) -> FloatArray |
 
 
 def _results(
-    call: Call, run: ModalRun, system: System, links: list[ReadLink], output: Table | None
+    call: Call, run: explicit.ModalRun, system: System, links: list[ReadLink], output: Table | None
 ) -> Table:
     table = Table("RESULTAT_DYNE")
     table.set(Mot("TEMPS_DE_SORTIE"), ListReel(run.times))
@@ -265,34 +261,34 @@ def _results(
     if isinstance(variables, Table):
         wanted |= {str(i).rstrip(): v is True for i, v in variables.items() if type(v) is bool}
         kind = str(variables.get("TYPE_SORTIE", kind)).rstrip()
-    chosen = [i for i, name in enumerate(VARIABLES) if wanted.get(name)]
+    chosen = [i for i, name in enumerate(explicit.VARIABLES) if wanted.get(name)]
     (_as_fields if kind == "CHPOINT" else _as_lists)(table, run, system, chosen)
     _add_links(call, table, run, system, links, output)
     table.set(Mot("REPRISE"), _restart(run, system))
     return table
 
 
-def _as_fields(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
+def _as_fields(table: Table, run: explicit.ModalRun, system: System, chosen: list[int]) -> None:
     for step, values in enumerate(run.values):
         entry = Table()
         for i in chosen:
-            entry.set(Mot(VARIABLES[i]), system.field(values[i]))
+            entry.set(Mot(explicit.VARIABLES[i]), system.field(values[i]))
         table.set(step + 1, entry)
 
 
-def _as_lists(table: Table, run: ModalRun, system: System, chosen: list[int]) -> None:
+def _as_lists(table: Table, run: explicit.ModalRun, system: System, chosen: list[int]) -> None:
     """A table of lists by the point that marks the unknown."""
     for i in chosen:
         lists = Table()
         for j, node in enumerate(system.numbering.nodes):
             lists.set(Point(system.numbering.table, int(node)), ListReel(run.values[:, i, j]))
-        table.set(Mot(VARIABLES[i]), lists)
+        table.set(Mot(explicit.VARIABLES[i]), lists)
 
 
 def _add_links(
     call: Call,
     table: Table,
-    run: ModalRun,
+    run: explicit.ModalRun,
     system: System,
     links: list[ReadLink],
     output: Table | None,
@@ -318,7 +314,7 @@ _MOTION = {
 """Fields from which DYNE goes on, and where the last step has them."""
 
 
-def _restart(run: ModalRun, system: System) -> Table:
+def _restart(run: explicit.ModalRun, system: System) -> Table:
     last = run.last
     assert last.before is not None
     assert last.q_before is not None
@@ -330,7 +326,7 @@ def _restart(run: ModalRun, system: System) -> Table:
 
 _FORM = operator(
     "DYNE",
-    choice("scheme", SCHEMES, optional=False, en="how time is stepped"),
+    choice("scheme", explicit.SCHEMES, optional=False, en="how time is stepped"),
     TABLES,
     arg("steps", "ENTIER", range=POSITIVE, en="number of steps"),
     arg("h", "FLOTTANT", range=POSITIVE, en="time step", unit="s"),
@@ -348,14 +344,14 @@ _FORM = operator(
 @_FORM.form()
 def _of_models(
     call: Call,
-    scheme: str = Choice(SCHEMES, optional=False, en="how time is stepped"),
+    scheme: str = Choice(explicit.SCHEMES, optional=False, en="how time is stepped"),
     table: Table = Arg("TABLE", en="table PASAPAS"),
 ) -> None:
     """Step what a table PASAPAS describes; results go into it, by number of the saved step."""
     entries = Entries(call, table, "DYNE", "TAB11")
     entries.check()
     steps, h = entries.needed("NOMBRE_PAS"), entries.needed("PAS_DE_TEMPS")
-    plan = ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"), scheme)
+    plan = explicit.ModalSteps(h, steps, entries.get("PAS_DE_SORTIE"), scheme)
     results, named = results_of_models(call, entries, plan, entries.get("INIT_DYNE"))
     made = {name: Table() for name in ("TEMPS", "DEPLACEMENTS", "VITESSES", "LIAISONS")}
     times = results.get(Mot("TEMPS_DE_SORTIE"))

@@ -1,20 +1,10 @@
 """VIBR: natural modes, as the language's table BASE_MODALE."""
 
-from ssilang.kernel.matrices.assembly import (
-    assemble,
-    field_to_vector,
-    is_symmetric,
-    negative_mass,
-    numbering_of,
-)
+from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
 from ssilang.kernel.modal.modes import Mode as RealMode
-from ssilang.operators.matrices.connections import (
-    rotary_without_mass,
-    warn_connections,
-    warn_repeated,
-)
+from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
@@ -64,13 +54,15 @@ def _modes(
     if len(matrices) < 2:
         raise call.missing(("RIGIDITE",))
     stiffness, mass, damping = matrices_by_kind(matrices)
-    warn_connections(call.session, call.span, "VIBR", stiffness)
-    warn_repeated(call.session, call.span, "VIBR", mass, "MASS", stiffness)
-    if (found := rotary_without_mass(mass)) is not None:
+    connections.warn_connections(call.session, call.span, "VIBR", stiffness)
+    connections.warn_repeated(call.session, call.span, "VIBR", mass, "MASS", stiffness)
+    if (found := connections.rotary_without_mass(mass)) is not None:
         call.warn("operators.matrices.rotary-alone", **found)
     _warn_negative_mass(call, mass)
     _warn_masses_alone(call, stiffness, mass)
-    if damping is not None or not (is_symmetric(stiffness) and is_symmetric(mass)):
+    if damping is not None or not (
+        assembly.is_symmetric(stiffness) and assembly.is_symmetric(mass)
+    ):
         return _complex(call, method, stiffness, mass, damping)
     if method.word == "INTERVALLE":
         ends = sorted((method["low"], method["high"]))
@@ -86,8 +78,8 @@ def _modes(
         modes = modes_near(stiffness, mass, wanted, solver_of(call.session))
         if len(wanted) == 1 and len(modes) < wanted[0][1]:
             call.warn("operators.modal.fewer-modes", asked=wanted[0][1], found=len(modes))
-        unknowns = numbering_of(mass)
-        shapes = [field_to_vector(m.shape, unknowns, dual=False) for m in modes]
+        unknowns = assembly.numbering_of(mass)
+        shapes = [assembly.field_to_vector(m.shape, unknowns, dual=False) for m in modes]
         twice = [m for m, u, v in zip(modes, shapes, shapes[1:], strict=False) if np.allclose(u, v)]
         if twice:
             call.warn("operators.modal.mode-twice", frequency=twice[0].frequency)
@@ -99,7 +91,7 @@ def _modes(
 
 def _warn_masses_alone(call: Call, stiffness: Matrix, mass: Matrix) -> None:
     """Tell of masses at nodes that the stiffness does not know."""
-    alone = np.setdiff1d(numbering_of(mass).nodes, numbering_of(stiffness).nodes)
+    alone = np.setdiff1d(assembly.numbering_of(mass).nodes, assembly.numbering_of(stiffness).nodes)
     if len(alone) and mass.inertial:
         node = mass.table.told(int(alone[0]))
         call.warn("operators.dynamics.masses-alone", count=len(alone), node=node)
@@ -109,8 +101,8 @@ def _warn_negative_mass(call: Call, mass: Matrix) -> None:
     """Tell of a mass of both signs, which is a buckling load made by hand or a slip."""
     found = None
     if mass.inertial:
-        numbering = numbering_of(mass)
-        found = negative_mass(assemble(mass, numbering), numbering)
+        numbering = assembly.numbering_of(mass)
+        found = assembly.negative_mass(assembly.assemble(mass, numbering), numbering)
     if found is not None:
         call.warn("operators.modal.mass-of-both-signs", unknown=found[0], value=found[1])
 

@@ -10,14 +10,7 @@ from ssilang.kernel.interface.laws.parameter_table import check_given
 from ssilang.kernel.materials.behaviours import UNIAXIAL_LAWS, normalised
 from ssilang.kernel.materials.parameters import geometric_names
 from ssilang.kernel.materials.plastic.laws import plastic_law
-from ssilang.operators.models.materials import (
-    Values,
-    check_plastic,
-    material_names,
-    parameter_name,
-    refuse_outside,
-    unknown_parameter,
-)
+from ssilang.operators.models import materials
 from ssilang.operators.models.mode import OF_JOINTS, Wish, read_word
 from ssilang.operators.models.units import warn_of_units
 from ssilang.operators.prelude import *
@@ -89,14 +82,16 @@ def refuse_constants(call: Call, zone: Zone, pairs: Iterable[tuple[str, Any]]) -
     MaterialError
         Of the law of a joint, as in a run.
     """
-    known = (*material_names(zone), *geometric_names(zone).all)
+    known = (*materials.material_names(zone), *geometric_names(zone).all)
     law = None if is_joint(zone) else plastic_law(zone.behaviour)
-    values: Values = {}
+    values: materials.Values = {}
     said: dict[str, Any] = {}
     for written, value in pairs:
-        name = parameter_name(written, known)
+        name = materials.parameter_name(written, known)
         if not {name, written.upper().rstrip()} & {*known, *known_parameters()}:
-            raise unknown_parameter(call, written, Model((zone,)), material_names)
+            raise materials.unknown_parameter(
+                call, written, Model((zone,)), materials.material_names
+            )
         if name not in known or (type(value) not in (int, float) and name in _curves(law)):
             continue
         number = type(value) in (int, float)
@@ -104,8 +99,8 @@ def refuse_constants(call: Call, zone: Zone, pairs: Iterable[tuple[str, Any]]) -
         values[name], said[name] = (one, "GRAVITE"), value
     if is_joint(zone):
         check_given(zone, {name: value for name, (value, _) in values.items()})
-    refuse_outside(call, zone, values, said)
-    check_plastic(call, zone, values, said)
+    materials.refuse_outside(call, zone, values, said)
+    materials.check_plastic(call, zone, values, said)
     warn_of_units(call, zone, {name: (value, said[name]) for name, (value, _) in values.items()})
 
 

@@ -3,11 +3,7 @@
 from ssilang.language.registry import OPERATORS
 from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
 from ssilang.language.run.library import standard_procedures
-from ssilang.language.say.reference import (
-    operator_page,
-    overview,
-    procedure_page,
-)
+from ssilang.language.say import reference
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary.pages import help_text, near_name
 
@@ -147,14 +143,14 @@ def info(call: Call, said: str = Arg("MOT", en="operator, procedure or word")) -
 @operator("NOTI", family="session", full_name="NOTICE")
 def noti(session: Session, said: str | None = Opt("MOT", en="changes nothing")) -> None:
     """Print the overview; the word that may follow chooses nothing here."""
-    session.print(overview(standard_procedures().values(), session.language))
+    session.print(reference.overview(standard_procedures().values(), session.language))
 
 
 @operator("AIDE", family="session")
 def aide(session: Session, said: str = Arg("MOT", en="text looked for")) -> ListMots:
     """Search the help in both languages, whatever the case."""
-    pages = [operator_page(o) for n, o in sorted(OPERATORS.items()) if n == o.name]
-    pages += [procedure_page(p) for p in standard_procedures().values()]
+    pages = [reference.operator_page(o) for n, o in sorted(OPERATORS.items()) if n == o.name]
+    pages += [reference.procedure_page(p) for p in standard_procedures().values()]
     wanted = said.upper()
     found = [
         p.name

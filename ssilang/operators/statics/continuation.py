@@ -5,7 +5,7 @@ import time
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report
 from ssilang.operators.modal.continuation import lengths_of
-from ssilang.operators.modal.harmonic_tables import asked_results, curve
+from ssilang.operators.modal.hbm import asked_results, curve
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.pasapas import _inputs, _path_run, start_of
@@ -13,7 +13,7 @@ from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.arc_length import ArcTrace
+    from ssilang.kernel.plasticity.driven_load import ArcTrace
     from ssilang.kernel.stepping.problem.problem import Problem
     from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 from ssilang.operators.modal.continuation import continue_harmonics
@@ -43,8 +43,7 @@ class Followed:
 
 def continue_loads(entries: Entries) -> None:
     """Follow the path of loads and fill the tables."""
-    from ssilang.kernel.plasticity.arc_length import follow_arc
-    from ssilang.kernel.plasticity.driven_load import history_of
+    from ssilang.kernel.plasticity.driven_load import follow_arc, history_of
     from ssilang.kernel.stepping.problem.problem import make_problem
 
     entries.refuse(REFUSED)

@@ -10,14 +10,7 @@ from ssilang.kernel.elements.results.structural_gradients import (
     structural_work,
 )
 from ssilang.kernel.elements.results.tensors import components_at_home
-from ssilang.kernel.elements.solids.finite_motion import (
-    carried,
-    gradient_components,
-    gradient_forces,
-    polar,
-    transformation,
-    work,
-)
+from ssilang.kernel.elements.solids import finite_motion
 from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.operators.matrices.element import joined, present
@@ -56,9 +49,13 @@ def pola(
         names = gradient_names(zone)
         flat, support = components_at_home(zone, gradient, names)
         for row, tensor in zip(
-            rows, polar(transformation(zone, flat, by_displacement)), strict=True
+            rows,
+            finite_motion.polar(finite_motion.transformation(zone, flat, by_displacement)),
+            strict=True,
         ):
-            row.append(cell_block(zone, names, gradient_components(zone, tensor), support))
+            row.append(
+                cell_block(zone, names, finite_motion.gradient_components(zone, tensor), support)
+            )
     turned, stretched = (CellField(tuple(r), "GRADIENT") for r in rows)
     return turned, stretched
 
@@ -83,7 +80,7 @@ def _carried(
 
     def make(zone: Zone) -> CellFieldBlock:
         _solid(zone, call.name)
-        names, values, support = carried(zone, field, u, forward, frame == "JAUM")
+        names, values, support = finite_motion.carried(zone, field, u, forward, frame == "JAUM")
         return cell_block(zone, names, values, support)
 
     return stresses.on_zones(present(call, model), field.title, make)
@@ -118,7 +115,7 @@ def work_of(
         if is_structural(zone):
             return cell_block(zone, ("SCAL",), structural_work(zone, stress, gradient)[:, None])
         _solid(zone, "WORK")
-        values, support = work(zone, stress, gradient)
+        values, support = finite_motion.work(zone, stress, gradient)
         return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
 
     return stresses.on_zones(zones, "SCALAIRE", make)
@@ -153,7 +150,7 @@ def fofi(
             forces.append(structural_forces(zone, stress, gradient, parameters))
             continue
         _solid(zone, "FOFI")
-        forces.append(gradient_forces(zone, stress, gradient, parameters))
+        forces.append(finite_motion.gradient_forces(zone, stress, gradient, parameters))
     return total(forces[0].table, forces)
 
 

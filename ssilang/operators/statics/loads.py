@@ -1,15 +1,6 @@
 """FORC MOME PRES FSUR CNEQ: nodal forces of loads."""
 
-from ssilang.kernel.elements.loads.loads import (
-    body_force,
-    line_load,
-    loaded_faces,
-    on_sides,
-    pipe_pressure,
-    pressure,
-    shell_load,
-    traction,
-)
+from ssilang.kernel.elements.loads import loads
 from ssilang.kernel.elements.results.supports import model_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -145,8 +136,8 @@ def _on_faces(
     call: Call, model: Model, value: NodeField | CellField | float, faces: Mesh | None
 ) -> NodeField:
     if isinstance(value, CellField):
-        value = on_sides(model, value)
-    return pressure(model, _sides(call, model, value, faces), value)
+        value = loads.on_sides(model, value)
+    return loads.pressure(model, _sides(call, model, value, faces), value)
 
 
 def _sides(call: Call, model: Model, load: object, faces: Mesh | None) -> Mesh:
@@ -154,7 +145,7 @@ def _sides(call: Call, model: Model, load: object, faces: Mesh | None) -> Mesh:
     if faces is None:
         if not isinstance(load, NodeField | CellField):
             raise call.missing(("MAILLAGE",))
-        faces = loaded_faces(model, load)
+        faces = loads.loaded_faces(model, load)
     if count := repeated_cells(faces).n_cells:
         call.warn("operators.statics.sides-twice", faces, count=count)
     return faces
@@ -168,7 +159,7 @@ def along_normals(
     fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Pressure along the normals of shells."""
-    return shell_load(model, value, material=_joined(fields))
+    return loads.shell_load(model, value, material=_joined(fields))
 
 
 @pres.form(said("COQU"))
@@ -181,7 +172,7 @@ def shell_pressure(
 ) -> NodeField:
     """Pressure on shells."""
     aim, point = (None if p is None else p.coordinates for p in (along, towards))
-    return shell_load(model, value, aim, point, _joined(fields))
+    return loads.shell_load(model, value, aim, point, _joined(fields))
 
 
 @pres.form(said("SHB8"))
@@ -203,7 +194,7 @@ def pressure_in_pipes(
     material: tuple[CellField, ...] = Many("MCHAML", at_least=1, en="parameters"),
 ) -> NodeField:
     """Pressure on the closed ends of pipes."""
-    return pipe_pressure(model, joined(material))
+    return loads.pipe_pressure(model, joined(material))
 
 
 @pres.form(said("FISS"))
@@ -274,7 +265,7 @@ def fsur(
 ) -> NodeField:
     """Forces on sides of continuous elements."""
     sides = _sides(call, model, density, faces)
-    return traction(model, sides, _values(density), _joined(fields))
+    return loads.traction(model, sides, _values(density), _joined(fields))
 
 
 @fsur.form(said("COQU"))
@@ -284,7 +275,7 @@ def shell_forces(
     fields: tuple[CellField, ...] = _OF_SHELLS,
 ) -> NodeField:
     """Forces on shells."""
-    return shell_load(model, _values(density), material=_joined(fields))
+    return loads.shell_load(model, _values(density), material=_joined(fields))
 
 
 @fsur.form(said("POUT"))
@@ -294,7 +285,7 @@ def line_forces(
     normal: Point | None = Key("PROJ", "POINT", en="vector normal to the plane of projection"),
 ) -> NodeField:
     """Forces along beams and bars."""
-    return line_load(model, _values(density), None if normal is None else normal.coordinates)
+    return loads.line_load(model, _values(density), None if normal is None else normal.coordinates)
 
 
 @operator("CNEQ", family="load")
@@ -309,4 +300,4 @@ def cneq(
         held = [np.isin(z.cells.connectivity, force.node_ids) for z in model.zones]
         if count := sum(int((at.any(axis=1) & ~at.all(axis=1)).sum()) for at in held):
             call.warn("operators.statics.force-in-part", force, count=count)
-    return body_force(model, force, joined(fields) if fields else None)
+    return loads.body_force(model, force, joined(fields) if fields else None)

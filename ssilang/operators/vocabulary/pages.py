@@ -10,16 +10,7 @@ from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
 from ssilang.language.registry import OPERATORS, keywords_of
 from ssilang.language.run.library import standard_procedures
-from ssilang.language.say.reference import (
-    WIDTH,
-    Page,
-    find_page,
-    first_sentence,
-    operator_page,
-    page_names,
-    page_text,
-    procedure_page,
-)
+from ssilang.language.say import reference
 from ssilang.language.search import Item, nearest, search
 from ssilang.language.vocabulary.examples import example
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
@@ -35,7 +26,7 @@ _SHOWN = 20  # lines of a search
 def vocabulary_text(kind: str, word: Word, language: str) -> str:
     """The page of one meaning of a word."""
     lines = [f"{word.name} : {label(kind, word, language)}", ""]
-    lines += textwrap.wrap(word.meaning(language) + ".", WIDTH)
+    lines += textwrap.wrap(word.meaning(language) + ".", reference.WIDTH)
     for part in _PARTS.get(kind, lambda *_: [])(word, language):
         lines += ["", *part] if isinstance(part, list) else [part]
     shown = example(kind, word)
@@ -65,7 +56,11 @@ def label_code(kind: str, word: Word) -> str:
 def _filled(head: str, names: Iterable[str]) -> list[str]:
     """A head with a list of names, wrapped under themselves."""
     text = " ".join(names)
-    return textwrap.wrap(f"{head:<14}{text}", WIDTH, subsequent_indent=" " * 14) if text else []
+    return (
+        textwrap.wrap(f"{head:<14}{text}", reference.WIDTH, subsequent_indent=" " * 14)
+        if text
+        else []
+    )
 
 
 def _law(law: Word, language: str) -> Iterator[str | list[str]]:
@@ -223,11 +218,13 @@ def _manual() -> tuple[tuple[str, str], ...]:
 def items(language: str) -> Iterator[Item]:
     """Operators, procedures, words and pages of the manual."""
     known = standard_procedures()
-    made = [operator_page(o) for name, o in sorted(OPERATORS.items()) if o.name == name]
-    for page in made + [procedure_page(known[name]) for name in sorted(known)]:
+    made = [reference.operator_page(o) for name, o in sorted(OPERATORS.items()) if o.name == name]
+    for page in made + [reference.procedure_page(known[name]) for name in sorted(known)]:
         own = page.help.told(language)
         whole = f"{page.full_name} {page.title} {page.help.en} {page.help.fr} {page.help.syntax}"
-        yield Item(page.name, teller(language)(f"help.{page.kind}"), first_sentence(own), whole)
+        yield Item(
+            page.name, teller(language)(f"help.{page.kind}"), reference.first_sentence(own), whole
+        )
     for kind in vocabulary.KINDS:
         for word in vocabulary.words(kind):
             meaning = words.described(word, language)
@@ -245,10 +242,10 @@ def exact_pages(word: str, language: str) -> list[str]:
     A word of the everyday language ('contact') is searched besides.
     """
     said = word.upper().strip()
-    page = find_page(said, standard_procedures())
+    page = reference.find_page(said, standard_procedures())
     pages = []
     if page is not None and (said in _names(page) or page.full_name.startswith(said)):
-        pages.append(page_text(page, language))
+        pages.append(reference.page_text(page, language))
     for kind, found in vocabulary.all_meanings(said):
         if found.name.startswith(said):
             pages.append(vocabulary_text(kind, found, language))
@@ -261,7 +258,7 @@ def exact_pages(word: str, language: str) -> list[str]:
     return [p for p in pages if p]
 
 
-def _names(page: Page) -> tuple[str, ...]:
+def _names(page: reference.Page) -> tuple[str, ...]:
     aliases = OPERATORS[page.name].aliases if page.name in OPERATORS else ()
     return (page.name, page.full_name, *aliases)
 
@@ -288,5 +285,5 @@ def help_text(word: str, language: str) -> str:
 
 def near_name(word: str) -> str:
     """The known name that looks most like a word, '' if none does."""
-    known: set[str] = page_names(standard_procedures())
+    known: set[str] = reference.page_names(standard_procedures())
     return nearest(word, known.union(*(vocabulary.names(kind) for kind in vocabulary.KINDS)))

@@ -3,8 +3,16 @@
 import pytest
 from together import together
 
-from ssilang.cli.checking.kinds import ANY_WORD, SOMETHING, UNKNOWN, kind_word, same, typed
-from ssilang.cli.checking.scope import Scope, assigned_names
+from ssilang.cli.checking.kinds import (
+    ANY_WORD,
+    SOMETHING,
+    UNKNOWN,
+    Scope,
+    assigned_names,
+    kind_word,
+    same,
+    typed,
+)
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot

@@ -4,8 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from ssilang.cli.editor.document import Document
-from ssilang.cli.editor.tables import holders
+from ssilang.cli.editor.document import Document, holders
 
 LIBRARY = SimpleNamespace(
     declared_names=["@PA", "@PB"],

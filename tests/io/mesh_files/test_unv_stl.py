@@ -11,8 +11,7 @@ from together import together
 
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.mesh_files.file_mesh import FileMesh
-from ssilang.io.mesh_files.stl import read_stl, stl_lines
-from ssilang.io.mesh_files.unv import read_unv
+from ssilang.io.mesh_files.unv_stl import read_stl, read_unv, stl_lines
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 

@@ -22,9 +22,13 @@ from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.interface.laws.columns import N_STATE
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
-from ssilang.kernel.plasticity.arc_length import follow_arc
 from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.plasticity.driven_load import follow_directions, follow_time, history_of
+from ssilang.kernel.plasticity.driven_load import (
+    follow_arc,
+    follow_directions,
+    follow_time,
+    history_of,
+)
 from ssilang.kernel.plasticity.run import BulkRun, run_bulk
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import hierarchy

@@ -18,13 +18,8 @@ from functools import cache
 from importlib.util import source_hash
 from pathlib import Path
 
+from ssilang import private
 from ssilang.kernel.base.compiled import PLAIN, UNTRIED
-from ssilang.private import (
-    first_private,
-    fresh_folder,
-    opened_to_others,
-    places,
-)
 
 SUFFIX = ".code"  # of a file with a function's machine code
 KEPT_SECONDS = 30 * 86400.0  # code of older states of a module is removed after this
@@ -101,7 +96,7 @@ def _is_package(module: str, package: Path) -> bool:
 def kept_code() -> tuple[Path, int] | None:
     """The folder that keeps code for later processes and the number of functions in it, if any."""
     given = os.environ.get("NUMBA_CACHE_DIR")
-    known = [Path(given)] if given else [] if PLAIN else places("compiled")
+    known = [Path(given)] if given else [] if PLAIN else private.places("compiled")
     base = _folder()
     if base is None or base not in [place.resolve() for place in known]:
         return None
@@ -130,19 +125,19 @@ def plain_folder() -> Path | None:
         return None
     files = sorted((PACKAGE / "kernel").rglob("*.py"))
     state = digest("".join(f"{f} {(s := f.stat()).st_size} {s.st_mtime_ns}\n" for f in files))
-    return first_private(*places(f"plain/{state}"))
+    return private.first_private(*private.places(f"plain/{state}"))
 
 
 @cache
 def _base() -> Path | None:
     """Folder that keeps code: the user's, a temporary one, a new one, or None if none is safe."""
-    return first_private(*places("compiled")) or fresh_folder()
+    return private.first_private(*private.places("compiled")) or private.fresh_folder()
 
 
 @cache
 def _given(name: str) -> Path | None:
     """The folder that NUMBA_CACHE_DIR names, or a new one if others could have written to it."""
-    return first_private(Path(name), closed=0o022) or fresh_folder()
+    return private.first_private(Path(name), closed=0o022) or private.fresh_folder()
 
 
 @cache
@@ -163,7 +158,7 @@ def folder_of(module: str) -> Path | None:
             _remove_old(base)
     except OSError:  # another process removes the same folders, or the disk is full
         pass
-    return folder if opened_to_others(folder) is None else None
+    return folder if private.opened_to_others(folder) is None else None
 
 
 @cache

@@ -4,14 +4,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements import family
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    ElementFamily,
-    Layout,
-    StrainOperator,
-    node_major_layout,
-    per_cell,
-)
 from ssilang.kernel.elements.shapes.geometry import line_geometry
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
@@ -30,12 +24,12 @@ def _geometry(
     return line_geometry(zone.cells.cell_type, xyz, support_rule(zone.element, support))
 
 
-class Bar(ElementFamily):
+class Bar(family.ElementFamily):
     """Normal force EFFX = YOUN SECT EPSS along the line."""
 
-    def layout(self, zone: Zone) -> Layout:
+    def layout(self, zone: Zone) -> family.Layout:
         """Translations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+        return family.node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPSS."""
@@ -52,19 +46,19 @@ class Bar(ElementFamily):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Derivative of the displacement along the line, projected on the line."""
         _, gradients, lengths = _geometry(zone, support, cells)
         n, p, d, k = gradients.shape
         matrix = gradients.transpose(0, 1, 3, 2).reshape(n, 1, p, k * d)
-        return StrainOperator(matrix, lengths)
+        return family.StrainOperator(matrix, lengths)
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Integral of RHO SECT N N^T in every direction."""
         shapes, _, lengths = _geometry(zone, "MASSE")
         cells = slice(None)
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
-        w = lengths * per_cell(density, cells)
+        w = lengths * family.per_cell(density, cells)
         scalar = np.einsum("cp,pi,pj->cij", w, shapes, shapes)
         return spread(scalar, zone.mode.dimension), self.layout(zone)
 
@@ -91,7 +85,7 @@ def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
     d = zone.mode.dimension
     x = zone.cells.coordinates[..., :d]
     speed = np.linalg.norm(np.einsum("pk,ckd->cpd", reference, x), axis=-1)
-    layout = node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+    layout = family.node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
     u = layout.gather(displacement).reshape(len(zone.cells), -1, d)
     slopes = np.einsum("pk,ckd->cpd", reference, u) / speed[..., None]
     return np.linalg.norm(slopes, axis=-1)
@@ -121,13 +115,13 @@ class Hoop(Bar):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Lengthening over the radius: radial displacement and change along the ring."""
         radii = _radii(zone, cells)
         slopes = _slopes_around(zone)[0] / radii
-        return StrainOperator(slopes[:, None, None], circumference(zone) * radii)
+        return family.StrainOperator(slopes[:, None, None], circumference(zone) * radii)
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """RHO SECT times the ring's length, in every direction."""
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
         scalar = (circumference(zone) * _radii(zone) * density)[..., None]

@@ -7,6 +7,7 @@ applies on the part before it, in local axes: EFFX EFFY EFFZ MOMX MOMY MOMZ.
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.elements import family
 from ssilang.kernel.elements.beams.beam_frame import (
     BeamFrame,
     Section,
@@ -16,12 +17,6 @@ from ssilang.kernel.elements.beams.beam_frame import (
 )
 from ssilang.kernel.elements.beams.fibre_section import section_of_beam
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    ElementFamily,
-    Layout,
-    StrainOperator,
-    node_major_layout,
-)
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
@@ -97,14 +92,16 @@ def to_global(local: FloatArray, T: FloatArray) -> FloatArray:
     return np.swapaxes(T, 1, 2) @ local @ T
 
 
-class _LineBeam(ElementFamily):
+class _LineBeam(family.ElementFamily):
     """What both beams share."""
 
     shear_default = "rigid"
 
-    def layout(self, zone: Zone) -> Layout:
+    def layout(self, zone: Zone) -> family.Layout:
         """Translations then rotations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
+        return family.node_major_layout(
+            zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode]
+        )
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Lengthening, shears, twist, curvatures."""
@@ -165,7 +162,7 @@ class Beam(_LineBeam):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Strains at the two nodes of a beam without shear (weights: half the length)."""
         frame = beam_frame(zone, parameters)
         part = BeamFrame(frame.lengths[cells], frame.axes[cells])
@@ -173,7 +170,7 @@ class Beam(_LineBeam):
         shear = [i for i, row in enumerate(kept_rows(zone)) if row in (1, 2)]
         matrix[:, shear] = 0.0
         weights = np.repeat(part.lengths[:, None] / 2, 2, axis=1)
-        return StrainOperator(matrix, weights, paired(matrix, 2))
+        return family.StrainOperator(matrix, weights, paired(matrix, 2))
 
     def strain_values(
         self, zone: Zone, displacement: NodeField, parameters: ZoneField
@@ -206,7 +203,7 @@ class Beam(_LineBeam):
         T = beam_frame(zone, parameters).rotation(zone)
         return np.einsum("cji,cj->ci", T, local)
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Consistent mass of the cubic deflection and its slope, linear lengthening and twist."""
         frame = beam_frame(zone, parameters)
         L = frame.lengths
@@ -234,7 +231,7 @@ class Timoshenko(_LineBeam):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Strains in the middle of the cell."""
         frame = beam_frame(zone, parameters)
         part = BeamFrame(frame.lengths[cells], frame.axes[cells])
@@ -247,9 +244,9 @@ class Timoshenko(_LineBeam):
         rows = list(kept_rows(zone))
         columns = [r + 6 * node for node in (0, 1) for r in rows]
         local = B[:, np.array(rows)[:, None], np.array(columns)[None, :]]
-        return StrainOperator((local @ part.rotation(zone))[:, :, None, :], L[:, None])
+        return family.StrainOperator((local @ part.rotation(zone))[:, :, None, :], L[:, None])
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Linear interpolation of translations and rotations."""
         frame = beam_frame(zone, parameters)
         linear, moments = self.linear_mass(zone, parameters)
@@ -313,7 +310,7 @@ class FibreBeam(Timoshenko):
         mass, n = section_of_beam(parameters).mass, len(zone.cells)
         return np.full(n, mass[0, 0]), np.tile(np.diag(mass)[3:], (n, 1))
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Linear interpolation; fibres off the line tie translations to rotations."""
         frame = beam_frame(zone, parameters)
         pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6

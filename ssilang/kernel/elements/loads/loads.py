@@ -6,16 +6,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.elements import boundary
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.beams.pipe import pressure_forces
-from ssilang.kernel.elements.boundary import (
-    Parents,
-    face_geometry,
-    is_solid,
-    outward,
-    require_parents,
-    zones_of_faces,
-)
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout, node_major_layout
@@ -148,12 +141,12 @@ def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) ->
     """
     out = []
     for block in faces.blocks:
-        of = require_parents(block, model)
-        for zone, rows in zones_of_faces(of, model):
+        of = boundary.require_parents(block, model)
+        for zone, rows in boundary.zones_of_faces(of, model):
             part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
-            geometry = face_geometry(part, zone.mode, harmonic(zone))
-            mine = Parents(of.zone[rows], of.cell[rows])
-            vectors = outward(part, geometry, model, mine)
+            geometry = boundary.face_geometry(part, zone.mode, harmonic(zone))
+            mine = boundary.Parents(of.zone[rows], of.cell[rows])
+            vectors = boundary.outward(part, geometry, model, mine)
             p = _face_values(part, geometry, value)
             forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
             out.append(_scatter(zone, part, forces))
@@ -229,10 +222,10 @@ def traction(
     """
     out = []
     for block in faces.blocks:
-        of = require_parents(block, model)
-        for zone, rows in zones_of_faces(of, model):
+        of = boundary.require_parents(block, model)
+        for zone, rows in boundary.zones_of_faces(of, model):
             part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
-            geometry = face_geometry(part, zone.mode, harmonic(zone))
+            geometry = boundary.face_geometry(part, zone.mode, harmonic(zone))
             w = geometry.measures * _thickness(zone, of.cell[rows], material)
             forces = np.einsum(
                 "cp,cpd,pk->ckd", w, _vector_values(part, geometry, zone, value), geometry.shapes
@@ -281,7 +274,7 @@ def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
     table = model.mesh.nodes
     if isinstance(field, CellField):
         return Mesh(table, tuple({id(b.cells): b.cells for b in field.blocks}.values()))
-    solid = Mesh(table, tuple(z.cells for z in model.zones if is_solid(z)))
+    solid = Mesh(table, tuple(z.cells for z in model.zones if boundary.is_solid(z)))
     skin = envelope(solid) if solid.dimension == 3 else contour(solid)
     blocks = []
     for block in skin.blocks:
@@ -352,7 +345,7 @@ def _on_shell(
     """Forces of one zone, whose area vectors are those of its faces."""
     meridian = ELEMENTS[zone.element].family == "meridian"
     rule = support_rule(zone.element, "MASSE") if meridian else None
-    geometry = face_geometry(zone.cells, zone.mode, harmonic(zone), rule)
+    geometry = boundary.face_geometry(zone.cells, zone.mode, harmonic(zone), rule)
     if isinstance(value, np.ndarray) or (
         isinstance(value, NodeField) and any(n in value.components for n in force_names(zone))
     ):
@@ -438,7 +431,7 @@ def _body_force(
         w = family_of(zone).weights(zone, parameters, "MASSE") * h[:, None]
         values = _density_values(zone, density, names, shapes, slice(0, len(zone.cells)))
         return _scatter(zone, zone.cells, np.einsum("cp,cpd,pk->ckd", w, values, shapes))
-    if not is_solid(zone):
+    if not boundary.is_solid(zone):
         raise MeshError("kernel.elements.volume-forces-continuous-elements", element=zone.element)
     for cells in chunks(len(zone.cells)):
         geometry = zone_geometry(zone, "MASSE", cells)

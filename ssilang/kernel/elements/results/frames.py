@@ -24,12 +24,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.results.tensors import (
-    as_components,
-    components_at_home,
-    names_seen,
-    tensor,
-)
+from ssilang.kernel.elements.results import tensors
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.shells.thick_shell import ThickShell
@@ -166,10 +161,10 @@ def material_frames(zone: Zone, material: CellField, support: Support) -> FloatA
 
 def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:
     """Stresses or strains of a continuous zone in frames (..., 3, 3), rows being the axes."""
-    T, support, strains = tensor(zone, field)
+    T, support, strains = tensors.tensor(zone, field)
     turned = frames @ T @ np.swapaxes(frames, -1, -2)
-    names = names_seen(zone, field)[0]
-    values = as_components(turned, len(names), strains)
+    names = tensors.names_seen(zone, field)[0]
+    values = tensors.as_components(turned, len(names), strains)
     return cell_block(zone, names, values, support)
 
 
@@ -235,8 +230,8 @@ def strains_or_stresses(
 
     Last comes whether these are strains.
     """
-    names, strains = names_seen(zone, field)
-    values, support = components_at_home(zone, field, names)
+    names, strains = tensors.names_seen(zone, field)
+    values, support = tensors.components_at_home(zone, field, names)
     return names, values, support, strains
 
 

@@ -5,12 +5,8 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.results.frames import points_of
+from ssilang.kernel.elements.shapes import reference
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
-from ssilang.kernel.elements.shapes.reference import (
-    REFERENCE_CELLS,
-    shape_functions,
-    shape_gradients,
-)
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Mode, Model
@@ -113,13 +109,13 @@ def by_least_squares(
         kind = zone.cells.kind
         if kind.joint or not kind.dimension:
             raise FieldError("kernel.elements.element-not-fill-space", element=zone.element)
-        rule = _points_per_direction(REFERENCE_CELLS[kind.name].shape, n)
+        rule = _points_per_direction(reference.REFERENCE_CELLS[kind.name].shape, n)
         if len(rule) < kind.n_nodes:
             told = {"n_rule": len(rule), "n_nodes": kind.n_nodes, "name": kind.name}
             raise FieldError("kernel.elements.integration-points-not-fix", **told)
         at = zone.cells.coordinates
-        shapes = shape_functions(kind.name, rule.points)
-        along = np.einsum("pka,ckd->cpad", shape_gradients(kind.name, rule.points), at)
+        shapes = reference.shape_functions(kind.name, rule.points)
+        along = np.einsum("pka,ckd->cpad", reference.shape_gradients(kind.name, rule.points), at)
         # area of a shell's cell as well as volume of a body's
         weights = np.sqrt(np.linalg.det(along @ np.swapaxes(along, 2, 3))) * rule.weights
         x = np.einsum("pk,ckd->cpd", shapes, at)

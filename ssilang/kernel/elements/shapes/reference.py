@@ -13,12 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.elements.shapes.polygons import (
-    SIDES,
-    polygon_functions,
-    polygon_gradients,
-    regular_polygon,
-)
+from ssilang.kernel.elements.shapes import polygons
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,8 +192,8 @@ REFERENCE_CELLS |= {
 
 REFERENCE_CELLS |= {
     # Wachspress' functions are no polynomials: polygons have no exponents
-    name: ReferenceCell(f"polygon{n}", regular_polygon(n), np.zeros((0, 2), np.int64))
-    for name, n in SIDES.items()
+    name: ReferenceCell(f"polygon{n}", polygons.regular_polygon(n), np.zeros((0, 2), np.int64))
+    for name, n in polygons.SIDES.items()
 }
 
 
@@ -281,8 +276,8 @@ def shape_functions(cell_type: str, points: FloatArray) -> FloatArray:
     -------
     array (n_points, n_nodes)
     """
-    if cell_type in SIDES:
-        return polygon_functions(SIDES[cell_type], points)
+    if cell_type in polygons.SIDES:
+        return polygons.polygon_functions(polygons.SIDES[cell_type], points)
     return _monomials(REFERENCE_CELLS[cell_type], points) @ _coefficients(cell_type)
 
 
@@ -293,7 +288,7 @@ def shape_gradients(cell_type: str, points: FloatArray) -> FloatArray:
     -------
     array (n_points, n_nodes, dim)
     """
-    if cell_type in SIDES:
-        return polygon_gradients(SIDES[cell_type], points)
+    if cell_type in polygons.SIDES:
+        return polygons.polygon_gradients(polygons.SIDES[cell_type], points)
     gradients = _monomial_gradients(REFERENCE_CELLS[cell_type], points)
     return np.einsum("pfd,fn->pnd", gradients, _coefficients(cell_type))

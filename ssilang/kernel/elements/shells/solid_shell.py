@@ -24,13 +24,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.elements import family
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    ElementFamily,
-    Layout,
-    StrainOperator,
-    node_major_layout,
-)
 from ssilang.kernel.elements.shapes.geometry import CellGeometry, cell_geometry, chunks
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_gradients
@@ -160,12 +155,12 @@ def _sampled_shear(brick: _Brick, points: FloatArray) -> FloatArray:
     return added
 
 
-class SolidShell(ElementFamily):
+class SolidShell(family.ElementFamily):
     """Shell on bricks, with translations only."""
 
-    def layout(self, zone: Zone) -> Layout:
+    def layout(self, zone: Zone) -> family.Layout:
         """Translations, node by node."""
-        return node_major_layout(zone, _KINEMATICS.unknowns)
+        return family.node_major_layout(zone, _KINEMATICS.unknowns)
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPXX ... in global axes, then those that hold the brick."""
@@ -206,7 +201,7 @@ class SolidShell(ElementFamily):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Symmetric gradient at the points, and the holding strains, the same at all."""
         brick = _bricks(zone, cells, support)
         n, p = brick.share.shape
@@ -215,9 +210,9 @@ class SolidShell(ElementFamily):
         matrix[:, :6] += _sampled_shear(brick, support_rule(zone.element, support).points)
         mean = np.einsum("cp,cspm->csm", brick.share, matrix[:, :6])
         matrix[:, 6:] = _held_rows(brick, mean)[:, :, None]
-        return StrainOperator(matrix, brick.line.volumes)
+        return family.StrainOperator(matrix, brick.line.volumes)
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """That of the brick, 2 x 2 x 2 points."""
         return Solid().mass_values(zone, parameters)
 

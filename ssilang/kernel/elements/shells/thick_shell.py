@@ -9,12 +9,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements import family
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    Layout,
-    ShellFamily,
-    StrainOperator,
-)
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import (
@@ -22,12 +18,7 @@ from ssilang.kernel.elements.shapes.reference import (
     shape_functions,
     shape_gradients,
 )
-from ssilang.kernel.elements.shells.shell_section import (
-    drilled,
-    inertia_off_mesh,
-    material_moduli,
-    offset,
-)
+from ssilang.kernel.elements.shells import shell_section
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
@@ -71,7 +62,7 @@ def _areas(zone: Zone, rule: Rule) -> FloatArray:
     return np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
 
 
-class ThickShell(ShellFamily):
+class ThickShell(family.ShellFamily):
     """Curved shell with transverse shear."""
 
     strains = ("EPSS", "EPTT", "GAST", "GASN", "GATN")
@@ -79,7 +70,7 @@ class ThickShell(ShellFamily):
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Plane stress with transverse shear."""
-        return material_moduli(zone, parameters, support)
+        return shell_section.material_moduli(zone, parameters, support)
 
     def _placed(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
@@ -96,7 +87,7 @@ class ThickShell(ShellFamily):
         h = parameters.at("EPAI", "GRAVITE")
         h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
         arm = fibres(zone, cells) * (h / 2)[:, None, None]
-        e = offset(zone, parameters)
+        e = shell_section.offset(zone, parameters)
         height = zeta + (np.zeros((len(x), 1)) if e is None else (2 * e[cells] / h)[:, None])
         place = x[:, None] + height[:, :, None, None] * arm[:, None]
         J = np.empty((len(x), len(rule), 3, 3))
@@ -141,7 +132,7 @@ class ThickShell(ShellFamily):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Local strains at points on both sides of the middle surface."""
         grad, weights = self._gradients(zone, parameters, support, cells)
         n, p, k = grad.shape[0], grad.shape[1], grad.shape[4]
@@ -155,13 +146,15 @@ class ThickShell(ShellFamily):
             ],
             axis=1,
         )
-        return StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
+        return family.StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
 
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the fibres, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
         h = parameters.at("EPAI", "GRAVITE")[:, 0]
-        return drilled(zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone))
+        return shell_section.drilled(
+            zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone)
+        )
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the stresses in the surface on the displacements' gradients along it."""
@@ -177,7 +170,7 @@ class ThickShell(ShellFamily):
             values[cells] = np.matmul(along.reshape(rows).transpose(0, 2, 1), flux.reshape(rows))
         return values
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
         N, area = shape_functions(zone.cells.cell_type, rule.points), _areas(zone, rule)
@@ -193,5 +186,5 @@ class ThickShell(ShellFamily):
         for i in range(3):
             values[:, :, i, :, i] = scalar
         values[:, :, 3:, :, 3:] = tangent * (h**2 / 12)[:, None, None, None, None]
-        whole = inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
+        whole = shell_section.inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
         return whole, self.layout(zone)

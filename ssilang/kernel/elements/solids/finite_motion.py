@@ -12,19 +12,8 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import node_major_layout
 from ssilang.kernel.elements.results.tensors import as_components, as_tensor, components_at_home
 from ssilang.kernel.elements.shapes.geometry import chunks
-from ssilang.kernel.elements.solids.gradients import (
-    gradient_names,
-    gradient_tensor,
-    gradient_values,
-)
+from ssilang.kernel.elements.solids import gradients, solid
 from ssilang.kernel.elements.solids.kinematics import harmonic
-from ssilang.kernel.elements.solids.solid import (
-    REVOLUTION,
-    integration_weights,
-    kinematics,
-    radius,
-    zone_geometry,
-)
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -36,12 +25,12 @@ def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> Float
 
     Directions that the hypothesis has no gradient for are not stretched.
     """
-    if zone.mode in REVOLUTION and harmonic(zone):
+    if zone.mode in solid.REVOLUTION and harmonic(zone):
         raise FieldError("kernel.elements.finite-motions-not-exist")
-    F = gradient_tensor(zone, flat)
+    F = gradients.gradient_tensor(zone, flat)
     if of_displacement:
         return F + np.eye(3)
-    first = len(kinematics(zone).unknowns) + (zone.mode is Mode.AXISYMMETRIC)
+    first = len(solid.kinematics(zone).unknowns) + (zone.mode is Mode.AXISYMMETRIC)
     for axis in range(first, 3):
         F[..., axis, axis] = 1.0
     return F
@@ -49,7 +38,7 @@ def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> Float
 
 def gradient_components(zone: Zone, tensor: FloatArray) -> FloatArray:
     """Components (n_cells, n_components, n_points) in `gradient_names`' order of (n, p, 3, 3)."""
-    table = kinematics(zone)
+    table = solid.kinematics(zone)
     rows = [tensor[..., i, j] for i in range(len(table.unknowns)) for j in range(table.dimension)]
     if zone.mode is Mode.AXISYMMETRIC:
         rows.append(tensor[..., 2, 2])
@@ -77,7 +66,7 @@ def motion_of(zone: Zone, displacement: NodeField, support: Support) -> FloatArr
         zone.element, "STRESSES"
     ):
         raise FieldError("kernel.elements.field-stands-wanted-stresses", support=support)
-    return transformation(zone, gradient_values(zone, displacement), True)
+    return transformation(zone, gradients.gradient_values(zone, displacement), True)
 
 
 def carried(
@@ -96,7 +85,7 @@ def carried(
     -------
     names, values (n_cells, n_names, n_points), support
     """
-    table = kinematics(zone)
+    table = solid.kinematics(zone)
     seen = zone_field(zone, field)
     strains = any(n in seen for n in table.strains)
     names = table.strains if strains else table.stresses
@@ -120,11 +109,11 @@ def carried(
 
 def work(zone: Zone, stress: CellField, gradient: CellField) -> tuple[FloatArray, Support]:
     """Trace of stress times gradient (n_cells, n_points)."""
-    sigma, support = components_at_home(zone, stress, kinematics(zone).stresses)
-    G, other = components_at_home(zone, gradient, gradient_names(zone))
+    sigma, support = components_at_home(zone, stress, solid.kinematics(zone).stresses)
+    G, other = components_at_home(zone, gradient, gradients.gradient_names(zone))
     if sigma.shape[2] != G.shape[2] and 1 not in (sigma.shape[2], G.shape[2]):
         raise FieldError("kernel.elements.stresses-stand-gradients", support=support, other=other)
-    H = gradient_tensor(zone, G)
+    H = gradients.gradient_tensor(zone, G)
     if zone.mode is Mode.FOURIER:
         raise FieldError("kernel.elements.work-no-gradients-fourier")
     return np.einsum("npij,npij->np", as_tensor(sigma, False), H), support
@@ -134,19 +123,21 @@ def gradient_forces(
     zone: Zone, stress: CellField, gradient: CellField, parameters: ZoneField
 ) -> NodeField:
     """Nodal forces whose work in v is the integral of S_ij du_k/dx_i dv_k/dx_j (FOFI)."""
-    table = kinematics(zone)
+    table = solid.kinematics(zone)
     sigma = as_tensor(zone_field(zone, stress).matrix(table.stresses, "STRESSES"), False)
-    H = gradient_tensor(zone, zone_field(zone, gradient).matrix(gradient_names(zone), "STRESSES"))
+    H = gradients.gradient_tensor(
+        zone, zone_field(zone, gradient).matrix(gradients.gradient_names(zone), "STRESSES")
+    )
     P = np.einsum("npij,npki->npkj", sigma, H)
     nu, d = len(table.unknowns), table.dimension
     layout = node_major_layout(zone, table.unknowns)
     vectors = np.zeros((len(zone.cells), zone.cells.kind.n_nodes, nu))
     for cells in chunks(len(zone.cells)):
-        geometry = zone_geometry(zone, "STRESSES", cells)
-        w = integration_weights(zone, geometry, parameters, "STRESSES", cells)
+        geometry = solid.zone_geometry(zone, "STRESSES", cells)
+        w = solid.integration_weights(zone, geometry, parameters, "STRESSES", cells)
         part = P[cells] * w[..., None, None]
         vectors[cells] = np.einsum("npkj,npjm->nmk", part[:, :, :nu, :d], geometry.gradients)
         if zone.mode is Mode.AXISYMMETRIC:
-            hoop = part[..., 2, 2] / radius(zone, geometry.shapes, cells)
+            hoop = part[..., 2, 2] / solid.radius(zone, geometry.shapes, cells)
             vectors[cells, :, 0] += hoop @ geometry.shapes
     return layout.scatter(vectors.reshape(len(vectors), -1))

@@ -4,14 +4,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements import family
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    ElementFamily,
-    Layout,
-    StrainOperator,
-    node_major_layout,
-    per_cell,
-)
 from ssilang.kernel.elements.shapes.geometry import (
     CellGeometry,
     cell_geometry,
@@ -92,23 +86,23 @@ def _thickened(
     if zone.mode in REVOLUTION:
         return volumes * circumference(zone) * radius(zone, shapes, cells)
     if zone.mode is Mode.PLANE_STRESS and "DIM3" in parameters:
-        return volumes * per_cell(parameters.at("DIM3", support), cells)
+        return volumes * family.per_cell(parameters.at("DIM3", support), cells)
     return volumes
 
 
-class Solid(ElementFamily):
+class Solid(family.ElementFamily):
     """Displacement elements, integrated numerically."""
 
-    def layout(self, zone: Zone) -> Layout:
+    def layout(self, zone: Zone) -> family.Layout:
         """Node by node; in generalised plane strain the section's node comes last."""
-        own = node_major_layout(zone, kinematics(zone).unknowns)
+        own = family.node_major_layout(zone, kinematics(zone).unknowns)
         if zone.mode is not Mode.GENERALISED_PLANE_STRAIN:
             return own
         n, k = own.raw_nodes.shape
         section = np.full((n, 1), section_point(zone).number, dtype=np.int64)
         nodes: IntArray = np.hstack([own.raw_nodes, section])
         local = np.concatenate([own.local, [k, k, k]])
-        return Layout(own.table, nodes, local, (*own.unknowns, *SECTION_UNKNOWNS))
+        return family.Layout(own.table, nodes, local, (*own.unknowns, *SECTION_UNKNOWNS))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPXX ... or EPRR ..."""
@@ -124,12 +118,12 @@ class Solid(ElementFamily):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Symmetric gradient in the hypothesis' components."""
         geometry = zone_geometry(zone, support, cells)
         matrix = strain_matrix(zone, geometry, cells)
         weights = integration_weights(zone, geometry, parameters, support, cells)
-        return StrainOperator(matrix, weights)
+        return family.StrainOperator(matrix, weights)
 
     def weights(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Integration weights (n_cells, n_points) of a support (INTG)."""
@@ -146,11 +140,11 @@ class Solid(ElementFamily):
         found = uniform_stiffness(zone, moduli, parameters) if type(self) is Solid else None
         return super().stiffness_values(zone, moduli, parameters) if found is None else found
 
-    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Integral of RHO N N^T for each unknown."""
         names = kinematics(zone).unknowns
         density = parameters.at("RHO", "MASSE")
-        return self.inertia(zone, parameters, density), node_major_layout(zone, names)
+        return self.inertia(zone, parameters, density), family.node_major_layout(zone, names)
 
     def inertia(self, zone: Zone, parameters: ZoneField, density: FloatArray) -> FloatArray:
         """Integral of density N N^T, the same for each unknown of a node."""
@@ -159,7 +153,7 @@ class Solid(ElementFamily):
         for cells in chunks(len(zone.cells)):
             geometry = zone_geometry(zone, "MASSE", cells)
             w = integration_weights(zone, geometry, parameters, "MASSE", cells)
-            w = w * per_cell(density, cells)
+            w = w * family.per_cell(density, cells)
             products = np.einsum("pi,pj->pij", geometry.shapes, geometry.shapes)
             scalar = (w @ products.reshape(len(products), k * k)).reshape(-1, k, k)
             for i in range(nu):
@@ -278,7 +272,7 @@ class Incompressible(Solid):
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
-    ) -> StrainOperator:
+    ) -> family.StrainOperator:
         """Deviatoric part of the usual operator plus the mean volumetric part."""
         usual = super().strain_operator(zone, parameters, support, cells)
         trace = usual.matrix[:, :3].sum(axis=1)
@@ -287,7 +281,7 @@ class Incompressible(Solid):
         mean = np.einsum("cspm,cp->cm", at_points.matrix[:, :3], w)
         matrix = usual.matrix.copy()
         matrix[:, :3] += ((mean[:, None] - trace) / 3)[:, None]
-        return StrainOperator(matrix, usual.weights)
+        return family.StrainOperator(matrix, usual.weights)
 
 
 HOURGLASS = 0.05
@@ -307,7 +301,7 @@ class OnePoint(Solid):
             weights = self.strain_operator(zone, parameters, "RIGIDITE", cells).weights[:, 0]
             linear = np.einsum("b,cbi->ci", _PATTERN, coordinates(zone, cells))
             left = _PATTERN - np.einsum("ci,cia->ca", linear, gradients)
-            modulus = per_cell(moduli, cells)[:, 0, 0, 0]
+            modulus = family.per_cell(moduli, cells)[:, 0, 0, 0]
             size = np.einsum("cia,cia->c", gradients, gradients)
             held = (HOURGLASS * modulus * weights * size)[:, None, None]
             stiffness = held * left[:, :, None] * left[:, None, :] / 4

@@ -13,17 +13,9 @@ from ssilang.kernel.mesh.boundary import chained, envelope, in_one_sense
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.surfaces import fill
 from ssilang.kernel.mesh.surfaces.analytic import Shape
 from ssilang.kernel.mesh.surfaces.charts import Chart
-from ssilang.kernel.mesh.surfaces.fill import (
-    SizeField,
-    boundary_sizes,
-    certain_sides,
-    fill_contour,
-    sides_and_twins,
-    sides_of,
-    smooth,
-)
 from ssilang.kernel.mesh.surfaces.grid import grid_surface
 
 MOST_SIDES = 12
@@ -176,7 +168,7 @@ def squareness(points: FloatArray, quads: IntArray) -> FloatArray:
 
 def _pairs(triangles: IntArray) -> tuple[IntArray, IntArray, IntArray]:
     """Adjacent triangles (numbers, numbers) and the quadrangle that each pair makes."""
-    sides, owner, twin, paired = sides_and_twins(triangles)
+    sides, owner, twin, paired = fill.sides_and_twins(triangles)
     apex = np.concatenate([triangles[:, 2], triangles[:, 0], triangles[:, 1]])
     pick = np.flatnonzero(paired & (owner < owner[twin]))
     other = twin[pick]
@@ -252,13 +244,13 @@ def fill_surface(
     turned = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() < 0
     if turned:
         flat = flat * [1.0, -1.0]
-    at, wanted = (flat, boundary_sizes(flat, segments))
+    at, wanted = (flat, fill.boundary_sizes(flat, segments))
     if sizes is not None:
         at, wanted = chart.flatten(sizes[0]), sizes[1]
         at = at * [1.0, -1.0] if turned else at
     squares = surface.startswith("QUA")
-    points, triangles = fill_contour(flat, segments, SizeField(at, wanted), squares)
-    points = smooth(points, certain_sides(points, triangles), len(flat))
+    points, triangles = fill.fill_contour(flat, segments, fill.SizeField(at, wanted), squares)
+    points = fill.smooth(points, fill.certain_sides(points, triangles), len(flat))
     if surface == "POLY":
         polygons = [*join_triangles(points, triangles, len(flat)).values()]
         points, polygons = _without_unused(points, polygons, len(flat))
@@ -267,8 +259,8 @@ def fill_surface(
     if squares:
         quads, rest = pair_triangles(points, triangles)
         polygons = [quads, rest]
-        links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
-        points = smooth(points, links, len(flat))
+        links = np.unique(np.vstack([fill.sides_of(p) for p in polygons if len(p)]), axis=0)
+        points = fill.smooth(points, links, len(flat))
     new = points[len(flat) :] * ([1.0, -1.0] if turned else [1.0, 1.0])
     made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
     table = np.concatenate([ids, made])
@@ -336,8 +328,8 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
 
 def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> FloatArray:
     """Mean length of the sides at each point after the first `fixed`."""
-    links = np.unique(np.vstack([sides_of(p) for p in polygons if len(p)]), axis=0)
-    return boundary_sizes(points, links)[fixed:]
+    links = np.unique(np.vstack([fill.sides_of(p) for p in polygons if len(p)]), axis=0)
+    return fill.boundary_sizes(points, links)[fixed:]
 
 
 _EDGE = 1e-9  # how far outside of a facet a hit still counts, relative to the facet

@@ -9,12 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.interface.response import (
-    Trial,
-    interface_response,
-    interface_stiffness,
-    new_trial,
-)
+from ssilang.kernel.interface import response
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.plasticity.newton import RIGID, BulkSolver, BulkTrial
 from ssilang.kernel.plasticity.solving.positive import Pattern
@@ -44,7 +39,7 @@ class DenseSolver(BulkSolver):
             if problem.interface is None
             else problem.interface.J.toarray()
         )
-        self._nothing, self._none = new_trial((0, 0), 0), np.zeros((0, 0))
+        self._nothing, self._none = response.new_trial((0, 0), 0), np.zeros((0, 0))
         self._at_play = np.zeros((5, A.shape[0]))
         self._J, self._JT, self._VJ = J, J @ self._T, self._Vt @ J.T
 
@@ -59,7 +54,7 @@ class DenseSolver(BulkSolver):
         free = r - linear - self.share * (answer.force - self.force)
         joints, K = self._nothing, self._none
         if self.interface is not None:
-            joints = new_trial(motion.w.shape, len(motion.f))
+            joints = response.new_trial(motion.w.shape, len(motion.f))
             K, at_play[4] = self._jumped(motion, du, joints)
             free -= at_play[4]
         rest = self._Vt @ free
@@ -69,16 +64,16 @@ class DenseSolver(BulkSolver):
         return BulkTrial(du, answer, K, joints, rest, _largest(rest) / scale, free, pushed)
 
     def _jumped(
-        self, motion: Motion, du: FloatArray, trial: Trial
+        self, motion: Motion, du: FloatArray, trial: response.Trial
     ) -> tuple[FloatArray, FloatArray]:
         """Stiffness (q, q) of the joints, forces (n,) by which they differ from the start."""
         joints = self.interface
         assert joints is not None
         trial.y[:] = self._J @ du
         trial.delta[:] = motion.delta + trial.y
-        interface_response(joints.points, motion.state, trial.delta, trial)
+        response.interface_response(joints.points, motion.state, trial.delta, trial)
         K = np.zeros((joints.size, joints.size))
-        interface_stiffness(joints.points, trial.D, K)
+        response.interface_stiffness(joints.points, trial.D, K)
         return self.share * K, self.share * (self._J.T @ (trial.f - motion.f))
 
     def _corrected(

@@ -8,12 +8,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Load, LoadPart
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
-    field_to_vector,
-    imposed_values,
-    outside,
-)
+from ssilang.kernel.matrices import assembly
 
 MECHANICAL = ("", "MECA", "FORC", "DIMP")
 
@@ -33,7 +28,7 @@ class Loading:
         return np.stack(columns, axis=1) if columns else np.zeros((len(times), 0))
 
 
-def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -> Loading:
+def loading_of(load: Load | None, numbering: assembly.Numbering, multipliers: IntArray) -> Loading:
     """Vectors and curves of a load on a numbering.
 
     Raises
@@ -44,11 +39,11 @@ def loading_of(load: Load | None, numbering: Numbering, multipliers: IntArray) -
     forces, imposed, curves = [], [], []
     for part in load.parts if load is not None else ():
         for field, curve in nodal_terms(part):
-            lost = outside(field, numbering)
+            lost = assembly.outside(field, numbering)
             if lost:
                 raise FieldError("kernel.stepping.load-matrices-lack", name=part.name, lost=lost[0])
-            forces.append(field_to_vector(field, numbering))
-            imposed.append(imposed_values(field, multipliers))
+            forces.append(assembly.field_to_vector(field, numbering))
+            imposed.append(assembly.imposed_values(field, multipliers))
             curves.append(curve)
     k = len(curves)
     return Loading(

@@ -3,27 +3,7 @@
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
-from ssilang.kernel.waves.free_field_forces import (
-    Ground,
-    Motion,
-    Share,
-    along_columns,
-    edge_forces,
-    elements_at,
-    elements_of,
-    elements_with,
-    layer_forces,
-    load_of,
-    yielded,
-    yielding_at,
-    yielding_outside,
-)
-from ssilang.kernel.waves.resolution import (
-    bare_sides,
-    highest_frequency,
-    pressure_speed,
-    reflecting_edges,
-)
+from ssilang.kernel.waves import free_field_forces, resolution
 from ssilang.kernel.waves.shaken import longest_cell
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
@@ -40,16 +20,18 @@ def zdrm(call: Call, table: Table = Arg("TABLE", en="table of @DRM")) -> Load:
     """Forces at the layer."""
     entries = Entries(call, table, "@DRM")
     # matrices stand for the ground in the layer and outside it
-    found = yielding_outside(entries.needed("MODELE"), entries.needed("INTERIEUR"))
+    found = free_field_forces.yielding_outside(
+        entries.needed("MODELE"), entries.needed("INTERIEUR")
+    )
     if found is not None:
         raise entries.error("operators.dynamics.soil-yields-outside", **found.told())
-    layer = elements_of(_ground(entries), entries.needed("COUCHE"))
+    layer = free_field_forces.elements_of(_ground(entries), entries.needed("COUCHE"))
     motion = _motion(entries, layer.numbering)
     _free_field_is_linear(entries, layer)
     _tell_coarse(entries, motion)
     _tell_reflecting(entries, motion)
-    forces = layer_forces(layer, entries.needed("INTERIEUR"), motion)
-    return load_of(layer, entries.get("AMORTISSEURS"), motion, forces)
+    forces = free_field_forces.layer_forces(layer, entries.needed("INTERIEUR"), motion)
+    return free_field_forces.load_of(layer, entries.get("AMORTISSEURS"), motion, forces)
 
 
 @operator("ZBOR", family="dynamics")
@@ -57,31 +39,31 @@ def zbor(call: Call, table: Table = Arg("TABLE", en="table of @BORDS")) -> Load:
     """Forces at the edges."""
     entries = Entries(call, table, "@BORDS")
     # matrices stand for the ground beyond the edges
-    found = yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
+    found = free_field_forces.yielding_at(entries.needed("MODELE"), entries.needed("FRONTIERE"))
     if found is not None:
         raise entries.error("operators.dynamics.soil-yields-at-edges", **found.told())
     edge = entries.needed("FRONTIERE")
-    row = elements_at(_ground(entries), edge)
+    row = free_field_forces.elements_at(_ground(entries), edge)
     motion = _motion(entries, row.numbering)
     _free_field_is_linear(entries, row)
     _tell_coarse(entries, motion)
     _tell_other_ground(entries, row, motion)
     _tell_other_matter(entries)
     dampers = entries.needed("AMORTISSEURS")
-    forces = edge_forces(row, edge, dampers, motion)
+    forces = free_field_forces.edge_forces(row, edge, dampers, motion)
     _tell_bare(entries, edge, motion, float(np.abs(forces).max(initial=0.0)))
-    return load_of(row, dampers, motion, forces)
+    return free_field_forces.load_of(row, dampers, motion, forces)
 
 
-def _tell_bare(entries: Entries, edge: Mesh, motion: Motion, most: float) -> None:
+def _tell_bare(entries: Entries, edge: Mesh, motion: free_field_forces.Motion, most: float) -> None:
     """Warn of sides that are neither edges nor held, where the motion asks for a part of a force.
 
     At a free surface, and along a plane that waves do not pull at, it asks for none.
     """
     held = [r.nodes for r in entries.needed("RIGI").relations]
     known = np.unique(np.concatenate([edge.sorted_node_ids, *held]))
-    nodes = bare_sides(entries.needed("MODELE"), known)
-    row = elements_with(_ground(entries), nodes)
+    nodes = resolution.bare_sides(entries.needed("MODELE"), known)
+    row = free_field_forces.elements_with(_ground(entries), nodes)
     at = np.isin(row.numbering.nodes, nodes)
     asked = np.abs(row.force(*motion.at(row.touched))[at])  # not a number where it is not known
     if asked.size and asked.max() > _PULLS * most:
@@ -99,7 +81,9 @@ def _tell_other_matter(entries: Entries) -> None:
             return
 
 
-def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
+def _tell_other_ground(
+    entries: Entries, row: free_field_forces.Share, motion: free_field_forces.Motion
+) -> None:
     """Warn of a motion, the same along a height, that is not in balance with the ground's elements.
 
     What the elements above those of the base exert sums to nought at a height, the motion being
@@ -125,7 +109,7 @@ def _tell_other_ground(entries: Entries, row: Share, motion: Motion) -> None:
         entries.warn("operators.dynamics.column-of-others", **told)
 
 
-def _free_field_is_linear(entries: Entries, share: Share) -> None:
+def _free_field_is_linear(entries: Entries, share: free_field_forces.Share) -> None:
     """Refuse a free field that has yielded where the ground's matrices take its motion."""
     table = entries.needed("MOUVEMENT")
     last = max(i for i in table.indices() if isinstance(i, int))
@@ -134,7 +118,7 @@ def _free_field_is_linear(entries: Entries, share: Share) -> None:
         return
     nodes = np.unique(share.numbering.nodes[share.touched])
     axis = None if entries.get("COLONNE") is None else _upward(share.numbering)
-    found = yielded(variables, nodes, axis)
+    found = free_field_forces.yielded(variables, nodes, axis)
     if found is not None:
         raise entries.error("operators.dynamics.free-field-yields", **vars(found))
 
@@ -144,11 +128,13 @@ def _upward(numbering: Numbering) -> int:
     return len([n for n in numbering.unknowns if n in ("UX", "UY", "UZ")]) - 1
 
 
-def _ground(entries: Entries) -> Ground:
-    return Ground(entries.needed("RIGI"), entries.needed("MASS"), entries.get("AMOR"))
+def _ground(entries: Entries) -> free_field_forces.Ground:
+    return free_field_forces.Ground(
+        entries.needed("RIGI"), entries.needed("MASS"), entries.get("AMOR")
+    )
 
 
-def _motion(entries: Entries, numbering: Numbering) -> Motion:
+def _motion(entries: Entries, numbering: Numbering) -> free_field_forces.Motion:
     """Histories of the free field on the ground's unknowns, from instants 1, 2 ..."""
     table = entries.needed("MOUVEMENT")
     count = sum(isinstance(i, int) for i in table.indices())
@@ -162,7 +148,7 @@ def _motion(entries: Entries, numbering: Numbering) -> Motion:
     histories = (
         np.array([spread(instant.get(name)) for instant in instants]).T for name in _MOTION
     )  # fmt: skip
-    return Motion(times, *histories)
+    return free_field_forces.Motion(times, *histories)
 
 
 def _is_instant(of: Any) -> bool:
@@ -198,17 +184,19 @@ def _column(numbering: Numbering, nodes: IntArray) -> tuple[IntArray, dict[str, 
     _, first = np.unique(np.round(heights[nodes] / (1e-7 * span)), return_index=True)
     kept = nodes[first]
     weights = {
-        name: along_columns(heights[numbering.nodes[numbering.where(name)]], heights[kept])
+        name: free_field_forces.along_columns(
+            heights[numbering.nodes[numbering.where(name)]], heights[kept]
+        )
         for name in numbering.unknowns
     }
     return kept, weights
 
 
-def _tell_coarse(entries: Entries, motion: Motion) -> None:
+def _tell_coarse(entries: Entries, motion: free_field_forces.Motion) -> None:
     """Warn of elements too long for the highest frequency, that of the motion if none is given."""
     frequency = entries.get("FREQUENCE")
     if frequency is None:
-        frequency = highest_frequency(motion.times, np.nan_to_num(motion.acceleration))
+        frequency = resolution.highest_frequency(motion.times, np.nan_to_num(motion.acceleration))
     if frequency <= 0:
         return
     ground = _ground(entries)
@@ -219,13 +207,15 @@ def _tell_coarse(entries: Entries, motion: Motion) -> None:
         entries.warn("operators.dynamics.element-too-long", **told)
 
 
-def _tell_reflecting(entries: Entries, motion: Motion) -> None:
+def _tell_reflecting(entries: Entries, motion: free_field_forces.Motion) -> None:
     """Warn where what leaves the layer comes back from an edge before the motion ends."""
     model, material = entries.needed("MODELE"), entries.needed("CARACTERISTIQUES")
-    found = reflecting_edges(model, entries.needed("COUCHE"), entries.get("AMORTISSEURS"))
+    found = resolution.reflecting_edges(
+        model, entries.needed("COUCHE"), entries.get("AMORTISSEURS")
+    )
     if found is None:
         return
-    fastest = max(float(pressure_speed(zone, material).max()) for zone in model.zones)
+    fastest = max(float(resolution.pressure_speed(zone, material).max()) for zone in model.zones)
     back = 2 * found.distance / fastest
     if back < motion.times[-1] - motion.times[0]:
         table = model.zones[0].cells.nodes

@@ -3,14 +3,7 @@
 import math
 
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.lines.curves import (
-    Arc,
-    ParabolicArc,
-    arc_about_axis,
-    arc_about_centre,
-    arc_through,
-    fillet,
-)
+from ssilang.kernel.mesh.lines import curves
 from ssilang.kernel.mesh.lines.lines import chain_mesh, different_nodes, end_sizes
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.operators.mesh.lines.ends import *
@@ -32,15 +25,17 @@ def cerc(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
-    curve = arc_through if through == "PASS" else partial(_about_centre, call)
+    curve = curves.arc_through if through == "PASS" else partial(_about_centre, call)
     cuts = cuts_of(count, sizes)
     return drawn_by_middle(call, curve, (start, middle, end), cuts)
 
 
-def _about_centre(call: Call, first: FloatArray, centre: FloatArray, last: FloatArray) -> Arc:
+def _about_centre(
+    call: Call, first: FloatArray, centre: FloatArray, last: FloatArray
+) -> curves.Arc:
     """The arc between two points, about the mediator's nearest point to a centre that is off."""
     r1, r2 = (float(np.linalg.norm(p - centre)) for p in (first, last))
-    arc = arc_about_centre(first, centre, last)
+    arc = curves.arc_about_centre(first, centre, last)
     if not 0.99 < r1 / r2 < 1.01:
         call.warn("operators.mesh.arc-about-moved-centre", r1=r1, r2=r2, r=arc.length / arc.angle)
     return arc
@@ -63,8 +58,8 @@ def turned_point(
         raise call.error("operators.mesh.turn-not-whole", degrees=degrees)
     origin, direction = axis_of(call, axis)
 
-    def way(at: FloatArray) -> tuple[Arc, float]:
-        arc = arc_about_axis(at, origin, direction, math.radians(degrees))
+    def way(at: FloatArray) -> tuple[curves.Arc, float]:
+        arc = curves.arc_about_axis(at, origin, direction, math.radians(degrees))
         return arc, arc.length
 
     return drawn_from(call, start, way, cuts, closed=closed)
@@ -80,7 +75,7 @@ def cer3(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the arc through three points."""
-    return drawn_by_middle(call, arc_through, (start, middle, end), cuts_of(count, sizes))
+    return drawn_by_middle(call, curves.arc_through, (start, middle, end), cuts_of(count, sizes))
 
 
 @operator("PARC", family="mesh")
@@ -101,7 +96,7 @@ def parc(
     arc = _about_centre(call, a, centre.coordinates.copy(), b)
     tips = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
     pieces = subdivide(arc.length, *tips, cuts.count)
-    middles = ParabolicArc(arc, pieces.fractions).middles()
+    middles = curves.ParabolicArc(arc, pieces.fractions).middles()
     inner = pieces.fractions[1:-1]
     corners = ws.nodes.add(arc(inner), pieces.density(inner)) if len(inner) else inner.astype(int)
     chain = np.empty(2 * pieces.count + 1, dtype=np.int64)
@@ -134,4 +129,4 @@ def cong(
         radius, count = float(count or 0), 0
     if radius <= 0.0:
         raise call.error("operators.mesh.radius-not-positive", radius=radius)
-    return fillet(first, second, radius, abs(count or 0), workspace(call.session).colour)
+    return curves.fillet(first, second, radius, abs(count or 0), workspace(call.session).colour)

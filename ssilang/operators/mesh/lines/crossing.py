@@ -1,14 +1,7 @@
 """INTE: the line along which two simple surfaces cross."""
 
 from ssilang.kernel.mesh.lines.crossing_curve import crossing_curve
-from ssilang.kernel.mesh.surfaces.analytic import (
-    Shape,
-    cone_shape,
-    cylinder_shape,
-    plane_shape,
-    sphere_shape,
-    torus_shape,
-)
+from ssilang.kernel.mesh.surfaces import analytic
 from ssilang.operators.dispatch import INTE
 from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
@@ -18,12 +11,14 @@ _AXIS = arg("axis", "POINT", en="point of the axis")
 _SMALL_CIRCLE = arg("circle", "POINT", en="centre of a small circle")
 
 # word -> surface through the start of the curve (a plane through both its ends)
-_SURFACES: Mapping[str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], Shape]] = {
-    "PLAN": lambda p, start, end: plane_shape(start, end, p[0]),
-    "SPHE": lambda p, start, end: sphere_shape(p[0], start),
-    "CYLI": lambda p, start, end: cylinder_shape(p[0], p[1], start),
-    "CONI": lambda p, start, end: cone_shape(p[0], p[1], start),
-    "TORI": lambda p, start, end: torus_shape(p[0], p[1], p[2], start),
+_SURFACES: Mapping[
+    str, Callable[[Sequence[FloatArray], FloatArray, FloatArray], analytic.Shape]
+] = {
+    "PLAN": lambda p, start, end: analytic.plane_shape(start, end, p[0]),
+    "SPHE": lambda p, start, end: analytic.sphere_shape(p[0], start),
+    "CYLI": lambda p, start, end: analytic.cylinder_shape(p[0], p[1], start),
+    "CONI": lambda p, start, end: analytic.cone_shape(p[0], p[1], start),
+    "TORI": lambda p, start, end: analytic.torus_shape(p[0], p[1], p[2], start),
 }
 
 

@@ -2,14 +2,8 @@
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.families import Family, family_of
+from ssilang.kernel.mesh.lines import lines
 from ssilang.kernel.mesh.lines.curves import Arc, Polynomial
-from ssilang.kernel.mesh.lines.lines import (
-    CurveMap,
-    different_nodes,
-    end_sizes,
-    line_ends,
-    mesh_curve,
-)
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.language.vocabulary.terms import CELLS_ALONG
@@ -116,10 +110,10 @@ def ends_of(call: Call, first: Point | Mesh, second: Point | Mesh | None) -> End
     if second is None:
         if isinstance(first, Point):
             raise call.missing(("POINT",))
-        start, end = line_ends(first)
+        start, end = lines.line_ends(first)
         return Ends(end, start, first)
-    start = first.node if isinstance(first, Point) else line_ends(first)[1]
-    end = second.node if isinstance(second, Point) else line_ends(second)[0]
+    start = first.node if isinstance(first, Point) else lines.line_ends(first)[1]
+    end = second.node if isinstance(second, Point) else lines.line_ends(second)[0]
     before = first if isinstance(first, Mesh) else None
     return Ends(start, end, before, second if isinstance(second, Mesh) else None)
 
@@ -159,13 +153,15 @@ def _crossed(block: CellBlock) -> NDArray[np.bool_]:
     return (products[0] < 0.0) & (products[1] < 0.0)
 
 
-def drawn(call: Call, ends: Ends, curve: CurveMap, length: float, cuts: Cuts) -> Mesh:
+def drawn(call: Call, ends: Ends, curve: lines.CurveMap, length: float, cuts: Cuts) -> Mesh:
     """The line along a curve between the ends, joined to the lines on either side."""
     ws = workspace(call.session)
-    different_nodes(ws.nodes, ends.start, ends.end)
-    parts = subdivide(length, *cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end)), cuts.count)
+    lines.different_nodes(ws.nodes, ends.start, ends.end)
+    parts = subdivide(
+        length, *cuts.sizes(lines.end_sizes(ws.nodes, ends.start, ends.end)), cuts.count
+    )
     quadratic = chosen_family(ws).quadratic
-    line = mesh_curve(ws.nodes, curve, ends.start, ends.end, parts, quadratic, ws.colour)
+    line = lines.mesh_curve(ws.nodes, curve, ends.start, ends.end, parts, quadratic, ws.colour)
     warn_of_flat_cells(call, line)
     pieces = [m for m in (ends.before, line, ends.after) if m is not None]
     return union(*pieces, as_given=True)
@@ -188,7 +184,7 @@ def drawn_by_middle(
 def drawn_from(
     call: Call,
     start: Point | Mesh,
-    way: Callable[[FloatArray], tuple[CurveMap, float]],
+    way: Callable[[FloatArray], tuple[lines.CurveMap, float]],
     cuts: Cuts,
     last_size: float | None = None,
     closed: bool = False,
@@ -206,13 +202,13 @@ def drawn_from(
     """
     ws = workspace(call.session)
     before = start if isinstance(start, Mesh) else None
-    first = start.node if isinstance(start, Point) else line_ends(start)[1]
+    first = start.node if isinstance(start, Point) else lines.line_ends(start)[1]
     curve, length = way(positions(ws, first)[0])
     size = float(ws.nodes.density[first])
     sizes = cuts.sizes((size, size if last_size is None else last_size))
     parts = subdivide(length, *sizes, cuts.count)
     quadratic = chosen_family(ws).quadratic
-    line = mesh_curve(
+    line = lines.mesh_curve(
         ws.nodes, curve, first, first if closed else None, parts, quadratic, ws.colour
     )
     warn_of_flat_cells(call, line)

@@ -1,12 +1,7 @@
 """What a mesh holds: NBEL NBNO MESU, REFE for its names; how points and meshes are listed."""
 
 from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.kernel.mesh.queries.measure import (
-    enclosed_area,
-    enclosed_volume,
-    node_sizes,
-    total_measure,
-)
+from ssilang.kernel.mesh.queries import measure
 from ssilang.operators.dispatch import listing
 from ssilang.operators.prelude import *
 
@@ -39,18 +34,18 @@ def mesu(
     """Measure a mesh."""
     asked = {"LONG": 1, "SURF": 2, "VOLU": 3}.get(what or "", mesh.dimension)
     if asked == mesh.dimension:
-        return total_measure(mesh)
+        return measure.total_measure(mesh)
     if (asked, mesh.dimension) == (2, 1):
-        return enclosed_area(mesh)
+        return measure.enclosed_area(mesh)
     if (asked, mesh.dimension) == (3, 2):
-        return enclosed_volume(mesh)
+        return measure.enclosed_volume(mesh)
     raise MeshError("operators.mesh.no-such-measure", what=what, dimension=mesh.dimension)
 
 
 @mesu.form(said("DENS"))
 def sizes(mesh: Mesh = Arg("MAILLAGE", en="mesh")) -> NodeField:
     """Field of mesh sizes."""
-    ids, values = node_sizes(mesh)
+    ids, values = measure.node_sizes(mesh)
     return NodeField.of(mesh.nodes, ids, {"SCAL": values}, "DIFFUS")
 
 

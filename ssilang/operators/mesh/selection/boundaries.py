@@ -1,11 +1,7 @@
 """Boundaries of meshes: CONT ENVE ARET, and the sides kept from their making: COTE FACE."""
 
-from ssilang.kernel.mesh import boundary
+from ssilang.kernel.mesh import boundary, orientation
 from ssilang.kernel.mesh.combine import join_blocks
-from ssilang.kernel.mesh.orientation import (
-    flip,
-    orient,
-)
 from ssilang.operators.prelude import *
 
 
@@ -46,8 +42,8 @@ def enve(
     if mesh.dimension == 2:
         skin = boundary.lone_surfaces(mesh)
     else:
-        faces = boundary.envelope(orient(mesh, 3) if inwards else mesh)
-        skin = Mesh(faces.nodes, tuple(flip(b) for b in faces.blocks))
+        faces = boundary.envelope(orientation.orient(mesh, 3) if inwards else mesh)
+        skin = Mesh(faces.nodes, tuple(orientation.flip(b) for b in faces.blocks))
     if not skin.blocks and not allowed:
         raise MeshError("operators.mesh.no-envelope")
     return skin

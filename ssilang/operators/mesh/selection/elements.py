@@ -1,26 +1,14 @@
 """ELEM: cells picked from a mesh, or by the values of a field in cells."""
 
 from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.kernel.mesh import combine
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted
-from ssilang.kernel.mesh.combine import (
-    of_type,
-    polygons,
-    take,
-    union,
-)
 from ssilang.kernel.mesh.lines.lines import network_of_lines, shortest_line
 from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
 from ssilang.language.registry import find_operator
 from ssilang.operators.dispatch import COMP
-from ssilang.operators.mesh.points.picking import (
-    ABSOLUTE,
-    EXTREMES,
-    NAMED,
-    Named,
-    chosen_components,
-    picked,
-)
+from ssilang.operators.mesh.points import picking
 from ssilang.operators.prelude import *
 
 _MESH = main("mesh", "MAILLAGE", en="cells to pick from")
@@ -163,16 +151,16 @@ def _filtered(mesh: Mesh, filters: Sequence[str]) -> Mesh:
         if word == TIE:
             mesh = Mesh(mesh.nodes, parted(mesh)[1])
         elif word in CELL_TYPES:
-            mesh = of_type(mesh, word)
+            mesh = combine.of_type(mesh, word)
         elif word == "POLY":
-            mesh = polygons(mesh)
+            mesh = combine.polygons(mesh)
         else:
             mesh = _of_colour(mesh, COLOURS.index(word))
     return mesh
 
 
 def _of_colour(mesh: Mesh, colour: int) -> Mesh:
-    made = take(mesh, lambda b: b.colours == colour)
+    made = combine.take(mesh, lambda b: b.colours == colour)
     if not made.blocks:
         raise MeshError("operators.mesh.no-cell-of-colour", colour=COLOURS[colour])
     return made
@@ -202,14 +190,14 @@ def _numbered(call: Call, mesh: Mesh, which: int | ListEnti | None) -> Mesh:
 
 
 def _rows(cells: CellBlock, keep: NDArray[np.bool_]) -> Mesh:
-    return take(Mesh(cells.nodes, (cells,)), lambda _: keep)
+    return combine.take(Mesh(cells.nodes, (cells,)), lambda _: keep)
 
 
-def _values(block: CellFieldBlock, named: Named, absolute: bool) -> FloatArray:
+def _values(block: CellFieldBlock, named: picking.Named, absolute: bool) -> FloatArray:
     """All values (n_cells, m) of the chosen components of a block."""
     chosen = [
         np.asarray(block.components[n], dtype=float).reshape(len(block.cells), -1)
-        for n in chosen_components(block.components, named)
+        for n in picking.chosen_components(block.components, named)
     ]
     if not chosen:
         raise MeshError("operators.mesh.none-of-the-components")
@@ -217,21 +205,23 @@ def _values(block: CellFieldBlock, named: Named, absolute: bool) -> FloatArray:
     return np.abs(table) if absolute else table
 
 
-@elem.form(EXTREMES, of=("MCHAML",))
+@elem.form(picking.EXTREMES, of=("MCHAML",))
 def by_values(
     what: Chosen,
     field: CellField = Main("MCHAML", en="field in cells"),
-    absolute: bool = ABSOLUTE,
+    absolute: bool = picking.ABSOLUTE,
     how: str = Choice(
         ("LARG", "STRI"),
         default="LARG",
         en="one value of the cell fits, the default, or all do; a single cell where extreme",
     ),
-    named: Named = NAMED,
+    named: picking.Named = picking.NAMED,
 ) -> Mesh:
     """Pick cells whose values are extreme or compare."""
     values = [_values(b, named, absolute) for b in field.blocks]
-    good = picked(np.hstack([t.ravel() for t in values]), what.word, list(what.values.values()))
+    good = picking.picked(
+        np.hstack([t.ravel() for t in values]), what.word, list(what.values.values())
+    )
     every = how == "STRI"
     if every and what.word in ("MAXI", "MINI"):
         good, every = np.arange(len(good)) == good.argmax(), False
@@ -241,4 +231,4 @@ def by_values(
         keep = np.asarray((np.all if every else np.any)(fits, axis=1))
         blocks += _rows(block.cells, keep).blocks
     parts = [Mesh(b.nodes, (b,)) for b in blocks]
-    return union(*parts, as_given=True) if parts else Mesh(field.blocks[0].cells.nodes, ())
+    return combine.union(*parts, as_given=True) if parts else Mesh(field.blocks[0].cells.nodes, ())

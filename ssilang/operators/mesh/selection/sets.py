@@ -1,12 +1,6 @@
 """Meshes as sets: ET DIFF INTE UNIQ, and VISA for nodes at the same place."""
 
-from ssilang.kernel.mesh.combine import (
-    intersection,
-    poi1,
-    points_mesh,
-    symmetric_difference,
-    union,
-)
+from ssilang.kernel.mesh import combine
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
 from ssilang.operators.mesh.tolerance import DISTANCE
@@ -18,7 +12,7 @@ _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
 
 def as_mesh(item: Mesh | Point) -> Mesh:
     """The mesh itself, or a point as a mesh of one POI1."""
-    return points_mesh([item], item.nodes) if isinstance(item, Point) else item
+    return combine.points_mesh([item], item.nodes) if isinstance(item, Point) else item
 
 
 @worded_union(
@@ -34,7 +28,7 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
     as_given = "TELQ" in words
     if not as_given and len(first.blocks) == 1 < len(second.blocks):
         first, second = second, first
-    return union(first, second, as_given=as_given)
+    return combine.union(first, second, as_given=as_given)
 
 
 @DIFF.form()
@@ -42,7 +36,7 @@ def difference_of_meshes(
     first: Mesh = Main("MAILLAGE", en="mesh"), second: Mesh | Point = _SECOND
 ) -> Mesh:
     """Symmetric difference of two meshes."""
-    return symmetric_difference(first, as_mesh(second))
+    return combine.symmetric_difference(first, as_mesh(second))
 
 
 @INTE.form()
@@ -52,7 +46,7 @@ def intersection_of_meshes(
     allowed: bool = _ALLOWED,
 ) -> Mesh:
     """Common cells of two meshes."""
-    made = intersection(first, as_mesh(second))
+    made = combine.intersection(first, as_mesh(second))
     if not made.blocks and not allowed:
         raise MeshError("operators.mesh.no-common-cell")
     return made
@@ -87,13 +81,13 @@ def visa(
     ws = workspace(call.session)
     reach = ws.density / 10 if distance is None else distance
     if not first.n_cells or (second is not None and not second.n_cells):
-        return poi1(ws.nodes, _NONE), poi1(ws.nodes, _NONE)
+        return combine.poi1(ws.nodes, _NONE), combine.poi1(ws.nodes, _NONE)
     if reach <= 0:
         raise call.error("operators.mesh.no-distance")
     here = first.sorted_node_ids
     there = here if second is None else second.sorted_node_ids
     a, b = facing(ws.nodes, here, there, reach)
-    return poi1(ws.nodes, a), poi1(ws.nodes, b)
+    return combine.poi1(ws.nodes, a), combine.poi1(ws.nodes, b)
 
 
 def facing(

@@ -4,17 +4,10 @@ from ssilang.kernel.fields.isovalue import isovalue
 from ssilang.kernel.mesh.changes.degree import linear
 from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.surfaces import charts
 from ssilang.kernel.mesh.surfaces.analytic import (
     PolynomialSurface,
     mesh_polynomial_surface,
-)
-from ssilang.kernel.mesh.surfaces.charts import (
-    Chart,
-    cone_chart,
-    cylinder_chart,
-    plane_chart,
-    sphere_chart,
-    torus_chart,
 )
 from ssilang.kernel.mesh.surfaces.fill import split_contour
 from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
@@ -36,15 +29,15 @@ _SHAPES = {
 }
 _SHAPE_EN = "what the surface lies on"
 # chart of the contour's positions and the points behind the word
-_CHARTS: dict[str, Callable[..., Chart]] = {
-    "SPHERIQUE": sphere_chart,
-    "CYLINDRIQUE": cylinder_chart,
-    "CONIQUE": cone_chart,
-    "TORIQUE": torus_chart,
+_CHARTS: dict[str, Callable[..., charts.Chart]] = {
+    "SPHERIQUE": charts.sphere_chart,
+    "CYLINDRIQUE": charts.cylinder_chart,
+    "CONIQUE": charts.cone_chart,
+    "TORIQUE": charts.torus_chart,
 }
 
 
-def _curved_chart(shape: Chosen, boundary: FloatArray) -> Chart:
+def _curved_chart(shape: Chosen, boundary: FloatArray) -> charts.Chart:
     points = [p.coordinates.copy() for p in shape.values.values()]
     return _CHARTS[shape.word](boundary, *points)
 
@@ -78,7 +71,9 @@ def surf(
     """Mesh the inside of a contour."""
     boundary, segments = contour_chart_data(contour)
     if shape is None or shape.word == "PLANE":
-        chart = plane_chart(boundary, segments, 1e-3 if criterion is None else abs(criterion))
+        chart = charts.plane_chart(
+            boundary, segments, 1e-3 if criterion is None else abs(criterion)
+        )
     else:
         chart = _curved_chart(shape, boundary)
     ws = workspace(session)
@@ -120,7 +115,7 @@ def dall(
         return split_quadrangles(made) if surface.startswith("TRI") else made
     contour = union(*ordered, as_given=True)
     if chart is None:
-        chart = plane_chart(*contour_chart_data(contour))
+        chart = charts.plane_chart(*contour_chart_data(contour))
     made = fill_surface(contour, chart, surface, ws.colour)
     return Mesh(made.nodes, made.blocks, ordered)
 

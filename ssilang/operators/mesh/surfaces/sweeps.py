@@ -1,15 +1,7 @@
 """Surfaces swept by lines: TRAN, ROTA, REGL, GENE."""
 
 from ssilang.kernel.mesh.combine import union
-from ssilang.kernel.mesh.generators.sweep import (
-    Path,
-    layer_cuts,
-    mean_density,
-    rotation,
-    ruling,
-    sweep_line,
-    translation,
-)
+from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.orientation import reversed_line
@@ -48,20 +40,20 @@ def grown(first: Mesh, new: Mesh) -> Mesh:
     return Mesh(made.nodes, made.blocks, (old[0], right, new.sides[2], left))
 
 
-def _along(call: Call, line: Mesh, path: Path, layers: Subdivision) -> Mesh:
+def _along(call: Call, line: Mesh, path: sweep.Path, layers: Subdivision) -> Mesh:
     """The surface that a line sweeps; flat cells are told."""
     surface = chosen_family(workspace(call.session)).need_surface()
-    made = sweep_line(line, path, layers, surface)
+    made = sweep.sweep_line(line, path, layers, surface)
     warn_of_flat_cells(call, made)
     return made
 
 
 def _swept(
-    call: Call, mesh: Mesh, path_of: Callable[[Mesh], Path], end_size: float, cuts: Cuts
+    call: Call, mesh: Mesh, path_of: Callable[[Mesh], sweep.Path], end_size: float, cuts: Cuts
 ) -> Mesh:
     line = line_to_sweep(mesh)
     path = path_of(line)
-    layers = layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
+    layers = sweep.layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
     return grown(mesh, _along(call, line, path, layers))
 
 
@@ -76,7 +68,7 @@ def tran(
     """Sweep a line along a vector."""
     shift = vector.coordinates.copy()
     cuts = cuts_of(count, sizes)
-    return _swept(call, swept, lambda line: translation(shift), vector.density, cuts)
+    return _swept(call, swept, lambda line: sweep.translation(shift), vector.density, cuts)
 
 
 @operator("ROTA", family="mesh", full_name="ROTATION")
@@ -96,11 +88,11 @@ def rota(
 
 def turning(
     call: Call, degrees: float, axis: Sequence[Point]
-) -> tuple[Callable[[Mesh], Path], float]:
+) -> tuple[Callable[[Mesh], sweep.Path], float]:
     """The rotation about what `AXIS` has read, and the mesh size at its end."""
     origin, direction = axis_of(call, axis)
     size = sum(p.density for p in axis) / len(axis)
-    return (lambda mesh: rotation(mesh, degrees, origin, direction)), size
+    return (lambda mesh: sweep.rotation(mesh, degrees, origin, direction)), size
 
 
 @operator("REGL", family="mesh", full_name="REGLER")
@@ -118,7 +110,9 @@ def regl(
             raise call.error("operators.mesh.no-side-to-reach", goal)
         reached = goal.sides[0]
     cuts = cuts_of(count, sizes)
-    made = _swept(call, swept, lambda line: ruling(line, reached), mean_density(reached), cuts)
+    made = _swept(
+        call, swept, lambda line: sweep.ruling(line, reached), sweep.mean_density(reached), cuts
+    )
     if reached is goal:
         return made
     whole = union(made, goal, as_given=True)
@@ -129,7 +123,7 @@ def regl(
     return Mesh(whole.nodes, whole.blocks, (made.sides[0], right, goal.sides[2], left))
 
 
-def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
+def generator_path(generator: Mesh) -> tuple[sweep.Path, Subdivision]:
     """The motion along a line, layer by layer at its cells."""
     block = generator.single_block()
     chain = generator.nodes.coordinates[line_chain(generator)].copy()
@@ -145,7 +139,7 @@ def generator_path(generator: Mesh) -> tuple[Path, Subdivision]:
     length = float(np.linalg.norm(np.diff(chain, axis=0), axis=1).sum())
     sizes = generator.nodes.density[[block.connectivity[0, 0], block.connectivity[-1, -1]]]
     fractions = np.linspace(0.0, 1.0, n + 1)
-    return Path(motion, length), Subdivision(fractions, float(sizes[0]), float(sizes[1]))
+    return sweep.Path(motion, length), Subdivision(fractions, float(sizes[0]), float(sizes[1]))
 
 
 @operator("GENE", family="mesh", full_name="GENERATRICE")

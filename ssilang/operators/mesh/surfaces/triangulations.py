@@ -4,13 +4,8 @@ from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.sweep import cone, stitch
 from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
 from ssilang.kernel.mesh.queries.quality import quality_in_metric
+from ssilang.kernel.mesh.surfaces import constrained
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.constrained import (
-    delaunay_mesh,
-    is_closed,
-    refined_triangles,
-    triangulated_with_lines,
-)
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data, fill_surface
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
@@ -28,14 +23,14 @@ def tria(
     """Triangulate a contour or points."""
     ws = workspace(session)
     if mesh.dimension == 0:
-        return delaunay_mesh(mesh, ws.dimension, ws.colour)
+        return constrained.delaunay_mesh(mesh, ws.dimension, ws.colour)
     return _of_given_points(mesh, ws)
 
 
 def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
     """Triangles inside lines, whose points alone are their corners."""
-    if not is_closed(mesh) or any(b.cell_type == "SEG3" for b in mesh.blocks):
-        return triangulated_with_lines(mesh, ws.dimension, ws.colour)
+    if not constrained.is_closed(mesh) or any(b.cell_type == "SEG3" for b in mesh.blocks):
+        return constrained.triangulated_with_lines(mesh, ws.dimension, ws.colour)
     boundary, segments = contour_chart_data(mesh)
     flat = plane_chart(boundary, segments)
     cells = contour_cells(mesh)
@@ -105,7 +100,7 @@ def raft(
         wanted = sizes.values_at(next(iter(sizes.components)), ids, np.nan)
         if not (wanted > 0).all():
             raise MeshError("operators.mesh.sizes-not-positive")
-    return refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
+    return constrained.refined_triangles(mesh, ids, wanted, workspace(session).colour, limit)
 
 
 @operator("COUT", family="mesh", full_name="COUTURE")
