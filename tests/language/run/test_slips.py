@@ -62,20 +62,20 @@ def test_a_mark_without_a_column_is_printed(phrase, line, run):
 
 
 def test_an_end_of_a_condition_that_nothing_begins_is_told_and_left_out(run):
-    script = run("X = 1 ; FINSI ; SI (X EGA 1) ; Y = 2 ; FINSI ; 'FINS' ;")
-    assert (script["x"], script["y"]) == (1, 2)
+    script = run(
+        "X = 1 ; FINSI ; SI (X EGA 1) ; Y = 2 ; FINSI ; 'FINS' ; REPE B 3 ; X = X + 1 ; FINS ; FIN B ;"
+    )
+    assert (script["x"], script["y"]) == (4, 2)
     warnings = script.result.session.warnings
     assert [(w.code, w.span.start) for w in warnings] == [
         ("finsi-without-si", 8),
         ("finsi-without-si", 47),
+        ("finsi-without-si", 79),
     ]
 
 
-@pytest.mark.parametrize(
-    "script", ["REPE B 2 ; «FINSI» ; FIN B ;", "DEBP P ; «FINSI» ; FINP ;", "«SINON» ;"]
-)
-def test_inside_of_other_blocks_it_is_refused(script, fails):
-    assert fails(script) == "stray-block-end"
+def test_an_else_of_no_condition_is_refused(fails):
+    assert fails("«SINON» ;") == "stray-block-end"
 
 
 @pytest.mark.parametrize(
