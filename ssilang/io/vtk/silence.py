@@ -1,6 +1,7 @@
 """VTK's own messages, which show the words of a file as they stand."""
 
 import logging
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -23,7 +24,8 @@ def silent() -> Iterator[Callable[[], bool]]:
     vtkOutputWindow.SetInstance(said)
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
     try:
-        yield lambda: "ERROR: " in said.GetOutput() or "Error reading" in said.GetOutput()
+        with warnings.catch_warnings(action="ignore"):  # pyvista warns of what VTK's readers say
+            yield lambda: "ERROR: " in said.GetOutput() or "Error reading" in said.GetOutput()
     finally:
         logging.disable(told)
         vtkOutputWindow.SetInstance(before)
