@@ -210,6 +210,7 @@ def test_words_of_a_damaged_file_reach_no_terminal(
     assert capfd.readouterr() == ("", "")
 
 
+@needs_window
 @pytest.mark.parametrize("binary", [False, True])
 @pytest.mark.parametrize("share", [0.4, 0.7, 0.97])
 def test_a_cut_mesh_of_others_is_no_picture(tmp_path: Path, binary: bool, share: float) -> None:

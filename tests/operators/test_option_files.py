@@ -45,7 +45,7 @@ def test_scripts_of_other_folders_are_refused(name: str, tmp_path: Path) -> None
     assert result.errors[0].code == "forbidden-path"
 
 
-@pytest.mark.parametrize("folder", ["/home/of/another/machine", "../gone/below"])
+@pytest.mark.parametrize("folder", ["/home/of/another/machine", "/gone/below/here"])
 def test_what_goes_to_a_folder_that_is_not_here_is_in_the_output_folder(
     folder: str, tmp_path: Path
 ) -> None:

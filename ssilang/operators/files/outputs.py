@@ -33,7 +33,7 @@ def digests_of_read(session: Session) -> dict[str, str]:
 def output_path(call: Call, name: str) -> Path:
     """Where a file is written: below the output folder.
 
-    What is meant for a folder that this machine does not have goes there, too, with a warning.
+    A whole path to a folder that this machine does not have leads there, too, with a warning.
 
     Raises
     ------
@@ -54,9 +54,10 @@ def output_path(call: Call, name: str) -> Path:
 
 
 def _elsewhere(output: RunOutput, name: str) -> Path | None:
-    """Where a file is written that is meant for a folder of another machine; None if here."""
-    meant = output.directory / portable(name)
-    return None if os.path.isdir(meant.parent) else output.target(meant.name)
+    """Where a file is written whose whole path is of another machine; None for one of this one."""
+    meant = Path(portable(name.strip()))
+    away = meant.root and not os.path.isdir(meant.parent)
+    return output.target(meant.name) if away else None
 
 
 def input_path(call: Call, name: str) -> Path:

@@ -63,7 +63,8 @@ def test_a_mark_without_a_column_is_printed(phrase, line, run):
 
 def test_an_end_of_a_condition_that_nothing_begins_is_told_and_left_out(run):
     script = run(
-        "X = 1 ; FINSI ; SI (X EGA 1) ; Y = 2 ; FINSI ; 'FINS' ; REPE B 3 ; X = X + 1 ; FINS ; FIN B ;"
+        "X = 1 ; FINSI ; SI (X EGA 1) ; Y = 2 ; FINSI ; 'FINS' ; "
+        "REPE B 3 ; X = X + 1 ; FINS ; FIN B ;"
     )
     assert (script["x"], script["y"]) == (4, 2)
     warnings = script.result.session.warnings
