@@ -27,6 +27,10 @@ TOLERANCE = "SOLV TOLERANCE"
 """Where the number behind OPTI 'SOLVEUR' 'MULTIGRILLE' stands among the options."""
 
 
+def _shape(values: FloatArray) -> FloatArray:
+    return values / values[np.abs(values).argmax()]
+
+
 @dataclass
 class Workspace:
     """State of the operators in one session.
@@ -56,8 +60,8 @@ class Workspace:
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
-    records : mapping of str to (step, values over the largest)
-        What LIRE read of ground motions, by their files.
+    records : mapping of (file, column) to (step, values over the largest)
+        What LIRE read of ground motions.
     masses : mapping of int to (nodes, masses)
         What MASS gave cells and points along the vertical: what loads of statics are held to.
     """
@@ -75,21 +79,21 @@ class Workspace:
     petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
-    records: dict[str, tuple[float, FloatArray]] = field(default_factory=dict)
+    records: dict[tuple[str, int], tuple[float, FloatArray]] = field(default_factory=dict)
 
-    def record(self, times: FloatArray, values: FloatArray, file: str = "") -> tuple[str, float]:
-        """The file and the step of a record that has these values, whatever scales them.
+    def keep_record(self, file: str, column: int, times: FloatArray, values: FloatArray) -> None:
+        """Remember a record that is long enough to be known again."""
+        if len(values) >= _FEWEST and values.any():
+            self.records[file, column] = float(np.median(np.diff(times))), _shape(values)
 
-        That of `file` is remembered. ('', 0.) of few values, and where nothing is known.
-        """
-        if len(values) < _FEWEST or not (len(self.records) or file) or not values.any():
+    def record_of(self, values: FloatArray) -> tuple[str, float]:
+        """File and step of the record that has these values, whatever scales them, or ('', 0.)."""
+        if not self.records or len(values) < _FEWEST or not values.any():
             return "", 0.0
-        shape = values / values[np.abs(values).argmax()]
-        if file:
-            self.records[file] = float(np.median(np.diff(times))), shape
+        shape = _shape(values)
         known = [
-            (name, step)
-            for name, (step, own) in self.records.items()
+            (file, step)
+            for (file, _), (step, own) in self.records.items()
             if len(own) == len(shape) and np.abs(own - shape).max() < _SAME
         ]
         return known[-1] if known else ("", 0.0)

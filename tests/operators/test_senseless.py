@@ -106,6 +106,13 @@ FILES = {
         "F = EVOL 'MANU' 'TEMP' (PROG 0. PAS 0.005 NPAS 120) 'ACCE' L ;",
         {"a.csv": cut(0.1)}, "operators.curves.record-at-other-step",
     ),
+    "values of the first of two columns at another step": (
+        "E = LIRE 'SIGNAL' 'a.csv' 1. ; L = EXTR (EXTR E 'COUR' 1) 'ORDO' ; "
+        "F = EVOL 'MANU' (PROG 0. PAS 0.02 NPAS 120) L ;",
+        {"a.csv": "t (s);ax (m/s2);ay (m/s2)\n"
+                  + "".join(f"{i / 100};{i % 7 - 3};{i % 5 - 2}\n" for i in range(121))},
+        "operators.curves.record-at-other-step",
+    ),
     "a constant added to a record": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ; T = @SEISME (EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' "
         "(0.5 + (EXTR E 'ORDO'))) ;", {"a.csv": cut(0.1)}, "stdlib.seisme-drifts",

@@ -159,7 +159,7 @@ def _manual(call: Call, colours: list[int]) -> Curve:
         words, ordinates = tuple(y.values), np.arange(1.0, len(y) + 1)
     else:
         ordinates = y.values.astype(float)
-    file, step = workspace(call.session).record(abscissas, ordinates)
+    file, step = workspace(call.session).record_of(ordinates)
     given = float(np.median(np.diff(abscissas))) if file else 0.0
     if file and abs(given - step) > _SAME_STEP * step and step / _TIMES < given < _TIMES * step:
         told = {"file": file, "step": step, "given": given, "slower": given > step}

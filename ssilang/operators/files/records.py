@@ -89,7 +89,7 @@ def _curve(
             )  # fmt: skip
         elif nameless:
             call.warn("operators.files.record-without-unit", file=file, kind=kind)
-    for record in records:
+    for column, record in enumerate(records):
         for code, value, most in _odd(record, factor):
             call.warn(code, file=file, value=value, most=most)
         if record.left_out:
@@ -97,7 +97,7 @@ def _curve(
                 "operators.files.record-longer", file=file, count=len(record.values),
                 left_out=record.left_out,
             )  # fmt: skip
-        workspace(call.session).record(record.times, record.values, str(file))
+        workspace(call.session).keep_record(str(file), column, record.times, record.values)
     parts = tuple(_part(call, r, factor, in_si) for r in records)
     return Curve(parts, records[0].event[:72])
 
