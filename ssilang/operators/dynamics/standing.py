@@ -211,9 +211,11 @@ def masses_apart(start: Start) -> Told:
     """Masses one above another, each on a spring of its own to the ground, two of them alike."""
     problem, numbering, up = start.problem, start.problem.numbering, len(start.axes) - 1
     k, m, points = problem.K.diagonal(), problem.M.diagonal(), numbering.table.coordinates
-    ties = [a for a in (problem.constraints.C, *(x.J for x in [problem.interface] if x)) if a.nnz]
-    alone = (m > 0.0) & (k > 0.0) & (abs(problem.K).sum(axis=1) == k)
-    for tie in (*ties, *(x.G for x in [problem.contact] if x)):
+    joints, stops = ([x] if x else [] for x in (problem.interface, problem.contact))
+    alone = (m > 0.0) & (k > 0.0) & (np.diff(problem.K.indptr) <= 2 * len(start.axes))
+    few = np.flatnonzero(alone)  # rows of points: not the whole matrix of a large model
+    alone[few] = abs(problem.K[few]).sum(axis=1) == k[few]
+    for tie in (problem.constraints.C, *(x.J for x in joints), *(x.G for x in stops)):
         alone &= abs(tie).sum(axis=0) == 0.0
     for axis in np.flatnonzero(np.abs(start.shaking[:up]).sum(axis=1)):
         rows = np.flatnonzero(alone & (numbering.codes == numbering.code(start.axes[axis])))
