@@ -38,15 +38,12 @@ class RunLock:
     handle: int
 
     def is_held(self) -> bool:
-        """Whether the folder is still the one in which the run began, and no link leads there."""
+        """Whether the folder is still the one in which the run began."""
         try:
             there = self.path.stat()
         except OSError:
             return False
-        return (
-            os.path.samestat(there, os.fstat(self.handle))
-            and atomic.resolved(self.path) == self.path
-        )
+        return os.path.samestat(there, os.fstat(self.handle))
 
     def release(self) -> None:
         """Let another run have the folder."""
@@ -76,7 +73,7 @@ def hold(folder: Path) -> RunLock | None:
     path = folder / NAME
     with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
-    if atomic.resolved(folder) != folder:
+    if not _is_no_link(folder):
         raise OutputError("io.output-folder-gone", folder=folder)
     for _ in range(_TRIES):
         try:
@@ -336,9 +333,9 @@ class RunOutput:
         Raises
         ------
         OutputError
-            If somebody has removed or exchanged it.
+            If somebody has removed or exchanged it, or put a link in its place.
         """
-        if self.lock is not None and not self.lock.is_held():
+        if self.lock is not None and not (self.lock.is_held() and _is_no_link(self.directory)):
             raise OutputError("io.output-folder-gone", folder=self.directory)
 
     def close(self) -> None:
@@ -361,6 +358,10 @@ class RunOutput:
         if self.lock is not None:
             self.lock.release()
             self.lock = None
+
+
+def _is_no_link(folder: Path) -> bool:
+    return atomic.resolved(folder) == folder
 
 
 def _place(folder: Path, name: str) -> Path:

@@ -3,6 +3,7 @@
 import io
 import os
 import pickle
+import threading
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -87,3 +88,20 @@ def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
     locked.path.write_bytes(raw)
     with pytest.raises(InputError, match=r"is damaged: .*encrypted"):
         locked.read()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of one system")
+@pytest.mark.parametrize("name", ["basis.npz", "below/basis.npz"])
+def test_a_file_in_a_folder_that_became_a_link_is_held_all_the_same(
+    tmp_path: Path, name: str
+) -> None:
+    (tmp_path / "moved").mkdir()
+    (tmp_path / "folder").symlink_to(tmp_path / "moved")
+    done = threading.Event()
+
+    def hold() -> None:
+        with TrainingFile(tmp_path / "folder" / name).held():
+            done.set()
+
+    threading.Thread(target=hold, daemon=True).start()
+    assert done.wait(20.0)
