@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 
+_FARTHEST = 700.0  # logarithm of a median that is still a number
 LEAST_RUNS = 3
 """Two parameters and a degree of freedom."""
 LEAST_RECORDS = 5
@@ -202,12 +203,13 @@ def of_cloud(
     y = np.log(demands)
     line = linregress(x, y)
     a, b = float(line.intercept), float(line.slope)
-    if not (b < 0.0 if below else b > 0.0):
+    goes, away = (b < 0.0 if below else b > 0.0), np.log(limit) - a
+    if not goes or abs(away) > _FARTHEST * abs(b):  # a slope of rounding
         raise FieldError("kernel.records.fragility-cloud-falls", slope=b)
     e = y - a - b * x
     variance = float(e @ e) / (n - 2)
     rest = variance + capacity**2
-    median = float(np.exp((np.log(limit) - a) / b))
+    median = float(np.exp(away / b))
     passed = int(((demands < limit) if below else (demands > limit)).sum())
     if variance <= 1e-24 * max(1.0, float(y.var())):
         if capacity == 0.0:

@@ -188,6 +188,8 @@ def test_errors_of_a_cloud_are_those_of_repeated_samples(repeated):
         ([1, 2, 3], [1, 2, np.inf], {}, "demand"),
         ([1, 2, 3], [1, 2, 4], {"limit": -1.0}, "demand"),
         ([1, 2, 3], [3, 2, 1], {}, "cloud-falls"),
+        ([1, 2, 3, 5], [2, 2 + 1e-15, 2 + 4e-16, 2 + 2e-15], {"limit": 9.0}, "cloud-falls"),
+        ([5, 2, 3, 1], [1.998, 2.001, 2.0, 2.002], {"limit": 0.5, "below": True}, "cloud-falls"),
         ([1, 2, 3], [1, 2, 3.5], {"below": True}, "cloud-falls"),
         ([2, 2, 2], [1, 2, 3], {}, "one-level"),
         ([1, 2, 4], [2, 4, 8], {}, "no-scatter"),
