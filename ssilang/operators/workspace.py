@@ -88,9 +88,7 @@ class Workspace:
 
     def record_of(self, values: FloatArray) -> tuple[str, float]:
         """File and step of the record that has these values, whatever scales them, or ('', 0.)."""
-        if not self.records or len(values) < _FEWEST or not values.any():
-            return "", 0.0
-        shape = _shape(values)
+        shape = _shape(values) if self.records and values.any() else values
         known = [
             (file, step)
             for (file, _), (step, own) in self.records.items()

@@ -142,9 +142,9 @@ def _joints_of_others(start: Start) -> Told:
     if inputs.model is None or inputs.characteristics is None:
         return
     zones = joint_zones(inputs.model)
-    for block in (b for b in inputs.stiffness.blocks if b.zone is not None):
-        of = [z.behaviour for z in zones if same_zone(block.zone, z)]
-        if of and block.zone is not None and block.zone.behaviour not in of:
+    for block in inputs.stiffness.blocks:
+        of = [z.behaviour for z in zones if block.zone and same_zone(block.zone, z)]
+        if of and block.zone and block.zone.behaviour not in of:
             told = {"node": block.table.told(int(block.nodes[0, 0])), "count": len(block.nodes)}
             yield "operators.dynamics.springs-replaced", told
     for zone in zones:

@@ -211,14 +211,13 @@ def masses_apart(start: Start) -> Told:
     """Masses one above another, each on a spring of its own to the ground, two of them alike."""
     problem, numbering, up = start.problem, start.problem.numbering, len(start.axes) - 1
     k, m, points = problem.K.diagonal(), problem.M.diagonal(), numbering.table.coordinates
-    joints, stops = ([x] if x else [] for x in (problem.interface, problem.contact))
-    alone = (m > 0.0) & (k > 0.0) & (np.diff(problem.K.indptr) <= 2 * len(start.axes))
-    few = np.flatnonzero(alone)  # rows of points: not the whole matrix of a large model
-    alone[few] = abs(problem.K[few]).sum(axis=1) == k[few]
-    for tie in (problem.constraints.C, *(x.J for x in joints), *(x.G for x in stops)):
-        alone &= abs(tie).sum(axis=0) == 0.0
+    ties = (problem.constraints.C, *(x.J for x in [problem.interface] if x))
+    alone = np.flatnonzero((m > 0.0) & (k > 0.0) & (np.diff(problem.K.indptr) <= 2 * up + 2))
+    alone = alone[abs(problem.K[alone]).sum(axis=1) == k[alone]]  # of points: never all of it
+    for tie in (*ties, *(x.G for x in [problem.contact] if x)):
+        alone = alone[abs(tie[:, alone]).sum(axis=0) == 0.0]
     for axis in np.flatnonzero(np.abs(start.shaking[:up]).sum(axis=1)):
-        rows = np.flatnonzero(alone & (numbering.codes == numbering.code(start.axes[axis])))
+        rows = alone[numbering.codes[alone] == numbering.code(start.axes[axis])]
         places = points[numbering.nodes[rows]].round(6)
         for plan in np.unique(places[:, :up], axis=0):
             own = rows[(places[:, :up] == plan).all(axis=1)]
