@@ -9,7 +9,7 @@ import numpy as np
 from ssilang.io.run_output import RunOutput
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.materials.model import Mode
-from ssilang.kernel.mesh.mesh import Point
+from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.solvers.backends import MULTIGRID
 from ssilang.kernel.solvers.factor import RESIDUAL, Solver
@@ -60,6 +60,8 @@ class Workspace:
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
+    sides : list of (first side, second side, method)
+        What IMPO 'MAIL' made contact meshes of.
     records : mapping of (file, column) to (step, values over the largest)
         What LIRE read of ground motions.
     masses : mapping of int to (nodes, masses)
@@ -79,6 +81,7 @@ class Workspace:
     petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
+    sides: list[tuple[Mesh, Mesh, str]] = field(default_factory=list)
     records: dict[tuple[str, int], tuple[float, FloatArray]] = field(default_factory=dict)
 
     def keep_record(self, file: str, column: int, times: FloatArray, values: FloatArray) -> None:

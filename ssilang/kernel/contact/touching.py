@@ -21,6 +21,7 @@ from ssilang.kernel.contact.unilateral import BEHIND, FACING, NOTHING, OUTSIDE, 
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.cells import many_noded
+from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 OF_LINES, OF_PROJECTILE = "MULT4", "MULT3"
@@ -81,6 +82,28 @@ def possible_links(master: Mesh, slave: Mesh) -> Mesh:
     multipliers = table.add(table.coordinates[links[first, -1]])
     cells = np.column_stack([multipliers[place.ravel()], links])
     return Mesh.of(table, many_noded("MULT", cells.shape[1]), cells)
+
+
+def within(one: Mesh, other: Mesh, reach: float) -> tuple[Mesh, Mesh]:
+    """Cells of two sides with a node no farther than `reach` from one of the other's.
+
+    Raises
+    ------
+    MeshError
+        If there are none.
+    """
+    from scipy.spatial import cKDTree
+
+    def near(mesh: Mesh, side: Mesh) -> Mesh:
+        nodes, points = mesh.node_ids, mesh.nodes.coordinates
+        apart = np.asarray(cKDTree(points[side.node_ids]).query(points[nodes])[0])
+        if (nearest := float(apart.min())) > reach:
+            told = {"reach": reach, "nearest": nearest}
+            raise MeshError("kernel.contact.sides-out-of-reach", **told)
+        close = nodes[apart <= reach]
+        return take(mesh, lambda b: np.asarray(np.isin(b.connectivity, close).any(axis=1)))
+
+    return near(one, other), near(other, one)
 
 
 def _pairs(cells: IntArray, nodes: IntArray) -> IntArray:

@@ -1,10 +1,13 @@
-"""IMPO: possible links of lines and projectiles in the plane, relations of those that touch."""
+"""IMPO: sides in contact; possible links in the plane, relations of those that touch."""
 
 from ssilang.kernel.contact import touching
 from ssilang.kernel.matrices.relations import in_space
+from ssilang.kernel.mesh.combine import union
 from ssilang.operators.matrices.relations import length_of
 from ssilang.operators.matrices.supports import as_matrix
+from ssilang.operators.models.contact import contact_model, sides_in
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.pasapas_contact import sides_of
 
 _SIZE = arg("size", "FLOTTANT", en="radius, or width", unit="m", range=POSITIVE)
 _ANGLE = arg(
@@ -71,3 +74,51 @@ def _nose(call: Call, nose: Chosen | None, axis: Point | None) -> touching.Nose 
     unit = vector / length_of(call, axis, vector)
     angle = np.radians(nose["angle"]) if nose.word == "CONE" else 0.0
     return touching.Nose(nose.word, unit, nose["size"], float(angle))
+
+
+_SIDES = (
+    arg("master", "MAILLAGE", en="first side"),
+    arg("slave", "MAILLAGE", en="second side"),
+)
+
+
+@impo.form(
+    said("MAIL"),
+    choice("method", ("SYME", "MESC", "FAIB"), default="SYME", en="as of MODE 'CONTACT'"),
+    opt("reach", "FLOTTANT", unit="m", range=POSITIVE, en="cells farther apart are left out"),
+    opt("least", "FLOTTANT", unit="m", en="changes nothing: sides that face away never touch"),
+    *_SIDES,
+)
+def of_sides(
+    call: Call, method: str, reach: float | None, least: float | None, master: Mesh, slave: Mesh
+) -> Mesh:
+    """Mesh of two sides, of which MODE 'CONTACT' makes a model."""
+    if least is not None:
+        call.warn("operators.matrices.least-distance-unused", least)
+    if reach is not None:
+        master, slave = touching.within(master, slave, reach)
+    workspace(call.session).sides.append((master, slave, method))
+    return union(master, slave)
+
+
+@impo.form(said("BLOC"), arg("mesh", "MAILLAGE", en="mesh of two sides, by IMPO 'MAIL'"))
+def of_mesh(call: Call, mesh: Mesh) -> tuple[NodeField, Matrix]:
+    """Gaps and relations of the sides of a mesh as they lie now."""
+    return _gaps_and_relations(call, sides_in(call, mesh))
+
+
+@impo.form(*_SIDES)
+def of_two(call: Call, master: Mesh, slave: Mesh) -> tuple[NodeField, Matrix]:
+    """Gaps and relations of two sides as they lie now."""
+    return _gaps_and_relations(call, [(master, slave, "SYME")])
+
+
+def _gaps_and_relations(
+    call: Call, sides: list[tuple[Mesh, Mesh, str]]
+) -> tuple[NodeField, Matrix]:
+    ws = workspace(call.session)
+    models = [contact_model(call, a, b, method, False, ws) for a, b, method in sides]
+    found = sides_of(Model(tuple(z for m in models for z in m.zones)), None, {})
+    if found.matrix is None or found.gaps is None:
+        raise call.error("operators.matrices.sides-do-not-face", sides[0][1])
+    return found.gaps, found.matrix

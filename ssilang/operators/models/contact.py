@@ -40,6 +40,22 @@ def contact_model(
     )
 
 
+def sides_in(call: Call, mesh: Mesh) -> list[tuple[Mesh, Mesh, str]]:
+    """Sides and methods of the contact meshes of IMPO 'MAIL' that a mesh holds."""
+    held = {b.cell_type: {tuple(c) for c in b.connectivity.tolist()} for b in mesh.blocks}
+    found = [
+        (master, slave, method)
+        for master, slave, method in workspace(call.session).sides
+        if all(
+            held.get(b.cell_type, set()).issuperset(map(tuple, b.connectivity.tolist()))
+            for b in (*master.blocks, *slave.blocks)
+        )
+    ]
+    if not found:
+        raise call.error("operators.models.no-sides-in-mesh", mesh)
+    return found
+
+
 def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Workspace) -> Model:
     """A cable (its mechanical model may be named) and the body that it slides in."""
     if ws.mode.dimension < 2 or ws.mode.value in ("AXIS", "FOUR"):

@@ -11,7 +11,7 @@ from ssilang.kernel.modal import shape_models
 from ssilang.language.cast3m import IN_SCOPE
 from ssilang.language.search import nearest
 from ssilang.operators.dispatch import union
-from ssilang.operators.models.contact import METHODS, cable_model, contact_model
+from ssilang.operators.models.contact import METHODS, cable_model, contact_model, sides_in
 from ssilang.operators.prelude import *
 from ssilang.operators.vocabulary import words
 
@@ -80,7 +80,7 @@ MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
     _WORDS,
     arg("master", "MAILLAGE", "POINT", en="first side, or the cable"),
     opt("cables", "MMODEL", en="model of the cable"),
-    arg("slave", "MAILLAGE", en="second side, or the body"),
+    opt("slave", "MAILLAGE", en="second side, or the body; none behind a mesh of IMPO 'MAIL'"),
 )
 def contact(
     call: Call,
@@ -91,7 +91,7 @@ def contact(
     said: tuple[str, ...],
     master: Mesh | Point,
     cables: Model | None,
-    slave: Mesh,
+    slave: Mesh | None,
     **settings: Any,
 ) -> Model:
     """A model of two sides, or of a cable in a body."""
@@ -101,8 +101,12 @@ def contact(
     mesh, _ = _usable(call, master, wish)
     ws = workspace(call.session)
     if friction is not None and friction["law"] == "FROCABLE":
+        if slave is None:
+            raise call.missing(("MAILLAGE",))
         return cable_model(call, mesh, cables, slave, ws)
-    return contact_model(call, mesh, slave, method, friction is not None, ws)
+    sides = sides_in(call, mesh) if slave is None else [(mesh, slave, method)]
+    models = [contact_model(call, *pair, friction is not None, ws) for pair in sides]
+    return Model(tuple(zone for model in models for zone in model.zones))
 
 
 @MODE.form()
