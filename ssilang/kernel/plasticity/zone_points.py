@@ -24,6 +24,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.materials.plastic import section_flow
+from ssilang.kernel.materials.plastic.iwan import nested_of
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
 from ssilang.kernel.plasticity.layered_points import (
@@ -42,7 +43,7 @@ from ssilang.kernel.plasticity.points import (
 )
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
-from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
+from ssilang.kernel.plasticity.solving.nested import NestedPass
 
 BENT = ("beam", "pipe")
 """Lines whose strains and forces are linear between their two nodes."""
