@@ -312,7 +312,7 @@ def _virgin(zone: PlasticPoints) -> PointState:
 
 def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> ZonePass | None:
     law = points.law
-    plain = type(points) is PlasticPoints and (law.columns is not None or law.parts is not None)
+    plain = type(points) is PlasticPoints and (law.cone is not None or law.parts is not None)
     if not plain or points.count < least:
         return None
     from ssilang.kernel.plasticity.zone_points import zone_pass

@@ -24,7 +24,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.materials.plastic import section_flow
-from ssilang.kernel.materials.plastic.cone_rows import cone_rows
+from ssilang.kernel.materials.plastic.iwan import nested_of
 from ssilang.kernel.materials.plastic.laws import PlasticLaw, law_at, plastic_law
 from ssilang.kernel.plasticity.fibre_points import fibre_points
 from ssilang.kernel.plasticity.layered_points import (
@@ -43,7 +43,7 @@ from ssilang.kernel.plasticity.points import (
 )
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
-from ssilang.kernel.plasticity.solving.nested import NestedPass, nested_of
+from ssilang.kernel.plasticity.solving.nested import NestedPass
 
 BENT = ("beam", "pipe")
 """Lines whose strains and forces are linear between their two nodes."""
@@ -113,9 +113,7 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         own.values, own.curves, D, np.asarray(np.linalg.pinv(D, hermitian=True), dtype=np.float64),
         placed(section_form(zone, given, at)), np.broadcast_to(size, (n, p)).ravel(),
     )  # fmt: skip
-    flowing: PlasticLaw = replace(
-        law, respond=section_flow.respond, columns=None, symmetric=kind not in BENT
-    )
+    flowing: PlasticLaw = replace(law, respond=section_flow.respond, symmetric=kind not in BENT)
     weights = np.broadcast_to(operator.weights, (n, p))
     common = (zone, flowing, family.layout(zone), operator.matrix, weights, None, slots, ())
     if kind in BENT:
@@ -174,5 +172,7 @@ def zone_pass(points: PlasticPoints, places: NDArray[np.int32]) -> ZonePass | No
     if points.law.parts is not None:
         nested = nested_of(points.law.parts, points.parameters)
         return NestedPass(cells_of(points, places), nested)
-    cone = cone_rows(points.law, points.parameters)
-    return None if cone is None else ConePass(cells_of(points, places), cone)
+    cone = points.law.cone
+    if cone is None:
+        return None
+    return ConePass(cells_of(points, places), points.parameters.once(cone.rows))

@@ -112,17 +112,22 @@ def test_held_stresses_are_found_in_few_turns_however_far_it_flows(size: float) 
     assert np.abs(q[q > 0.9] - 1.0).max() <= 1e-12 * max(1.0, 1e3 * np.abs(taken).max())
 
 
-@together("name", ["ISOTROPE", "J2", "DRUCKER_PRAGER"])
+@together("name", ["PARFAIT", "ISOTROPE", "J2", "DRUCKER_PRAGER"])
 def test_flow_is_found_in_few_turns_however_little_it_is(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     law, p, turns = PLASTIC_LAWS[name], parameters(name), []
-    stiffness = cone._Flow._stiffness
-    monkeypatch.setattr(cone._Flow, "_stiffness", lambda *a: turns.append(1) or stiffness(*a))
-    for seed in range(40):
-        before, blank = len(turns), np.zeros((M, len(law.variables)))
-        law.respond(p, np.zeros((M, 6)), 0.1 * steps(seed)[1], blank)
-        assert len(turns) - before <= 12
+    assert law.cone is not None
+    rows, strength = law.cone.rows(p), cone.strength_at.py_func
+    given = rows.rows[rows.of[0]]
+    alpha, beta = given[cone.ConeColumn.ALPHA], given[cone.ConeColumn.BETA]
+    monkeypatch.setattr(cone, "strength_at", lambda *a: turns.append(1) or strength(*a))
+    for size in np.logspace(-13, 1, 29):
+        for before in np.linspace(0.0, 0.3, 23):
+            q = (1.0 + size) * strength(rows, rows.of[0], before)[0] / (beta + 0.37 * alpha)
+            count = len(turns)
+            cone._multiplier.py_func(rows, rows.of[0], 0.37 * q, q, before, 1.1)
+            assert len(turns) - count <= 12
 
 
 @together("size", [10, 2e3])

@@ -14,22 +14,20 @@ from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.plastic import (
     cam_clay,
-    cone,
+    cone_laws,
     creep,
     hognestad,
     iwan,
     menegotto_pinto,
     rounded_coulomb,
     uniaxial,
-    von_mises,
 )
 from ssilang.kernel.materials.plastic.backbone import Backbones
+from ssilang.kernel.materials.plastic.cone import Cone
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 Respond = Callable[[PointParameters, FloatArray, FloatArray, FloatArray], Response]
 """Response from parameters, stress (m, 6), step of strain (m, 6), variables (m, k)."""
-Columns = Callable[[PointParameters], dict[str, FloatArray]]
-"""Numbers (m,) of a cone at m points."""
 
 
 @dataclass(frozen=True)
@@ -57,9 +55,6 @@ class PlasticLaw:
         Parameters that need not be given, and what they are then.
     timed : bool
         The duration of a step counts (parameter DT).
-    columns : callable or None
-        Of a cone of revolution: its numbers (m,) by the names of `cone_rows.ConeColumn`, for
-        compiled passes over many points.
     locked : callable or None
         Energy density (m,) that stress (m, 6) and variables store beyond the elastic energy of
         the stress.
@@ -82,7 +77,6 @@ class PlasticLaw:
     optional: tuple[str, ...] = ()
     defaults: Mapping[str, float] = field(default_factory=dict)
     timed: bool = False
-    columns: Columns | None = None
     locked: Callable[[PointParameters, FloatArray, FloatArray], FloatArray] | None = None
     shaped: "Callable[[PlasticLaw, PointParameters], PlasticLaw] | None" = None
     parts: Backbones | None = None
@@ -92,6 +86,11 @@ class PlasticLaw:
     def uniaxial(self) -> bool:
         """Whether it is a law along fibres."""
         return isinstance(self.respond, uniaxial.Fibres)
+
+    @property
+    def cone(self) -> Cone | None:
+        """The cone that it is."""
+        return self.respond if isinstance(self.respond, Cone) else None
 
 
 def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
@@ -116,42 +115,30 @@ _CENTRE = ("ALXX", "ALYY", "ALZZ", "ALXY", "ALXZ", "ALYZ")
 _CONE = ("ALFA", "BETA", "K", "ETA", "MU", "KL", "H", "GAMM", "DELT")
 
 PLASTIC_LAWS: dict[str, PlasticLaw] = {
-    "PARFAIT": PlasticLaw(
-        von_mises.perfect, ("SIGY",), positive=("SIGY",), columns=von_mises.perfect_columns
-    ),
+    "PARFAIT": PlasticLaw(Cone(cone_laws.mises), ("SIGY",), positive=("SIGY",)),
     "ISOTROPE": PlasticLaw(
-        von_mises.isotropic,
+        Cone(cone_laws.isotropic, "ECRO"),
         ("ECRO",),
         curves=("ECRO",),
-        check=von_mises.check_strengths,
-        columns=von_mises.isotropic_columns,
+        check=cone_laws.check_strengths,
     ),
     "CINEMATIQUE": PlasticLaw(
-        von_mises.kinematic,
-        ("SIGY", "H"),
-        ("EPSE", *_CENTRE),
-        positive=("SIGY",),
-        columns=von_mises.kinematic_columns,
+        Cone(cone_laws.kinematic), ("SIGY", "H"), ("EPSE", *_CENTRE), positive=("SIGY",)
     ),
     "J2": PlasticLaw(
-        von_mises.saturating,
+        Cone(cone_laws.saturating),
         ("SIG0", "SIGI", "KISO", "VELO"),
         positive=("SIG0",),
-        check=von_mises.check_saturating,
-        columns=von_mises.saturating_columns,
+        check=cone_laws.check_saturating,
     ),
     "DRUCKER_PARFAIT": PlasticLaw(
-        cone.perfect,
-        ("LTR", "LCS"),
-        check=cone.check_perfect,
-        columns=cone.perfect_columns,
+        Cone(cone_laws.drucker), ("LTR", "LCS"), check=cone_laws.check_drucker
     ),
     "DRUCKER_PRAGER": PlasticLaw(
-        cone.hardening,
+        Cone(cone_laws.drucker_prager),
         _CONE,
-        check=cone.check_hardening,
+        check=cone_laws.check_drucker_prager,
         symmetric=False,
-        columns=cone.hardening_columns,
     ),
     "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
     "IWAN": PlasticLaw(

@@ -7,7 +7,7 @@ Stresses are XX YY ZZ XY XZ YZ, strains the same with engineering shears (GAXY =
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.materials.elasticity import isotropic_compliance, isotropic_moduli
 
+Made = TypeVar("Made")
 UNIT = np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0])
 """The unit tensor."""
 DEVIATOR = np.diag([1.0, 1.0, 1.0, 0.5, 0.5, 0.5])
@@ -38,15 +39,16 @@ class PointParameters:
     curves: Mapping[str, tuple[list[Curve], IntArray]]
 
     @cached_property
-    def kept(self) -> dict[Any, FloatArray]:
+    def kept(self) -> dict[Any, Any]:
         """What `once` made."""
         return {}
 
-    def once(self, make: "Callable[[PointParameters], FloatArray]") -> FloatArray:
+    def once(self, make: Callable[["PointParameters"], Made]) -> Made:
         """What a law makes of its parameters, made when it is first asked for."""
         if make not in self.kept:
             self.kept[make] = make(self)
-        return self.kept[make]
+        found: Made = self.kept[make]
+        return found
 
     def __getitem__(self, name: str) -> FloatArray:
         return self.values[name]

@@ -135,7 +135,7 @@ class Space(NamedTuple):
 
     Displacements and forces (n_rows, n_lanes) of the cells of a block; strains, stresses without
     flow and stresses (6, n_lanes), how far the former are beyond their surfaces (n_lanes,); an
-    element's matrix, and its rows; room (8, 6) for the law of a point.
+    element's matrix, and its rows; room (10, 6) for the law of a point.
     """
 
     u: FloatArray
@@ -154,7 +154,7 @@ def _space(cells: Cells) -> Space:
     return Space(
         np.zeros((rows, lanes)), np.zeros((rows, lanes)), np.zeros((6, lanes)),
         np.zeros((6, lanes)), np.zeros((6, lanes)), np.zeros(lanes), np.zeros((rows, rows)),
-        np.zeros(rows), np.zeros((8, 6)),
+        np.zeros(rows), np.zeros((10, 6)),
     )  # fmt: skip
 
 

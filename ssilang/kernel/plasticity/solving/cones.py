@@ -1,4 +1,4 @@
-"""Compiled passes over zones whose law is a cone of revolution (`materials.plastic.cone_rows`).
+"""Compiled passes over zones whose law is a cone of revolution (`materials.plastic.cone`).
 
 The law is asked point by point where stresses without flow pass their surface, and nowhere else.
 """
@@ -10,10 +10,11 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled_fused, compiled_inline
-from ssilang.kernel.materials.plastic.cone_rows import (
+from ssilang.kernel.materials.plastic.cone import (
     ConeColumn,
     ConeRows,
     cone_point,
+    cone_tangent,
     strength_at,
 )
 from ssilang.kernel.plasticity.solving.blocks import (
@@ -118,25 +119,6 @@ def _flowed(
 
 
 @compiled_fused
-def _tangent(N: FloatArray, t: FloatArray, components: IntArray, D: FloatArray) -> None:
-    """Tangent (n_strains, n_strains) from its factors (`cone_point`)."""
-    for a in range(len(components)):
-        i = components[a]
-        for b in range(len(components)):
-            j = components[b]
-            value = t[2] * N[i] * N[j]
-            if i < 3:
-                value += t[3] * N[j]
-            if j < 3:
-                value += t[4] * N[i]
-            if i < 3 and j < 3:
-                value += t[0] - t[1] / 3.0
-            if i == j:
-                value += t[1] if i < 3 else 0.5 * t[1]
-            D[a, b] = value
-
-
-@compiled_fused
 def flow_over(cells: Cells, cone: ConeRows, step: Step, force: FloatArray, space: Space) -> None:
     """Add to `force` (n,) what flow takes away from the forces in a step."""
     m, p, n_lanes, start = len(cells.weights), points_of(cells), cells.terms.shape[2], step.start
@@ -207,7 +189,7 @@ def pass_over(
             if grown > variables[0, at]:
                 _flowed(cone.rows[cone.of[at]], start, at, x, grown, new, space)
             if tangent:
-                _tangent(space.point[1], space.point[2], cells.components, D[at])
+                cone_tangent(space.point[1], space.point[2], cells.components, D[at])
             space.beyond[x] = 1.0
         if moves:
             for i in range(6):

@@ -109,7 +109,7 @@ def test_a_pass_gives_what_the_law_does(name: str) -> None:
 
 
 def test_only_cones_have_rows() -> None:
-    laws = {name for name, law in PLASTIC_LAWS.items() if law.columns is not None}
+    laws = {name for name, law in PLASTIC_LAWS.items() if law.cone is not None}
     assert laws == {name for name in RANGES if not name.startswith("IWAN")}
 
 
