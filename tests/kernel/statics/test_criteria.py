@@ -79,10 +79,8 @@ def expected(name, s, e, centre):
     if "K" in p:
         last = p["KL"] * p["BETA"] / p["MU"]
         k = p["K"] + p["H"] * e
-        if p["H"] < 0:  # down to the last strength, or to nothing where that is above the first
-            k = max(k, last if last < p["K"] else 0.0)
-        else:
-            k = min(k, last)
+        least = last if last < p["K"] else 0.0  # of one that falls
+        k = max(k, least) if p["H"] < 0 else min(k, last)
         return p["ALFA"] * np.trace(s) + p["BETA"] * mises(s) - k
     return None
 
