@@ -8,7 +8,7 @@ import time
 import traceback
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -20,7 +20,6 @@ from ssilang import __version__, private
 from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.cli.terminal.screen import coloured
-from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
@@ -89,7 +88,7 @@ class RunOptions:
     limits: Limits = field(default_factory=Limits)
     given: dict[str, Any] = field(default_factory=dict)  # name -> value, `--set`
     resume: bool = False  # go on from what an earlier run of the deck kept
-    on_form: FormsRan | None = None  # collects the forms of operators that run
+    on_form: Callable[[Any, Any, Any], object] | None = None  # told of each form that runs
     petsc: str = field(default_factory=lambda: os.environ.get("SSILANG_PETSC", ""))
     """What starts PETSc, '' if there is none."""
     shared: Path | None = None  # what all runs of a sweep share

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 import script_runs
+from forms_ran import FormsRan
 from together import together
 
 from ssilang.cli.check import typed_source
@@ -21,7 +22,6 @@ from ssilang.language.registry import OPERATORS
 from ssilang.language.run import phrases
 from ssilang.language.run.binding import run_operator
 from ssilang.language.run.call import Call, Operand
-from ssilang.language.run.forms_ran import FormsRan
 from ssilang.language.run.library import standard_procedures
 from ssilang.language.say.errors import SsiError
 from ssilang.language.say.reference import operator_page, procedure_page

@@ -299,7 +299,7 @@ def _named(read: Any, kind: str) -> Iterator[_Chosen]:
             continue
         tags = np.unique(np.concatenate(arrays))
         if len(tags) <= _MOST_TAGS:
-            for dimension, tag in _tags(read, tags, key, kind):
+            for dimension, tag in _tags(tags, key, kind):
                 names = _names_of(read, key, int(tag), dimension)
                 for name in names:
                     yield (
@@ -311,7 +311,7 @@ def _named(read: Any, kind: str) -> Iterator[_Chosen]:
                     )
 
 
-def _tags(read: Any, tags: IntArray, key: str, kind: str) -> Iterator[tuple[int, int]]:
+def _tags(tags: IntArray, key: str, kind: str) -> Iterator[tuple[int, int]]:
     """Dimension and tag; -1 where tags count for all dimensions. But for VTK's, 0 is no tag."""
     by_dimension = key.startswith("gmsh:")
     for tag in tags.tolist():

@@ -73,7 +73,7 @@ def strike(
             rows[n] = i
             n += 1
     active, before, found = _active(W, rows, n), np.zeros(n), np.zeros(n)
-    met = _meet(Q, c, v, a, step, rows, closing, held, active.free)
+    met = _meet(Q, c, v, a, step, rows, held, active.free)
     find_active(active)
     few = int(active.tally[0])
     for i in range(n):
@@ -94,7 +94,7 @@ def strike(
 @compiled_fused
 def _meet(
     Q: FloatArray, c: FloatArray, v: FloatArray, a: FloatArray, step: FloatArray, rows: IntArray,
-    closing: np.ndarray, held: np.ndarray, speed: FloatArray,
+    held: np.ndarray, speed: FloatArray,
 ) -> bool:  # fmt: skip
     """Velocities (n,) of the rows when they meet, while what holds the body holds on.
 

@@ -78,7 +78,7 @@ def family_of(zone: Zone) -> ElementFamily:
 
 def moduli_of(zone: Zone, material: zone_fields.ZoneField, support: Support) -> FloatArray:
     """Moduli from a field of Hooke matrices if there is one, else from parameters."""
-    given = solid_moduli.moduli_from_field(zone, material, support)
+    given = solid_moduli.moduli_from_field(material, support)
     return family_of(zone).moduli(zone, material, support) if given is None else given
 
 

@@ -98,7 +98,7 @@ def _no_fibres(zone: Zone) -> None:
 
 
 def probing_step(
-    zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, precision: float
+    zone: Zone, material: CellField, stress: FloatArray, precision: float
 ) -> FloatArray:
     """A step of strain that takes the points within `precision` of yielding just past it.
 
@@ -126,7 +126,7 @@ def probing_step(
 
 def elastic_moduli(zone: Zone, parameters: ZoneField) -> FloatArray:
     """Moduli (n_cells, n_points, s, s) at 'STRESSES', from Hooke matrices or parameters."""
-    given = moduli_from_field(zone, parameters, "STRESSES")
+    given = moduli_from_field(parameters, "STRESSES")
     found = family_of(zone).moduli(zone, parameters, "STRESSES") if given is None else given
     shape = (len(zone.cells), n_points(zone.element, "STRESSES"), *found.shape[2:])
     return np.broadcast_to(found, shape)
@@ -265,7 +265,7 @@ def _joint(
     w = _jump(points, points.local(stress), state, law.code) + points.local(step)
     t, new, D = np.zeros((m, d)), np.zeros((m, N_STATE)), np.zeros((m, d, d))
     compiled_respond(np.full(m, law.code), w, state, points.table, t, new, D)
-    return _joint_answer(zone, material, points, (stress, step), (t, new, D), state)
+    return _joint_answer(zone, material, points, (stress, step), (t, new, D))
 
 
 def _joint_answer(
@@ -274,7 +274,6 @@ def _joint_answer(
     points: JointPoints,
     given: tuple[FloatArray, FloatArray],
     found: tuple[FloatArray, FloatArray, FloatArray],
-    state: FloatArray,
 ) -> Answer:
     (stress, step), (t, new, D) = given, found
     d, order = points.dimension, points.order

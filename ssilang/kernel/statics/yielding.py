@@ -17,7 +17,8 @@ from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
-from ssilang.kernel.materials.plastic.response import PointParameters, mises
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
@@ -32,31 +33,8 @@ Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]
 """Criterion (m,) from parameters, stresses (m, 6), internal variables (m, k)."""
 
 
-def _trace(s: FloatArray) -> FloatArray:
-    return np.asarray(s[:, :3].sum(axis=1))
-
-
-def _cone_of_strengths(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
-    tension, compression = p["LTR"], np.abs(p["LCS"])
-    alpha = (compression - tension) / (compression + tension)
-    limit = 2.0 * compression * tension / (compression + tension)
-    return np.asarray(alpha * _trace(s) + mises(s)[0] - limit)
-
-
-def _hardening_cone(p: PointParameters, s: FloatArray, v: FloatArray) -> FloatArray:
-    strength, slope = p["K"] + p["H"] * v[:, 0], p["H"]
-    last = p["KL"] * p["BETA"] / p["MU"]
-    moving = np.where(slope < 0, np.maximum(strength, last), np.minimum(strength, last))
-    strength = np.where(slope == 0, p["K"], moving)
-    return np.asarray(p["ALFA"] * _trace(s) + p["BETA"] * mises(s)[0] - strength)
-
-
 CRITERIA: dict[str, Criterion] = {
-    "PARFAIT": lambda p, s, v: np.asarray(mises(s)[0] - p["SIGY"]),
-    "ISOTROPE": lambda p, s, v: np.asarray(mises(s)[0] - p.curve("ECRO", v[:, 0])[0]),
-    "CINEMATIQUE": lambda p, s, v: np.asarray(mises(s - v[:, 1:7])[0] - p["SIGY"]),
-    "DRUCKER_PARFAIT": _cone_of_strengths,
-    "DRUCKER_PRAGER": _hardening_cone,
+    **{name: law.cone.excess for name, law in PLASTIC_LAWS.items() if law.cone is not None},
     "RH_COULOMB": lambda p, s, v: rounded_coulomb.criterion(p, s),
 }
 """By the word after PLASTIQUE."""
@@ -162,16 +140,13 @@ def tangent_modulus(
     if is_joint(zone) or not is_plastic(zone):
         return elastic.copy()
     name = _law(zone)
-    if name not in ("PARFAIT", "ISOTROPE", "CINEMATIQUE"):
+    cone = PLASTIC_LAWS[name].cone if name in PLASTIC_LAWS else None
+    if cone is None or name in FRICTIONAL:
         raise FieldError("kernel.statics.mota-knows-von-mises", name=name)
     points = plastic_points(zone, material)
-    p = points.parameters
     cumulated = np.broadcast_to(variables.at("EPSE", "STRESSES", 0.0), shape).ravel()
-    if name == "ISOTROPE":
-        size, slope = p.curve("ECRO", cumulated)
-    else:
-        size = p["SIGY"]
-        slope = p["H"] if name == "CINEMATIQUE" else np.zeros_like(size)
+    size, slope = cone.strength(points.parameters, cumulated)
+    slope = slope + points.parameters.values.get("H", 0.0)
     above = criterion(zone, material, stress, variables).ravel() > -precision * size
     found = np.where(above & (cumulated > 0), slope, elastic.ravel())
     return found.reshape(shape)

@@ -333,7 +333,7 @@ def _stability(
         counts = [float((np.linalg.eigvals(p.jacobian).real < 0).sum()) for p in seen]
         longer(inner, "DIAG", np.array(counts))
     if "FLOQ" in words or "HILL" in words:
-        _floquet(entries, problem, seen, inner, names)
+        _floquet(entries, problem, seen, inner)
 
 
 def _begin_again(
@@ -349,7 +349,7 @@ def _begin_again(
 
 
 def _floquet(
-    entries: Entries, problem: FrequencyProblem, points: list[Solution], inner: Table, names: Names
+    entries: Entries, problem: FrequencyProblem, points: list[Solution], inner: Table
 ) -> None:
     of = _exponents(entries, problem)
     found = np.array([of(p) for p in points])

@@ -169,7 +169,7 @@ class _StateRead:
     def tangent(self, zone: Zone) -> Answer:
         """The law's tangent at this state: over the shortest of the steps that make it yield."""
         stress, variables = _stresses_of(zone, self.stress), zone_field(zone, self.variables)
-        step = probing_step(zone, self.material, stress, variables, self.precision)
+        step = probing_step(zone, self.material, stress, self.precision)
         share, small = np.ones_like(step[:, :1]), 1e-6 * np.abs(step).max(axis=1, keepdims=True)
         for less in 0.5 ** np.arange(1, 11) if step.any() else ():
             tried = respond(zone, self.material, stress, variables, (share - less) * step)

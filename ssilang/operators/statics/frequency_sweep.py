@@ -78,7 +78,7 @@ def _inputs(entries: Entries) -> "HarmonicInputs":
     zones = () if model is None else model.zones
     mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")
     for zone in mechanical:
-        _check_linear(entries, zone)
+        _check_linear(zone)
     none = CellField((), "CARACTERISTIQUES")
     material: CellField = entries.needed("CARACTERISTIQUES") if mechanical else none
     blocks: dict[str, list[ElementMatrices]] = {"RIGIDITE": [], "MASSE": []}
@@ -113,7 +113,7 @@ def _inputs(entries: Entries) -> "HarmonicInputs":
     )
 
 
-def _check_linear(entries: Entries, zone: Zone) -> None:
+def _check_linear(zone: Zone) -> None:
     if is_plastic(zone) or (is_joint(zone) and not law_of(zone.behaviour).linear):
         raise KernelError(
             "operators.statics.law-has-no-harmonic-response", behaviour=zone.behaviour

@@ -149,13 +149,13 @@ def test_matrices_of_hooke_are_kept_by_cell_and_point():
     zone = zone_of("QUA4", Mode.PLANE_STRAIN, "ISOTROPE")
     moduli = np.random.default_rng(1).standard_normal((1, 4, 4, 4))
     field = CellField((hooke_block(zone, moduli, "RIGIDITE"),))
-    found = moduli_from_field(zone, zone_field(zone, field), "STRESSES")
+    found = moduli_from_field(zone_field(zone, field), "STRESSES")
     np.testing.assert_array_equal(found, moduli)
     one = CellField((hooke_block(zone, moduli[:, :1], "RIGIDITE"),))
-    assert moduli_from_field(zone, zone_field(zone, one), "MASSE").shape == (1, 1, 4, 4)
-    assert moduli_from_field(zone, zone_field(zone, None), "MASSE") is None
+    assert moduli_from_field(zone_field(zone, one), "MASSE").shape == (1, 1, 4, 4)
+    assert moduli_from_field(zone_field(zone, None), "MASSE") is None
     with pytest.raises(Exception, match="MASSE"):
-        moduli_from_field(zone, zone_field(zone, field), "MASSE")
+        moduli_from_field(zone_field(zone, field), "MASSE")
 
 
 # --- axes of bodies round an axis, of shells, of joints ------------------------------

@@ -3,6 +3,7 @@
 from typing import NoReturn
 
 import pytest
+from forms_ran import FormsRan
 
 from ssilang.cli.run import RunOptions, run_text
 from ssilang.language.registry import (
@@ -15,7 +16,6 @@ from ssilang.language.registry import (
     select,
     shared,
 )
-from ssilang.language.run.forms_ran import FormsRan
 
 
 @pytest.fixture

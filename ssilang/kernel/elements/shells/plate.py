@@ -209,6 +209,6 @@ class Mindlin(FlatShell):
         """Curvatures and shears; those of DST by its moduli, the mean of each cell."""
         if zone.element == "COQ4":
             return _assumed_shear(local, points)
-        given = moduli_from_field(zone, parameters, "RIGIDITE")
+        given = moduli_from_field(parameters, "RIGIDITE")
         moduli = self.moduli(zone, parameters, "RIGIDITE") if given is None else given
         return _discrete_shear(local, points, per_cell(moduli.mean(axis=1), cells))

@@ -159,7 +159,7 @@ def hooke_block(zone: Zone, moduli: FloatArray, support: Support) -> CellFieldBl
     )
 
 
-def moduli_from_field(zone: Zone, material: ZoneField, support: Support) -> FloatArray | None:
+def moduli_from_field(material: ZoneField, support: Support) -> FloatArray | None:
     """Moduli (n_cells or 1, n_points or 1, s, s) of a field of Hooke matrices, None without one.
 
     Raises

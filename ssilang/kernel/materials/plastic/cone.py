@@ -20,7 +20,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fused, compiled_inline
 from ssilang.kernel.curves.curve import Curve
-from ssilang.kernel.materials.plastic.response import PointParameters, Response
+from ssilang.kernel.materials.plastic.response import PointParameters, Response, mises
 
 TURNS = 60
 YIELDS = 1e-14  # share of the stresses at play by which the surface must be passed
@@ -106,6 +106,22 @@ class Cone:
         none = [np.zeros(0)]
         return ConeRows(rows, of, start, np.concatenate(x or none), np.concatenate(y or none))
 
+    def strength(self, parameters: PointParameters, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """K (m,) and its slope for cumulated strains p (m,)."""
+        found = np.empty((2, len(p)))
+        _strengths(parameters.once(self.rows), np.ascontiguousarray(p), found)
+        return found[0], found[1]
+
+    def excess(
+        self, parameters: PointParameters, stress: FloatArray, variables: FloatArray
+    ) -> FloatArray:
+        """`alpha tr(s) + beta q - K` (m,) of stresses from the cone's centre, < 0 inside."""
+        rows = parameters.once(self.rows)
+        own, centre = rows.rows[rows.of], variables[:, 1:7] if variables.shape[1] > 1 else 0.0
+        q, pull = mises(stress - centre)[0], stress[:, :3].sum(axis=1)
+        strength = self.strength(parameters, variables[:, 0])[0]
+        return np.asarray(own[:, ConeColumn.ALPHA] * pull + own[:, ConeColumn.BETA] * q - strength)
+
     def __call__(
         self,
         parameters: PointParameters,
@@ -153,6 +169,13 @@ def strength_at(cone: ConeRows, row: int, p: float) -> tuple[float, float]:
     if (value <= last) if c[ConeColumn.SINKS] != 0.0 else (value >= last):
         return last, 0.0
     return value, slope
+
+
+@compiled
+def _strengths(cone: ConeRows, p: FloatArray, found: FloatArray) -> None:
+    """`strength_at` all points, into `found` (2, m)."""
+    for m in range(len(p)):
+        found[0, m], found[1, m] = strength_at(cone, cone.of[m], p[m])
 
 
 @compiled

@@ -23,10 +23,11 @@ YOUN makes the elastic stiffness only (RIGI, shear): the curves have slopes of t
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.materials.plastic.conditions import require
 from ssilang.kernel.materials.plastic.response import PointParameters
-from ssilang.kernel.materials.plastic.uniaxial import Along
+from ssilang.kernel.materials.plastic.uniaxial import Points
 
 REQUIRED = ("STFC", "EZER", "STFT", "ZETA", "ST85", "TRAF")
 DEFAULTS = {"ALF1": 0.0, "OME1": 0.0, "FAMX": -1.0}
@@ -49,19 +50,59 @@ def confined(p: PointParameters) -> tuple[FloatArray, FloatArray, FloatArray]:
     return strength, peak, np.where(p["ZETA"] > 0, p["ZETA"], slope)
 
 
-def respond(
-    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
-) -> Along:
-    """Concrete (see the head of this module)."""
-    from ssilang.kernel.materials.plastic.fibre_cycles import concrete_points
-
-    along = Along(stress.copy(), variables.copy(), np.empty(len(stress)))
-    concrete_points(p.once(_table), strain, *along)
-    return along
-
-
 def _table(p: PointParameters) -> FloatArray:
     return np.stack([*confined(p), *(p[n] for n in ("ST85", "STFT", "TRAF"))])
+
+
+@compiled
+def _points(
+    p: FloatArray, strain: FloatArray, stress: FloatArray, v: FloatArray, slope: FloatArray
+) -> None:
+    """A step of strain of concrete (see the head of this module).
+
+    Rows of p: strength, its strain, relative slope behind it, ST85, STFT, TRAF.
+    """
+    for i in range(len(strain)):
+        top, peak, fall, rest = p[0, i], p[1, i], p[2, i], p[3, i]
+        E = 2.0 * top / peak
+        e = v[i, 1] + strain[i]
+        least = min(v[i, 2], e)
+        # the curve of the first compression at the least strain
+        x = -least / peak
+        bottom, rise = -top * x * (2.0 - x), E * (1.0 - x)
+        if x > 1.0:
+            line = top * (1.0 - fall * (-least - peak))
+            bottom, rise = -max(line, rest), -top * fall if line > rest else 0.0
+        back = E * (1.0 + x) / (1.0 + x + x * x)
+        left = least - bottom / back
+        opening = max(e - left, 0.0)
+        if e <= least and e < 0.0:
+            stress[i], slope[i] = bottom, rise
+        elif e < left:
+            stress[i], slope[i] = back * (e - left), back
+        else:
+            stress[i], slope[i] = _crack(E, p[4, i], p[5, i], opening, v[i, 3])
+        v[i, 0], v[i, 1], v[i, 2], v[i, 3] = left, e, least, max(v[i, 3], opening)
+
+
+@compiled
+def _crack(
+    E: float, strength: float, reach: float, opening: float, largest: float
+) -> tuple[float, float]:
+    """Stress and slope of an opening >= 0, the largest one before known."""
+    crack, far = strength / E, max(opening, largest)
+    if far <= crack:
+        return E * opening, E
+    length = (reach - 1.0) * crack
+    soft = strength * (1.0 - (far - crack) / length) if length > 0.0 else 0.0
+    if soft <= 0.0:
+        return 0.0, 0.0
+    if opening < largest:
+        return soft / far * opening, soft / far
+    return soft, -strength / length
+
+
+CONCRETE = Points(_points, _table)
 
 
 def check(p: PointParameters) -> None:

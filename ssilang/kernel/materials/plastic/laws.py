@@ -170,7 +170,7 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         uniaxial.Fibres(uniaxial.concrete), ("FC",), ("EPSE", "EPSO"), check=uniaxial.check_concrete
     ),
     "ACIER_UNI": PlasticLaw(
-        uniaxial.Fibres(menegotto_pinto.respond),
+        uniaxial.Fibres(menegotto_pinto.STEEL),
         menegotto_pinto.REQUIRED,
         menegotto_pinto.VARIABLES,
         positive=("STSY",),
@@ -178,7 +178,7 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         defaults=dict.fromkeys(menegotto_pinto.BUCKLING, 0.0),
     ),
     "BETON_UNI": PlasticLaw(
-        uniaxial.Fibres(hognestad.respond),
+        uniaxial.Fibres(hognestad.CONCRETE),
         hognestad.REQUIRED,
         hognestad.VARIABLES,
         positive=("STFC", "EZER"),

@@ -43,6 +43,30 @@ class Fibres:
         return Response(found, along.variables, D)
 
 
+@dataclass(frozen=True)
+class Points:
+    """A law along fibres that goes point by point, compiled.
+
+    Attributes
+    ----------
+    step : callable
+        `step(table, strain, stress, variables, slope)` brings stress (m,) and variables (m, k) up
+        to date, and fills slope (m,), the derivative by the step of strain (m,).
+    table : callable
+        Parameters (n, m) as `step` reads them.
+    """
+
+    step: Callable[[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray], None]
+    table: Callable[[PointParameters], FloatArray]
+
+    def __call__(
+        self, p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+    ) -> Along:
+        along = Along(stress.copy(), variables.copy(), np.empty(len(stress)))
+        self.step(p.once(self.table), strain, *along)
+        return along
+
+
 def elastic(
     p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Along:

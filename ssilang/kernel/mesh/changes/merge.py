@@ -70,33 +70,35 @@ def _check(tolerance: float) -> None:
 _Collapse = dict[tuple[tuple[int, int], ...], tuple[str, tuple[int, ...]]]
 
 
-def _polygon_collapses(n: int, degree: int, smaller: str) -> _Collapse:
-    """Collapse of each edge of a polygon of n corners: the edge's second corner and middle go."""
-    rules: _Collapse = {}
-    size = n * degree
+def _collapse(kind: str, name: str, kept: tuple[int, ...], *pairs: tuple[int, int]) -> _Collapse:
+    """What a cell is where the corners of pairs coincide: corners `kept`, and middles of edges."""
+    corner, middle = CELL_TYPES[kind].corners, {}
+    if CELL_TYPES[kind].degree > 1:
+        middle = {frozenset((a, b)): m for m, a, b in middle_places(kind)}
+    same = {a: [a, *(b for pair in pairs if a in pair for b in pair if b != a)] for a in kept}
+    of = dict(zip(CELL_TYPES[name].corners, kept, strict=True))
+    local = {i: corner[k] for i, k in of.items()}
+    for m, i, j in middle_places(name) if middle else []:
+        ways = (frozenset((corner[a], corner[b])) for a in same[of[i]] for b in same[of[j]])
+        local[m] = next(middle[way] for way in ways if way in middle)
+    vanished = tuple((corner[a], corner[b]) for a, b in pairs)
+    return {vanished: (name, tuple(local[m] for m in range(len(local))))}
+
+
+def _polygon_collapses(kind: str, smaller: str) -> _Collapse:
+    """Of each edge of a polygon: a quadrangle keeps its first corner, a triangle the second."""
+    n, rules = len(CELL_TYPES[kind].corners), _Collapse()
     for i in range(n):
-        a, b = i * degree, (i + 1) * degree % size
-        kept = (a, *((b + 1 + k) % size for k in range(size - degree - 1)))
-        rules[((a, b),)] = (smaller, kept)
+        a, b, *others = ((i + k) % n for k in range(n))
+        rules |= _collapse(kind, smaller, (a if n > 3 else b, *others), (a, b))
     return rules
 
 
-def _triangle_collapses(degree: int) -> _Collapse:
-    """A triangle whose edge vanished is the segment from that edge to the opposite corner."""
-    n = 3 * degree
-    rules: _Collapse = {}
-    for i in range(3):
-        a, b, c = (degree * ((i + k) % 3) for k in range(3))
-        rules[((a, b),)] = ("SEG2", (b, c)) if degree == 1 else ("SEG3", (b, (b + 1) % n, c))
-    return rules
-
-
-def _brick_collapses() -> _Collapse:
+def _brick_collapses(kind: str, prism: str) -> _Collapse:
     """A brick with two parallel edges vanished, side by side on a face, is a prism."""
-    rules: _Collapse = {}
-    brick = ((0, 1, 2, 3), (4, 5, 6, 7))
+    rules = _Collapse()
     frames = (  # the three ways to see a brick as two opposite faces, all right-handed
-        brick,
+        ((0, 1, 2, 3), (4, 5, 6, 7)),
         ((0, 4, 5, 1), (3, 7, 6, 2)),
         ((0, 3, 7, 4), (1, 2, 6, 5)),
     )
@@ -104,28 +106,7 @@ def _brick_collapses() -> _Collapse:
         for i in range(4):
             a, b, c, d = (low[(i + k) % 4] for k in range(4))
             e, f, g, h = (high[(i + k) % 4] for k in range(4))
-            rules[((a, b), (e, f))] = ("PRI6", (a, c, d, e, g, h))
-    return rules
-
-
-def _quadratic_brick_collapses() -> _Collapse:
-    """The same with middle nodes: CU20 to PR15."""
-    corner = CELL_TYPES["CU20"].corners
-    middle = {frozenset((a, b)): m for m, a, b in middle_places("CU20")}
-    rules: _Collapse = {}
-    for pairs, (_, prism) in _brick_collapses().items():
-        a, c, d, e, g, h = (corner[k] for k in prism)
-        b, f = (corner[pair[1]] for pair in pairs)  # merged with a and e
-
-        def between(i: int, j: int) -> int:
-            return middle[frozenset((i, j))]
-
-        local = (
-            *(a, between(b, c), c, between(c, d), d, between(d, a)),
-            *(between(a, e), between(c, g), between(d, h)),
-            *(e, between(f, g), g, between(g, h), h, between(h, e)),
-        )
-        rules[tuple((corner[i], corner[j]) for i, j in pairs)] = ("PR15", local)
+            rules |= _collapse(kind, prism, (a, c, d, e, g, h), (a, b), (e, f))
     return rules
 
 
@@ -134,32 +115,17 @@ def _prism_collapses(kind: str, tetrahedron: str, pyramid: str) -> _Collapse:
 
     With one upright edge vanished it is a pyramid.
     """
-    corner = CELL_TYPES[kind].corners
-    curved = CELL_TYPES[kind].degree > 1
-    middle = {frozenset((a, b)): m for m, a, b in middle_places(kind) if curved}
-    rules: _Collapse = {}
-
-    def becomes(name: str, kept: tuple[int, ...], *pairs: tuple[int, int]) -> None:
-        same = {a: {a, *(b for pair in pairs if a in pair for b in pair)} for a in kept}
-        new = CELL_TYPES[name]
-        of = dict(zip(new.corners, kept, strict=True))
-        local = {i: corner[k] for i, k in of.items()}
-        for m, i, j in middle_places(name) if curved else []:
-            ways = (frozenset((corner[a], corner[b])) for a in same[of[i]] for b in same[of[j]])
-            local[m] = next(middle[way] for way in ways if way in middle)
-        vanished = tuple((corner[a], corner[b]) for a, b in pairs)
-        rules[vanished] = name, tuple(local[m] for m in range(new.n_nodes))
-
+    rules = _Collapse()
     for low, high in ((0, 3), (3, 0)):
         turn = (0, 1, 2) if low == 0 else (0, 2, 1)
         kept = (*(low + k for k in turn), high)
-        becomes(tetrahedron, kept, *((high + a, high + b) for a, b in ((0, 1), (0, 2))))
-    for k in range(3):
-        a, b, c = k, (k + 1) % 3, (k + 2) % 3
-        becomes(tetrahedron, (a, b, c, c + 3), (a, a + 3), (b, b + 3))
-    for k in range(3):
-        a, b, c = k, (k + 1) % 3, (k + 2) % 3
-        becomes(pyramid, (b, b + 3, c + 3, c, a), (a, a + 3))
+        pairs = ((high, high + 1), (high, high + 2))
+        rules |= _collapse(kind, tetrahedron, kept, *pairs)
+    around = [(k, (k + 1) % 3, (k + 2) % 3) for k in range(3)]
+    for a, b, c in around:
+        rules |= _collapse(kind, tetrahedron, (a, b, c, c + 3), (a, a + 3), (b, b + 3))
+    for a, b, c in around:
+        rules |= _collapse(kind, pyramid, (b, b + 3, c + 3, c, a), (a, a + 3))
     return rules
 
 
@@ -170,14 +136,14 @@ _COLLAPSES: dict[str, _Collapse] = {
         ((1, 2),): ("SEG2", (0, 1)),
         ((0, 2),): ("SEG2", (0, 1)),
     },
-    "TRI3": _triangle_collapses(1),
-    "TRI6": _triangle_collapses(2),
-    "TRI7": _triangle_collapses(2),
-    "QUA4": _polygon_collapses(4, 1, "TRI3"),
-    "QUA8": _polygon_collapses(4, 2, "TRI6"),
-    "QUA9": _polygon_collapses(4, 2, "TRI6"),
-    "CUB8": _brick_collapses(),
-    "CU20": _quadratic_brick_collapses(),
+    "TRI3": _polygon_collapses("TRI3", "SEG2"),
+    "TRI6": _polygon_collapses("TRI6", "SEG3"),
+    "TRI7": _polygon_collapses("TRI7", "SEG3"),
+    "QUA4": _polygon_collapses("QUA4", "TRI3"),
+    "QUA8": _polygon_collapses("QUA8", "TRI6"),
+    "QUA9": _polygon_collapses("QUA9", "TRI6"),
+    "CUB8": _brick_collapses("CUB8", "PRI6"),
+    "CU20": _brick_collapses("CU20", "PR15"),
     "PRI6": _prism_collapses("PRI6", "TET4", "PYR5"),
     "PR15": _prism_collapses("PR15", "TE10", "PY13"),
 }
