@@ -1,6 +1,7 @@
 """Names that get a value which nothing reads."""
 
 import re
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 
 from ssilang.language.say.errors import SsiError
@@ -17,6 +18,7 @@ _NODAL = frozenset({"APPU", "AMOR"})
 _WAYS = frozenset({"UX", "UY", "UZ", "RX", "RY", "RZ"})
 _LEVEL = {"UX", "UY"}, {"RX", "RY"}  # pairs that a base of space may have turned
 _PULSATION = re.compile(r"\(?(2\.?\*PI|PI\*2\.?)\*")
+_EVERYWHERE = range(sys.maxsize)  # of a script: statements that any other may come before
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
 
@@ -57,28 +59,36 @@ def _reads_all(statement: tree.Statement) -> bool:
 def stale_names(script: tree.Script) -> Iterator[SsiError]:
     """A warning for each property of the model that is given anew, and not read behind that.
 
-    What was made of the one before keeps it. A turn of a loop comes before those behind it.
+    What was made of the one before keeps it. A turn of a loop comes before those behind it, and a
+    procedure may be called, with the names of its caller, from anywhere.
     """
-    reads: dict[str, list[int]] = {}
+    reads: dict[str, list[tuple[int, range]]] = {}
     given: list[tuple[int, range, tree.Name]] = []
-    start = 0
+    made, start = {*_PROPERTIES}, 0
     for node in script.body:
         found = [*statements_of([node])]
-        turns = range(start, start + len(found) * isinstance(node, tree.Loop))
+        own = range(start, start + len(found))
+        called = own if isinstance(node, tree.Definition) else _EVERYWHERE
+        turns = own if isinstance(node, tree.Loop) else own[:0]
         for at, each in enumerate(found, start):
             if _reads_all(each):
                 given = []
             target, first = (*each.targets, None)[0], (*each.items, None)[0]
             paths = [t for t in each.targets if not isinstance(t, tree.Name)]
             for name in _words((*each.items, *paths)):
-                reads.setdefault(name, []).append(at)
-            made = first.text[:4] if isinstance(first, tree.Name) else ""
-            if isinstance(target, tree.Name) and made in _PROPERTIES:
+                reads.setdefault(name, []).append((at, called))
+            while isinstance(first, tree.Paren):
+                first = (*first.items, None)[0]
+            by = first.text if isinstance(first, tree.Name) else ""
+            if isinstance(target, tree.Name) and {by, by[:4]} & made:
                 given.append((at, turns, target))
+                made.add(target.text)
         start += len(found)
     for at, turns, target in given:
-        elsewhere = [i for i in reads.get(target.text, ()) if i != at]
-        if elsewhere and not any(i > at or i in turns for i in elsewhere):
+        elsewhere = [(i, called) for i, called in reads.get(target.text, ()) if i != at]
+        if elsewhere and not any(
+            i > at or i in turns or at not in called for i, called in elsewhere
+        ):
             yield SsiError("stale-name", target.span, name=target.text)
 
 
