@@ -1,7 +1,7 @@
 """Names that get a value which nothing reads."""
 
+import math
 import re
-import sys
 from collections.abc import Iterable, Iterator, Sequence
 
 from ssilang.language.say.errors import SsiError
@@ -18,7 +18,6 @@ _NODAL = frozenset({"APPU", "AMOR"})
 _WAYS = frozenset({"UX", "UY", "UZ", "RX", "RY", "RZ"})
 _LEVEL = {"UX", "UY"}, {"RX", "RY"}  # pairs that a base of space may have turned
 _PULSATION = re.compile(r"\(?(2\.?\*PI|PI\*2\.?)\*")
-_EVERYWHERE = range(sys.maxsize)  # of a script: statements that any other may come before
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
 
@@ -40,8 +39,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
                 first.setdefault(target.text, target)
             else:
                 read |= _words((target,))
-    used = [s for s in statements_of(script.body) if len(s.targets) > 1]
-    for statement in used:
+    for statement in statements_of(script.body):
         names = {t.text for t in statement.targets if isinstance(t, tree.Name)}
         if names & read:
             read |= names
@@ -62,33 +60,31 @@ def stale_names(script: tree.Script) -> Iterator[SsiError]:
     What was made of the one before keeps it. A turn of a loop comes before those behind it, and a
     procedure may be called, with the names of its caller, from anywhere.
     """
-    reads: dict[str, list[tuple[int, range]]] = {}
-    given: list[tuple[int, range, tree.Name]] = []
+    reads: dict[str, list[tuple[int, int, float]]] = {}  # where, until when, from when on
+    given: list[tuple[int, tree.Name]] = []
     made, start = {*_PROPERTIES}, 0
     for node in script.body:
         found = [*statements_of([node])]
-        own = range(start, start + len(found))
-        called = own if isinstance(node, tree.Definition) else _EVERYWHERE
-        turns = own if isinstance(node, tree.Loop) else own[:0]
+        end = start + len(found)
+        until = end if isinstance(node, tree.Loop) else 0
+        again = end if isinstance(node, tree.Definition) else math.inf
         for at, each in enumerate(found, start):
             if _reads_all(each):
                 given = []
             target, first = (*each.targets, None)[0], (*each.items, None)[0]
             paths = [t for t in each.targets if not isinstance(t, tree.Name)]
             for name in _words((*each.items, *paths)):
-                reads.setdefault(name, []).append((at, called))
+                reads.setdefault(name, []).append((at, until, again))
             while isinstance(first, tree.Paren):
                 first = (*first.items, None)[0]
             by = first.text if isinstance(first, tree.Name) else ""
             if isinstance(target, tree.Name) and {by, by[:4]} & made:
-                given.append((at, turns, target))
+                given.append((at, target))
                 made.add(target.text)
-        start += len(found)
-    for at, turns, target in given:
-        elsewhere = [(i, called) for i, called in reads.get(target.text, ()) if i != at]
-        if elsewhere and not any(
-            i > at or i in turns or at not in called for i, called in elsewhere
-        ):
+        start = end
+    for at, target in given:
+        others = [r for r in reads.get(target.text, ()) if r[0] != at]
+        if others and not any(at < max(i, to) or at >= again for i, to, again in others):
             yield SsiError("stale-name", target.span, name=target.text)
 
 
@@ -226,15 +222,9 @@ def statements_of(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:
 
 def _words(items: Iterable[tree.Item]) -> set[str]:
     found: set[str] = set()
-    for item in items:
+    for item in tree.leaves(items):
         if isinstance(item, tree.Name):
             found.add(item.text)
         elif isinstance(item, tree.Quoted):
             found |= {w.upper() for w in _NAME.findall(item.text)}
-        elif isinstance(item, tree.Paren):
-            found |= _words(item.items)
-        elif isinstance(item, tree.Path):
-            found |= _words((item.base, *item.indices))
-        elif isinstance(item, tree.Attribute) and item.base is not None:
-            found |= _words((item.base,))
     return found
