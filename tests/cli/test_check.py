@@ -139,6 +139,8 @@ STALE = "A = MATE M 'KN' 1. ; K = RIGI M A ; MESS K ; "
             "A",
         ),
         (STALE + "SI (EGA X 1) ; K = RIGI M A ; FINSI ;", "K"),
+        (STALE + "B = VIBR K ; K = K ET (APPU 'UX' 1. P) ; MESS B ;", "K"),
+        (STALE + "K = (RIGI M A) ET (BLOQ 'UX' P) ;", "K"),
     ],
 )
 def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
@@ -156,6 +158,9 @@ def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
         STALE + "A = MATE M 'KN' 2. ; LIST ;",
         STALE + "DEBP USES X*MAILLAGE ; A = MATE X 'KN' 2. ; B = RIGI X A ; FINP B ; MESS A ;",
         STALE + "I = 1 ; MESS I ; I = 2 ;",
+        STALE + "K = K ET (APPU 'UX' 1. P) ; MESS K ;",
+        STALE + "L = K ET K ; MESS L ; L = (PROG 1.) ET L ;",
+        "DEBP USES ; U = RESO K F ; FINP U ; " + STALE + "X = USES ; K = RIGI M A ; MESS X USES ;",
     ],
 )
 def test_what_is_given_anew_and_used_is_not_told(text):

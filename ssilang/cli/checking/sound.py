@@ -7,7 +7,7 @@ remembered, so that no place and no sentence of an older text can come back; and
 last check met, so that what is remembered never grows beyond a text.
 """
 
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterable
 from typing import Any
 
 from ssilang.cli.checking.kinds import Scope
@@ -99,19 +99,7 @@ def _known(value: Any) -> Any:
 
 def _words_of(items: Iterable[tree.Item]) -> _Words:
     """Names in a statement, and the quoted words, which may be names too."""
-    leaves = list(_leaves(items))
+    leaves = list(tree.leaves(items))
     names = {item.text for item in leaves if isinstance(item, tree.Name)}
     quoted = {item.text.upper() for item in leaves if isinstance(item, tree.Quoted)}
     return tuple(sorted(names)), tuple(sorted(quoted))
-
-
-def _leaves(items: Iterable[tree.Item]) -> Iterator[tree.Item]:
-    for item in items:
-        if isinstance(item, tree.Paren):
-            yield from _leaves(item.items)
-        elif isinstance(item, tree.Path):
-            yield from _leaves((item.base, *item.indices))
-        elif isinstance(item, tree.Attribute):
-            yield from _leaves(() if item.base is None else (item.base,))
-        else:
-            yield item

@@ -1,5 +1,6 @@
 """Names that get a value which nothing reads."""
 
+import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
@@ -38,8 +39,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
                 first.setdefault(target.text, target)
             else:
                 read |= _words((target,))
-    used = [s for s in statements_of(script.body) if len(s.targets) > 1]
-    for statement in used:
+    for statement in statements_of(script.body):
         names = {t.text for t in statement.targets if isinstance(t, tree.Name)}
         if names & read:
             read |= names
@@ -57,28 +57,34 @@ def _reads_all(statement: tree.Statement) -> bool:
 def stale_names(script: tree.Script) -> Iterator[SsiError]:
     """A warning for each property of the model that is given anew, and not read behind that.
 
-    What was made of the one before keeps it. A turn of a loop comes before those behind it.
+    What was made of the one before keeps it. A turn of a loop comes before those behind it, and a
+    procedure may be called, with the names of its caller, from anywhere.
     """
-    reads: dict[str, list[int]] = {}
-    given: list[tuple[int, range, tree.Name]] = []
-    start = 0
+    reads: dict[str, list[tuple[int, int, float]]] = {}  # where, until when, from when on
+    given: list[tuple[int, tree.Name]] = []
+    made, start = {*_PROPERTIES}, 0
     for node in script.body:
         found = [*statements_of([node])]
-        turns = range(start, start + len(found) * isinstance(node, tree.Loop))
+        end = start + len(found)
+        until = end if isinstance(node, tree.Loop) else 0
+        again = end if isinstance(node, tree.Definition) else math.inf
         for at, each in enumerate(found, start):
             if _reads_all(each):
                 given = []
             target, first = (*each.targets, None)[0], (*each.items, None)[0]
             paths = [t for t in each.targets if not isinstance(t, tree.Name)]
             for name in _words((*each.items, *paths)):
-                reads.setdefault(name, []).append(at)
-            made = first.text[:4] if isinstance(first, tree.Name) else ""
-            if isinstance(target, tree.Name) and made in _PROPERTIES:
-                given.append((at, turns, target))
-        start += len(found)
-    for at, turns, target in given:
-        elsewhere = [i for i in reads.get(target.text, ()) if i != at]
-        if elsewhere and not any(i > at or i in turns for i in elsewhere):
+                reads.setdefault(name, []).append((at, until, again))
+            while isinstance(first, tree.Paren):
+                first = (*first.items, None)[0]
+            by = first.text if isinstance(first, tree.Name) else ""
+            if isinstance(target, tree.Name) and {by, by[:4]} & made:
+                given.append((at, target))
+                made.add(target.text)
+        start = end
+    for at, target in given:
+        others = [r for r in reads.get(target.text, ()) if r[0] != at]
+        if others and not any(at < max(i, to) or at >= again for i, to, again in others):
             yield SsiError("stale-name", target.span, name=target.text)
 
 
@@ -216,15 +222,9 @@ def statements_of(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:
 
 def _words(items: Iterable[tree.Item]) -> set[str]:
     found: set[str] = set()
-    for item in items:
+    for item in tree.leaves(items):
         if isinstance(item, tree.Name):
             found.add(item.text)
         elif isinstance(item, tree.Quoted):
             found |= {w.upper() for w in _NAME.findall(item.text)}
-        elif isinstance(item, tree.Paren):
-            found |= _words(item.items)
-        elif isinstance(item, tree.Path):
-            found |= _words((item.base, *item.indices))
-        elif isinstance(item, tree.Attribute) and item.base is not None:
-            found |= _words((item.base,))
     return found

@@ -42,12 +42,8 @@ class _Words:
 
     def count(self, items: Iterable[tree.Item]) -> None:
         """Count the words of a phrase, those that are indices of tables too."""
-        for item in items:
-            if isinstance(item, tree.Paren):
-                self.count(item.items)
-            elif isinstance(item, tree.Path):
-                self.count((item.base, *item.indices))
-            elif isinstance(item, tree.Quoted | tree.Name):
+        for item in tree.leaves(items):
+            if isinstance(item, tree.Quoted | tree.Name):
                 self.times[item.text.upper()] += 1
 
     def phrase(self, items: Iterable[tree.Item]) -> Iterator[SsiError]:

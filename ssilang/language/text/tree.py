@@ -4,7 +4,7 @@ Items of a parsed script back to their text; parsing that text gives the same it
 """
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
@@ -90,6 +90,19 @@ def placed(item: Item, span: Span) -> Item:
     if isinstance(item, Attribute):
         return Attribute(None if item.base is None else placed(item.base, span), item.name, span)
     return replace(item, span=span)
+
+
+def leaves(items: Iterable[Item]) -> Iterator[Item]:
+    """Words, numbers and signs of a phrase, of its parentheses and indices too."""
+    for item in items:
+        if isinstance(item, Paren):
+            yield from leaves(item.items)
+        elif isinstance(item, Path):
+            yield from leaves((item.base, *item.indices))
+        elif isinstance(item, Attribute):
+            yield from leaves(() if item.base is None else (item.base,))
+        else:
+            yield item
 
 
 @dataclass(frozen=True, slots=True, eq=False)
