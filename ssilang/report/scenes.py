@@ -290,24 +290,20 @@ def _edges_of(surface: Any) -> IntArray:
 
 def _pairs(lines: IntArray) -> IntArray:
     """Segments of polylines, as VTK lists these."""
-    found: list[int] = []
-    at = 0
-    while at < len(lines):
-        size = int(lines[at])
-        for a, b in pairwise(lines[at + 1 : at + 1 + size].tolist()):
-            found += [a, b]
-        at += size + 1
-    return np.array(found, np.int64)
+    return np.array([n for run in _runs(lines) for p in pairwise(run) for n in p], np.int64)
 
 
 def _singles(verts: IntArray) -> IntArray:
-    found: list[int] = []
+    return np.array([n for run in _runs(verts) for n in run], np.int64)
+
+
+def _runs(cells: IntArray) -> Iterator[list[int]]:
+    """Points of each cell of a list as VTK has them: their number, then they."""
     at = 0
-    while at < len(verts):
-        size = int(verts[at])
-        found += verts[at + 1 : at + 1 + size].tolist()
-        at += size + 1
-    return np.array(found, np.int64)
+    while at < len(cells):
+        end = at + 1 + int(cells[at])
+        yield cells[at + 1 : end].tolist()
+        at = end
 
 
 # ---- reading -------------------------------------------------------------------------------------

@@ -13,7 +13,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.modulated import answers, gauss_points, largest_value, moments_of
+from ssilang.kernel.records.modulated import answers, moments_of
+from ssilang.kernel.records.power import gauss_points, largest_value
 
 _STEPS = 60
 """Instants over the earthquake, and a third of them after it."""

@@ -22,9 +22,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.records.power import gumbel_mean
-
-_GAUSS = np.polynomial.legendre.leggauss(4)
+from ssilang.kernel.records.power import gauss_points, largest_value
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,15 +81,6 @@ class Resolution:
     instants: int = 10
     added: float = 20.0
     precision: float = 1e-3
-
-
-def gauss_points(
-    f: FloatArray, density: FloatArray, edges: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """Frequencies, and weights times density: four points between each two edges."""
-    half = 0.5 * np.diff(edges)
-    x = ((edges[:-1] + half)[:, None] + half[:, None] * _GAUSS[0]).ravel()
-    return x, (half[:, None] * _GAUSS[1]).ravel() * np.interp(x, f, density)
 
 
 def _points(
@@ -194,39 +183,6 @@ def evolution(
         moments.append(moments_of(power, *_observed(kind, u, v, push, w0, damping)))
     times: FloatArray = length / parts * np.arange(len(moments), dtype=float)
     return times, np.array(moments)
-
-
-def _below(level: float, times: FloatArray, moments: FloatArray) -> float:
-    """Probability that the absolute answer never passes a level.
-
-    The envelope is below it at the worst instant, and the level is not crossed at others.
-    """
-    m0, m1, m2 = moments.T
-    alive = (m0 > 0.0) & (m2 > 0.0)
-    m0, m1, m2 = (np.where(alive, m, 1.0) for m in (m0, m1, m2))
-    reduced = level / np.sqrt(m0)
-    spread = np.sqrt(np.clip(1.0 - m1**2 / (m0 * m2), 0.0, 1.0))
-    clump = -np.expm1(-np.sqrt(np.pi / 2.0) * spread**1.2 * reduced)
-    seldom = np.expm1(np.minimum(0.5 * reduced**2, 700.0))
-    rate = np.where(alive, np.sqrt(m2 / m0) / np.pi * clump / np.maximum(seldom, 1e-300), 0.0)
-    start = -np.expm1(-0.5 * float(reduced[alive].min()) ** 2) if alive.any() else 1.0
-    return float(start * np.exp(-np.trapezoid(rate, times)))
-
-
-def largest_value(times: FloatArray, moments: FloatArray, precision: float = 1e-3) -> float:
-    """Mean of the largest absolute value of a random motion of which moments are known.
-
-    Parameters
-    ----------
-    times : array (n,); moments : array (n, 3)
-        As `evolution` gives them.
-    precision : float
-        Relative, of the fractiles of 5 % and 95 % that Gumbel's law goes through.
-    """
-    size = float(np.sqrt(moments[:, 0].max()))
-    if size == 0.0:
-        return 0.0
-    return gumbel_mean(lambda x: _below(x, times, moments), size, precision)
 
 
 def modulated_response_spectrum(

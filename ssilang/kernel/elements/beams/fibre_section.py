@@ -134,10 +134,7 @@ class FibreSection:
     def mass(self) -> FloatArray:
         """Mass per length (6, 6) of translations and rotations about the line."""
         rho = np.concatenate([self._density(z) for z in self.zones])
-        y, z = self.places.T
-        N = np.zeros((len(y), 3, 6))
-        N[:, 0, 0] = N[:, 1, 1] = N[:, 2, 2] = 1.0
-        N[:, 0, 4], N[:, 0, 5], N[:, 1, 3], N[:, 2, 3] = z, -y, -z, y
+        N = self.operator  # velocities follow as strains do
         return np.einsum("f,fsi,fsj->ij", rho * self.areas, N, N)
 
     def _density(self, part: SectionZone) -> FloatArray:

@@ -18,8 +18,8 @@ from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.shells.shell_section import (
     DRILLING,
+    by_node,
     drilled,
-    inertia_off_mesh,
     own_to_global,
     strains_off_mesh,
 )
@@ -67,6 +67,11 @@ def surface_slopes(zone: Zone, local: FloatArray, rule: Rule) -> tuple[FloatArra
     return slopes, np.abs(np.linalg.det(J)) * rule.weights
 
 
+def _normals(frames: FloatArray, count: int) -> FloatArray:
+    """Normals (n, count, 3) at the nodes of flat cells."""
+    return np.repeat(frames[:, None, 2], count, axis=1)
+
+
 class FlatShell(ShellFamily):
     """Shell of flat cells: a family adds its moduli, and what bends it."""
 
@@ -110,7 +115,7 @@ class FlatShell(ShellFamily):
         slopes, _ = surface_slopes(zone, local, support_rule(zone.element, "RIGIDITE"))
         steep = (rises(zone, slice(None), frames, slopes) ** 2).sum(axis=2).mean(axis=1)
         turned = np.clip(WARPED * steep / DRILLING, 1.0, 0.1 / DRILLING)
-        normals = np.repeat(frames[:, None, 2], zone.cells.kind.n_nodes, axis=1)
+        normals = _normals(frames, zone.cells.kind.n_nodes)
         return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1) * turned, normals)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
@@ -125,7 +130,8 @@ class FlatShell(ShellFamily):
         scalar = np.einsum("cp,pa,pb->cab", w, N, N)
         tangent = np.einsum("cai,caj->cij", frames[:, :2], frames[:, :2])
         turning = np.einsum("cab,cij->caibj", scalar * (h**2 / 12)[:, None, None], tangent)
-        return self._by_node(zone, parameters, frames, scalar, turning), self.layout(zone)
+        normals = _normals(frames, N.shape[1])
+        return by_node(zone, parameters, normals, scalar, turning), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the membrane forces on the translations."""
@@ -133,21 +139,4 @@ class FlatShell(ShellFamily):
         slopes, w = surface_slopes(zone, local, support_rule(zone.element, "STRESSES"))
         N = stress[:, [[0, 2], [2, 1]]]
         scalar = np.einsum("cp,cpia,cijp,cpjb->cab", w, slopes, N, slopes, optimize=True)
-        return self._by_node(zone, parameters, frames, scalar, 0.0)
-
-    @staticmethod
-    def _by_node(
-        zone: Zone,
-        parameters: ZoneField,
-        frames: FloatArray,
-        scalar: FloatArray,
-        turning: FloatArray | float,
-    ) -> FloatArray:
-        """Matrices (n, 6 k, 6 k) of translations (n, k, k) and rotations (n, k, 3, k, 3)."""
-        n, k, _ = scalar.shape
-        values = np.zeros((n, k, 6, k, 6))
-        for i in range(3):
-            values[:, :, i, :, i] = scalar
-        values[:, :, 3:, :, 3:] = turning
-        normals = np.repeat(frames[:, None, 2], k, axis=1)
-        return inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, normals)
+        return by_node(zone, parameters, _normals(frames, scalar.shape[1]), scalar, 0.0)

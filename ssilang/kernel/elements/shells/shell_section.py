@@ -19,7 +19,8 @@ DRILLING = 1e-5
 SHEAR_FACTOR = 5 / 6
 
 
-def _isotropic(parameters: ZoneField, support: Support) -> FloatArray:
+def isotropic(parameters: ZoneField, support: Support) -> FloatArray:
+    """Moduli (n_cells, n_points or 1, 3, 3) of plane stress."""
     young, poisson = (parameters.at(n, support) for n in ("YOUN", "NU"))
     check_isotropic(young, poisson)
     E, nu = np.broadcast_arrays(young, poisson)
@@ -57,7 +58,7 @@ def _along_axes(*given: FloatArray) -> FloatArray:
 
 
 _LAWS = {
-    "ISOTROPE": _isotropic, "ORTHOTROPE": _orthotropic, "UNIDIRECTIONNEL": _unidirectional
+    "ISOTROPE": isotropic, "ORTHOTROPE": _orthotropic, "UNIDIRECTIONNEL": _unidirectional
 }  # fmt: skip
 
 
@@ -171,6 +172,25 @@ def strains_off_mesh(B: FloatArray, zone: Zone, parameters: ZoneField, cells: sl
     moved = B.copy()
     moved[:, :3] += e[cells][:, None, None, None] * B[:, 3:6]
     return moved
+
+
+def by_node(
+    zone: Zone,
+    parameters: ZoneField,
+    normals: FloatArray,
+    scalar: FloatArray,
+    turning: FloatArray | float,
+) -> FloatArray:
+    """Matrices (n, 6 k, 6 k) of translations (n, k, k) and rotations (n, k, 3, k, 3).
+
+    Both are of the middle surface, whose normals (n, k, 3) take them to the mesh.
+    """
+    n, k, _ = scalar.shape
+    values = np.zeros((n, k, 6, k, 6))
+    for i in range(3):
+        values[:, :, i, :, i] = scalar
+    values[:, :, 3:, :, 3:] = turning
+    return inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, normals)
 
 
 def inertia_off_mesh(

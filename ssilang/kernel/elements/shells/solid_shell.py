@@ -29,12 +29,13 @@ from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.shapes.geometry import CellGeometry, cell_geometry, chunks
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_gradients
+from ssilang.kernel.elements.shells.shell_section import isotropic
 from ssilang.kernel.elements.solids.kinematics import SOLID_KINEMATICS
 from ssilang.kernel.elements.solids.solid import Solid, geometric_scalar, strain_matrix
 from ssilang.kernel.elements.solids.solid_moduli import symmetry_of
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.materials.elasticity import check_isotropic, rotated_moduli
+from ssilang.kernel.materials.elasticity import rotated_moduli
 from ssilang.kernel.materials.model import Mode, Zone
 
 _KINEMATICS = SOLID_KINEMATICS[Mode.THREE_DIMENSIONAL]
@@ -182,21 +183,17 @@ class SolidShell(family.ElementFamily):
             raise MaterialError(
                 "kernel.elements.elasticity-not-available-shb8", symmetry_of=symmetry_of(zone)
             )
-        young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
-        check_isotropic(young, poisson)
-        E, nu = np.broadcast_arrays(young, poisson)
-        direct, shear = E / (1 - nu**2), E / (2 * (1 + nu))
-        own = np.zeros((*E.shape, 6, 6))
-        own[..., 0, 0] = own[..., 1, 1] = direct
-        own[..., 0, 1] = own[..., 1, 0] = nu * direct
-        own[..., 2, 2] = E
+        plane = isotropic(parameters, support)
+        own = np.zeros((*plane.shape[:2], 6, 6))
+        own[..., :2, :2] = plane[..., :2, :2]
+        own[..., 2, 2] = parameters.at("YOUN", support)
         for i in (3, 4, 5):
-            own[..., i, i] = shear
-        n, p = len(zone.cells), E.shape[1]
+            own[..., i, i] = plane[..., 2, 2]
+        n, p = len(zone.cells), plane.shape[1]
         D = np.zeros((n, p, 6 + _HELD, 6 + _HELD))
         D[..., :6, :6] = rotated_moduli(own, _bricks(zone).axes[:, None])
         for i in range(_HELD):
-            D[..., 6 + i, 6 + i] = direct if i < 4 else shear
+            D[..., 6 + i, 6 + i] = plane[..., 0, 0] if i < 4 else plane[..., 2, 2]
         return D
 
     def strain_operator(

@@ -174,7 +174,7 @@ class ThickShell(family.ShellFamily):
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
         N, area = shape_functions(zone.cells.cell_type, rule.points), _areas(zone, rule)
-        n, k = zone.cells.raw.shape
+        n = len(zone.cells)
         rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
         h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
         scalar = np.einsum("cp,pa,pb->cab", area * (rho * h)[:, None], N, N)
@@ -182,9 +182,5 @@ class ThickShell(family.ShellFamily):
         # fibres move by sum N_a theta_a x v_a: on curved cells those of two nodes are not parallel
         tangent = np.einsum("cab,cak,cbk,ij->caibj", scalar, v, v, np.eye(3), optimize=True)
         tangent -= np.einsum("cab,cbi,caj->caibj", scalar, v, v)
-        values = np.zeros((n, k, 6, k, 6))
-        for i in range(3):
-            values[:, :, i, :, i] = scalar
-        values[:, :, 3:, :, 3:] = tangent * (h**2 / 12)[:, None, None, None, None]
-        whole = shell_section.inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, v)
-        return whole, self.layout(zone)
+        turning = tangent * (h**2 / 12)[:, None, None, None, None]
+        return shell_section.by_node(zone, parameters, v, scalar, turning), self.layout(zone)

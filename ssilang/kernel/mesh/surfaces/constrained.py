@@ -9,7 +9,7 @@ from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
-from ssilang.kernel.mesh.surfaces.fill import SizeField, boundary_sizes, fill_contour
+from ssilang.kernel.mesh.surfaces.fill import SizeField, fill_contour, mean_sizes
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data
 from ssilang.kernel.mesh.surfaces.triangulate import delaunay_triangles, recover_segments
 
@@ -121,7 +121,7 @@ def refined_triangles(
     number[every] = np.arange(len(every))
     flat = chart.flatten(nodes.coordinates[every].copy())
     at = chart.flatten(nodes.coordinates[ids].copy())
-    own = boundary_sizes(flat, number[edge])[number[ids]]
+    own = mean_sizes(flat, number[edge])[number[ids]]
     sizes = np.where(sizes > 0.0, sizes, own)
     known = sizes > 0.0  # within the border those without a size follow the others
     at, sizes = at[known], sizes[known]

@@ -31,8 +31,8 @@ class SizeField:
         return np.maximum(self._inside(p), self._least)
 
 
-def boundary_sizes(points: FloatArray, segments: IntArray) -> FloatArray:
-    """Mean length of the two sides at each point (m,)."""
+def mean_sizes(points: FloatArray, segments: IntArray) -> FloatArray:
+    """Mean length of the segments (n, 2) at each point (m,)."""
     length = np.linalg.norm(points[segments[:, 1]] - points[segments[:, 0]], axis=1)
     total = np.bincount(segments.ravel(), np.repeat(length, 2), len(points))
     times = np.bincount(segments.ravel(), minlength=len(points))

@@ -244,7 +244,7 @@ def fill_surface(
     turned = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() < 0
     if turned:
         flat = flat * [1.0, -1.0]
-    at, wanted = (flat, fill.boundary_sizes(flat, segments))
+    at, wanted = (flat, fill.mean_sizes(flat, segments))
     if sizes is not None:
         at, wanted = chart.flatten(sizes[0]), sizes[1]
         at = at * [1.0, -1.0] if turned else at
@@ -329,7 +329,7 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
 def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> FloatArray:
     """Mean length of the sides at each point after the first `fixed`."""
     links = np.unique(np.vstack([fill.sides_of(p) for p in polygons if len(p)]), axis=0)
-    return fill.boundary_sizes(points, links)[fixed:]
+    return fill.mean_sizes(points, links)[fixed:]
 
 
 _EDGE = 1e-9  # how far outside of a facet a hit still counts, relative to the facet

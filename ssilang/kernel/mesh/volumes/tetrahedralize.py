@@ -8,6 +8,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.mesh.surfaces.fill import mean_sizes
 
 _CLEARANCE = 0.003  # wanted height over a face's plane in the lifted space, in squared sizes
 _LEAST = 1e-6  # clearance below which rounding could undo the result
@@ -255,10 +256,7 @@ def _outside_spheres(
 
 def _sizes(points: FloatArray, triangles: IntArray) -> FloatArray:
     """Mean length of the sides at each point, shape (m,)."""
-    sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    length = np.linalg.norm(points[sides[:, 1]] - points[sides[:, 0]], axis=1)
-    total = np.bincount(sides.ravel(), np.repeat(length, 2), len(points))
-    return total / np.maximum(np.bincount(sides.ravel(), minlength=len(points)), 1)
+    return mean_sizes(points, triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2))
 
 
 def _inner_points(points: FloatArray, triangles: IntArray) -> FloatArray:

@@ -96,7 +96,7 @@ def test_a_size_is_linear_between_points_and_never_below_the_least():
     np.testing.assert_allclose(size(w @ p[:3]), w @ [0.2, 1.0, 0.5])
     far = size(np.array([[-2.0, -2.0], [9.0, 9.0]]))
     assert 1.4 > far[1] > far[0] >= 0.2
-    found = fill.boundary_sizes(p[:3], np.array([[0, 1], [1, 2], [2, 0]]))
+    found = fill.mean_sizes(p[:3], np.array([[0, 1], [1, 2], [2, 0]]))
     np.testing.assert_allclose(found, [3.5, 4.5, 4.0])
 
 
@@ -147,7 +147,7 @@ def test_a_crooked_contour_is_filled_by_its_sizes(squares):
              zip(corners, np.roll(corners, -1, 0), (10, 12, 11, 8, 7), strict=True)]  # fmt: skip
     rim = np.concatenate(parts)
     segments = ring(len(rim))
-    size = fill.SizeField(rim, fill.boundary_sizes(rim, segments))
+    size = fill.SizeField(rim, fill.mean_sizes(rim, segments))
     points, triangles = fill.fill_contour(rim, segments, size, squares)
     np.testing.assert_array_equal(points[: len(rim)], rim)
     areas = doubled_areas(points, triangles)
