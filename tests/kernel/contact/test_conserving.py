@@ -93,9 +93,7 @@ def test_multipliers_never_cross_the_stop_and_follow_the_exact_motion():
 
 
 @pytest.mark.parametrize("options", METHODS, ids=lambda o: o.method)
-@pytest.mark.parametrize(
-    "joint", [{}, {"KN": 1e7}, {"KN": 1e7, "FU": 2e2, "GF": 1e-1, "FC": -50}]
-)
+@pytest.mark.parametrize("joint", [{}, {"KN": 1e7}, {"KN": 1e7, "FU": 2e2, "GF": 1e-1, "FC": -50}])
 def test_bar_on_a_stop_with_a_joint_beside_keeps_the_energy(options, joint):
     _, recorder, history = bar(options, **joint)
     scale = np.abs(history.energies[:, :2]).max()
