@@ -316,7 +316,7 @@ def test_files_that_hold_something_else_are_told(what: str, tmp_path: Path) -> N
     assert code in told(script, written(files, tmp_path), what)
 
 
-@pytest.mark.parametrize("what", SENSIBLE_FILES)
+@together("what", SENSIBLE_FILES)
 def test_files_that_hold_what_they_say_are_not(what: str, tmp_path: Path) -> None:
     script, files = SENSIBLE_FILES[what]
     assert told(script, written(files, tmp_path)) == []
