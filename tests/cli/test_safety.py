@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from script_runs import ran
+from together import together
 
 import ssilang.cli.run as run_module
 from ssilang.cli.main import main
@@ -78,8 +79,8 @@ def test_pictures_take_the_name_alone_and_lie_among_the_results(outside, stateme
     assert {p.parent for p in outside.rglob("*made*")} == {outside / "deck" / "out"}
 
 
-@pytest.mark.parametrize("statement", _READERS)
 @pytest.mark.parametrize("form", ["../private/secret.csv", "{base}/private/secret.csv"])
+@together("statement", _READERS)
 def test_reading_outside_is_refused(outside, statement, form):
     result = run(_MESH + statement.format(path=form.format(base=outside)), outside)
     assert result.exit_code == 1

@@ -146,7 +146,7 @@ HEAD_OF = {  # the step of each format stands for STEP
 
 
 @pytest.mark.parametrize("name", HEAD_OF)
-@pytest.mark.parametrize("step", ["1E-320", "1E-12", "1001.", "1E308", "0.", "1E400", "-.01"])
+@together("step", ["1E-320", "1E-12", "1001.", "1E308", "0.", "1E400", "-.01"])
 def test_a_step_that_no_record_has(tmp_path, name, step):
     read, text = HEAD_OF[name]
     path = tmp_path / name
