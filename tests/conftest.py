@@ -82,6 +82,7 @@ def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
     """
     for module in (figure, animation):
         monkeypatch.setattr(module, "figure_bytes", lambda *_: _PIXEL)
+    monkeypatch.setattr(figure, "DPI", 15)
 
 
 class _Nothing(set[str]):

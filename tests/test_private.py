@@ -7,6 +7,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from together import together
 
 from ssilang import private
 from ssilang.kernel.base.compiled import cache
@@ -260,7 +261,7 @@ def test_a_link_in_the_place_of_what_is_kept_is_not_followed(home):
     assert "could have put code or words into" in told.stderr
 
 
-@pytest.mark.parametrize(
+@together(
     "environment", [{"HOME": ""}, {"HOME": "~"}, {"HOME": "some/where"}, {"XDG_CACHE_HOME": "near"}]
 )
 def test_without_a_home_nothing_is_kept_beside_the_deck(monkeypatch, environment):

@@ -1,8 +1,6 @@
 """What a public project has beside its program: workflows, forms, images, recipes."""
 
 import re
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -42,17 +40,18 @@ def runs(workflow: str) -> list[str]:
 
 
 @pytest.mark.parametrize("path", _FILES, ids=lambda p: p.name)
-def test_files_are_what_their_readers_expect(path: Path) -> None:
-    pytest.importorskip("check_jsonschema", reason="has the schemas: pip install '.[test]'")
+def test_files_are_what_their_readers_expect(
+    path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    reason = "has the schemas: pip install '.[test]'"
+    program = pytest.importorskip("check_jsonschema", reason=reason).main
     kind = {"workflows": "github-workflows", "ISSUE_TEMPLATE": "github-issue-forms"}
     schema = kind.get(path.parent.name, "citation-file-format")
     if path.name == "config.yml":
         schema = "github-issue-config"
-    done = subprocess.run(
-        [sys.executable, "-m", "check_jsonschema", "--builtin-schema", f"vendor.{schema}", path],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout + done.stderr
+    with pytest.raises(SystemExit) as ended:
+        program(["--builtin-schema", f"vendor.{schema}", str(path)])
+    assert ended.value.code == 0, capsys.readouterr()
 
 
 def test_an_image_is_made_by_the_commands_of_the_readme() -> None:

@@ -149,7 +149,7 @@ def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
     assert text[: found.span.start].count(f"{name} = ") == 1
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     [
         STALE + "A = MATE M 'KN' 2. ; K = RIGI M A ; MESS K ;",
@@ -184,8 +184,8 @@ CONES = "OPTI DIME 2 ; P = 0. 0. ; K = TABL ; K . 'UX' = 2. ; K . 'UY' = 3. ; K 
 TURNED = CONES.replace("DIME 2", "DIME 3").replace("0. 0.", "0. 0. 0.")
 
 
-@pytest.mark.parametrize(
-    ("text", "code"),
+@together(
+    "text, code",
     [
         (CONES + "MESS (APPU 'UX' (K . 'UY') P) ;", "spring-of-another"),
         (CONES + "MESS ((AMOR 'UY' K . 'UY' P) ET (AMOR 'RZ' K . 'UX' P)) ;", "spring-of-another"),
@@ -206,7 +206,7 @@ def test_springs_by_the_number_of_another_way_and_pulsations_are_told(text, code
     assert {*found} - {"left-to-right", "unused-name"} == {*([code] if code else [])}
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     [
         "X = 2. ** 1.5 / 2. ; MESS X ;",
@@ -400,8 +400,8 @@ def test_any_mutation_of_a_deck_is_checked(data):
         assert render(problem, "fr")
 
 
-@pytest.mark.parametrize(
-    ("entry", "near"),
+@together(
+    "entry, near",
     [
         ("T1 . 'CHARGEMENT' = 1 ;", "CHAR"),
         ("T1 . 'CHARGEMENT' = 1 ; MESS (T1 . 'CHARGEMENT') ;", ""),
@@ -417,8 +417,8 @@ def test_entries_that_the_procedure_does_not_have_are_shown_where_they_are_writt
     assert [p.span.text for p in found] == (["T1 . 'CHARGEMENT'"] if near else [])
 
 
-@pytest.mark.parametrize(
-    ("script", "code", "place"),
+@together(
+    "script, code, place",
     [
         ("T1 . 'RIGI' = 1 ; T2 = DYNAMIC T1 ; LIST T2 ;", "entry-type", "T1 . 'RIGI'"),
         ("T1 . 'TEMPS_CALCULES' = 3. ; T2 = DYNAMIC T1 ; LIST T2 ;", "entry-type",
@@ -438,7 +438,7 @@ def test_values_that_a_procedure_refuses_are_shown_where_they_are_given(script, 
         assert [e.code for e in run_text("T1 = TABL ; " + script).errors] == [code]
 
 
-@pytest.mark.parametrize("value", ["1", "(1 + 1)", "2.5", "X0"])
+@together("value", ["1", "(1 + 1)", "2.5", "X0"])
 def test_values_that_fit_an_entry_are_not_refused(value):
     script = f"X0 = EXTR (PROG 1.) 1 ; T1 = TABL ; T1 . 'ALPHA_F' = {value} ; T2 = DYNAMIC T1 ;"
     problems, _ = check_source(Source("script", script + " LIST T2 X0 ;"))

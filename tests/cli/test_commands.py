@@ -147,9 +147,9 @@ def test_wrong_settings_are_told_in_the_language_asked_for(ssilang, script, caps
 
 
 def test_memory_is_bounded_by_option(process, script):
-    text = "l1 = PROG 4000000 * 1. ; t = TABL ; REPE b 400 ; t . &b = l1 * 2. ; FIN b ;\n"
+    text = "l1 = PROG 400000 * 1. ; t = TABL ; REPE b 400 ; t . &b = l1 * 2. ; FIN b ;\n"
     big = script(text)
-    done = process("run", big, "--max-memory", "1000")
+    done = process("run", big, "--max-memory", "500")
     assert done.code == 1
     assert "memory" in done.err
 

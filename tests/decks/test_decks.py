@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from ssilang.language.run.session import Check
-from ssilang.operators.drawing import scenes
+from ssilang.operators.drawing import pictures, scenes
 from ssilang.operators.files import writing
 
 from .comparisons import COMPARISONS
@@ -155,7 +155,15 @@ def name_of(deck: Path) -> str:
     return str(deck.relative_to(CASES))
 
 
+@pytest.fixture
+def in_one_format(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Curves are drawn as SVG alone, scenes as PNG: what is drawn is the same."""
+    asked = pictures.picture_formats
+    monkeypatch.setattr(pictures, "picture_formats", lambda *given: asked(*given)[-1:])
+
+
 @pytest.mark.long
+@pytest.mark.usefixtures("in_one_format")
 @pytest.mark.parametrize("deck", DECKS, ids=name_of)
 def test_deck_runs_within_its_tolerances_and_agrees_with_the_reference(deck: Path, tmp_path: Path):
     smaller = SMALLER.get(name_of(deck))

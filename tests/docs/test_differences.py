@@ -99,7 +99,7 @@ def test_no_claim_is_kept_that_the_page_does_not_make():
     assert [k for k in (*RUNS, *STAND) if not any(c.startswith(k) for c in listed)] == []
 
 
-@pytest.mark.parametrize("place", STAND.values())
+@together("place", STAND.values())
 def test_the_tests_named_exist(place):
     path, _, name = place.partition("::")
     tree = ast.parse((_ROOT / "tests" / path).read_text(encoding="utf-8"))

@@ -136,7 +136,7 @@ def test_objects_that_hold_nothing_are_told(operator, tmp_path, monkeypatch):
 
 
 @pytest.mark.usefixtures("unsaved")
-@pytest.mark.parametrize("path", [pytest.param(p, id=p.stem) for p in _PROCEDURES])
+@together("path", _PROCEDURES, by=lambda path: path.stem.strip("@")[:1])
 def test_examples_of_procedures_run(path, tmp_path):
     for number, text in enumerate(_PROCEDURES[path].help.examples, 1):
         result = run_text(text, output_directory=tmp_path / str(number))

@@ -4,7 +4,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
-import pytest
+from together import together
 
 _ROOT = Path(__file__).resolve().parents[2]
 _FENCED = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
@@ -28,7 +28,7 @@ def headings(text: str) -> list[int]:
     return [len(m) for m in re.findall(r"^(#+) ", _FENCED.sub("", text), re.MULTILINE)]
 
 
-@pytest.mark.parametrize("name", ["language.md", "uplift.md", "faq.md", "matter.md", "waves.md"])
+@together("name", ["language.md", "uplift.md", "faq.md", "matter.md", "waves.md"])
 def test_a_page_has_the_scripts_headings_and_figures_of_the_english_one(name):
     english, french = texts(name)
     assert _FENCED.findall(french) == _FENCED.findall(english)

@@ -26,7 +26,7 @@ def npm(*arguments: str) -> subprocess.CompletedProcess[str]:
 @pytest.fixture(scope="module")
 def installed():
     try:
-        done = npm("install", "--no-audit", "--no-fund")
+        done = npm("install", "--no-audit", "--no-fund", "--prefer-offline", "--no-package-lock")
     except subprocess.TimeoutExpired:
         pytest.skip("the packages were not fetched in time")
     if done.returncode:

@@ -50,8 +50,8 @@ def test_no_digit_that_is_told_hangs_on_rounding(spec, value):
     assert len(said) == 1
 
 
-@pytest.mark.parametrize(
-    ("spec", "count", "end"),
+@together(
+    "spec, count, end",
     [("", 3000, "n19, ... (+2980)"), (":and", 61, "n19, ... (+41)"),
      (":words", 99, "n19 ... (+79)"), (":and", 60, "n58 and n59"), ("", 60, "n58, n59")],
 )  # fmt: skip

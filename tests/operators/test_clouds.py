@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.curves.cloud import inverse_distance, moving_plane, on_grid
 
@@ -17,7 +18,7 @@ def test_both_ways_to_write_a_cloud_give_the_same(found):
     assert a.columns == b.columns
 
 
-@pytest.mark.parametrize(("x", "y"), [(0.5, 1.0), (2.0, 0.5), (3.0, 2.0), (9.0, -1.0)])
+@together("x, y", [(0.5, 1.0), (2.0, 0.5), (3.0, 2.0), (9.0, -1.0)])
 def test_grid_reproduces_a_bilinear_function(x, y, found):
     field = f"C = MANU 'CHPO' P 'X' {x} 'Y' {y} ; "
     value = found(GRID + field + "V = EXTR (IPOL N C 'GRILL') 'F' P ;", "V")

@@ -44,8 +44,8 @@ def test_parts_of_a_transform_are_taken_by_the_names_of_their_axes(found):
     assert abs(imaginary.values).max() < 1e-12
 
 
-@pytest.mark.parametrize(
-    ("names", "kept"),
+@together(
+    "names, kept",
     [
         (("F(T)", "G(T)"), ("F(T)", "G(T)")),
         (("'TIME'", "'FORCE'"), ("TIME", "FORCE")),
@@ -59,8 +59,8 @@ def test_one_name_stands_before_each_list(found, names, kept):
     assert (part.abscissa_name, part.ordinate_name) == kept
 
 
-@pytest.mark.parametrize(
-    ("place", "legends"),
+@together(
+    "place, legends",
     [
         ("P1", ["UX P1"]),
         ("(POIN 1 L)", ["UX P1"]),

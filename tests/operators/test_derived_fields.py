@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 
@@ -215,8 +216,8 @@ def test_a_table_is_decomposed_without_naming_its_entry(found):
     assert other.values[0] > 2.0 * chosen.values[0]
 
 
-@pytest.mark.parametrize(
-    ("mesh", "at"),
+@together(
+    "mesh, at",
     [
         ("CHAN 'TRI7' (CHAN 'TRI6' S)", "0.3 0.4"),
         ("CHAN 'QUA9' S", "0.3 0.4"),
@@ -471,8 +472,8 @@ SECTION = "SECT 2. INRY 3. INRZ 5. TORS 7. DX 1.1 DY 1.3 DZ 1.7"
 RING = "EPAI 0.2 RAYO 1.1"
 
 
-@pytest.mark.parametrize(
-    ("element", "given", "levers"),
+@together(
+    "element, given, levers",
     [
         ("BARR", "SECT 2.", {"EFFX": 0.5}),
         ("POUT", SECTION, {"EFFX": 1 / 2, "MOMX": 1.1 / 7, "MOMY": 1.7 / 3, "MOMZ": 1.3 / 5}),

@@ -58,7 +58,7 @@ FURTHER = ("'GRIL' 'POIN'", "'GRIL' 'GRIS'", "'LEGE' 'NE'", "'LEGE' 'XY' 0.5 2."
 def drawn(folder: Path, text: str) -> list:
     """What stands in a picture, without the numbers that are made anew each time."""
     folder.mkdir()
-    ran(CURVES.replace("'BLEU'", "'BLEU' 'LEGE' 'p'") + text, folder)
+    ran("OPTI 'TRAC' 'SVG' ; " + CURVES.replace("'BLEU'", "'BLEU' 'LEGE' 'p'") + text, folder)
     (path,) = folder.glob("*.svg")
     made = re.compile(r"(#|^)[a-z]\w*$|url")
     return [

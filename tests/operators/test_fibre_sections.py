@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 STEEL = "'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'ALPY' 0.8333 'ALPZ' 0.8333"
 
@@ -200,8 +201,8 @@ def test_calculation_goes_on_from_the_fibres_of_an_earlier_one(found):
     assert parts == pytest.approx(whole, rel=1e-7)
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
+@together(
+    "change, said",
     [
         (("'MODS' MS 'MATS' AS", "'MATS' AS"), "MODS is missing"),
         (("'MODS' MS", "'MODS' «3.»"), "takes the model"),

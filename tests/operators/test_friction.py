@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from together import together
 
 BLOCK = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ;
@@ -196,9 +197,7 @@ def test_cable_round_an_arc_loses_tension_as_the_capstan(found):
     assert precise < 1e-3
 
 
-@pytest.mark.parametrize(
-    "sizes", [(0.0, 0.003, 0.0), (0.2, 0.002, 0.0), (0.2, 0.002, 0.004), (0.0, 0.003, 0.3)]
-)
+@together("sizes", [(0.0, 0.003, 0.0), (0.2, 0.002, 0.0), (0.2, 0.002, 0.004), (0.0, 0.003, 0.3)])
 def test_tensions_of_a_prestressed_cable(found, sizes):
     """Friction, and a slip of the anchorage that takes E S times itself from the tensions."""
     f, phi, slip = sizes

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 JOINT = (
     "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L1 = DROI 3 (0. 0.) (3. 0.) ; L2 = L1 PLUS (0. 0.) ; "
@@ -14,7 +15,7 @@ def _at_points(field):
     return np.concatenate([np.ravel(b.components["SCAL"]) for b in field.blocks])
 
 
-@pytest.mark.parametrize(
+@together(
     "statement",
     [
         "C = CHAN 'CHAM' (COOR 1 J) M 'STRESSES'",

@@ -1,7 +1,6 @@
 """Making, searching, sorting and changing lists against Python's own lists."""
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from script_runs import ran
@@ -64,7 +63,7 @@ def test_ten_thousand_appends():
     assert len(result.session.root.find("L")) == len(result.session.root.find("M")) == 10000
 
 
-@pytest.mark.parametrize(
+@together(
     "phrase",
     ["PROG 3. 6 * 1.", "PROG 3. PAS 1. 9.", "PROG 3. PAS 1. NPAS 6", "LECT 6 * 1", "MOTS 6 * 'a'",
      "ENUM 6 * 1", "L «ET» L", "L «ET» (LECT 1 2)", "I «ET» I", "I ET 1 ET 2", "W «ET» W",

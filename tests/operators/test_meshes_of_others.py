@@ -376,8 +376,8 @@ ENDDATA
 """
 
 
-@pytest.mark.parametrize(
-    ("change", "code"),
+@together(
+    "change, code",
     [
         (("", ""), ""),
         (("ENDDATA", ""), "io.mesh-file-cut"),

@@ -3,6 +3,7 @@
 import io
 
 import pytest
+from together import together
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.text.source import Source
@@ -64,7 +65,7 @@ def test_vibr_tells_of_a_mass_of_both_signs_and_refuses_one_that_is_negative(run
     assert "negative: -2" in refused(spring + "T = «VIBR» 'SIMU' 0. 1 K (MASS 'DEPL' -2. P) ;")
 
 
-@pytest.mark.parametrize("asked", ["«RIGI» M A", "«MASS» M A", "«EPSI» M U", "«INTG» M C"])
+@together("asked", ["«RIGI» M A", "«MASS» M A", "«EPSI» M U", "«INTG» M C"])
 def test_an_element_for_pressures_has_no_stiffness(refused, asked):
     told = refused(
         "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0. 0.) (1. 0.) ; M = MODE L MECANIQUE ELASTIQUE SEG2 ;"

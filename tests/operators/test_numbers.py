@@ -18,7 +18,7 @@ def value(script):
     return ran(f"X = {script} ;").session.root.find("X")
 
 
-@pytest.mark.parametrize("limit", [0.0, 0.3, 2.0, 30.0])
+@together("limit", [0.0, 0.3, 2.0, 30.0])
 def test_fresnels_integrals_are_those_of_their_definition(found, limit):
     """t = u^2 takes the root of the denominator away."""
     cosine, sine = found(f"C S = IFRE {limit} ; L = PROG C S ;", "L").values

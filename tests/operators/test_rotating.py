@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.matrices.assembly import assemble, constraint_matrix, numbering_of
 
@@ -153,9 +154,7 @@ def rigid(matrix, direction):
     return v
 
 
-@pytest.mark.parametrize(
-    ("cell", "element"), [("TRI3", "DKT"), ("QUA4", "COQ4"), ("QUA8", "COQ8"), ("SEG2", "POUT")]
-)
+@together("cell, element", [("TRI3", "DKT"), ("QUA4", "COQ4"), ("QUA8", "COQ8"), ("SEG2", "POUT")])
 def test_coriolis_forces_of_a_rigid_velocity(found, cell, element):
     if element == "POUT":
         script, mass = shaft("POUT").replace("'OMEG' 50.", ""), 7800 * 0.01 * 2

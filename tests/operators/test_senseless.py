@@ -316,18 +316,20 @@ def test_files_that_hold_something_else_are_told(what: str, tmp_path: Path) -> N
     assert code in told(script, written(files, tmp_path), what)
 
 
-@pytest.mark.parametrize("what", SENSIBLE_FILES)
+@together("what", SENSIBLE_FILES)
 def test_files_that_hold_what_they_say_are_not(what: str, tmp_path: Path) -> None:
     script, files = SENSIBLE_FILES[what]
     assert told(script, written(files, tmp_path)) == []
 
 
+@pytest.mark.usefixtures("unsaved")
 @together("what", SENSELESS)
 def test_models_and_scripts_that_make_no_sense_are_told(what: str, tmp_path: Path) -> None:
     code, script = SENSELESS[what]
     assert code in told(script, tmp_path, what)
 
 
+@pytest.mark.usefixtures("unsaved")
 @together("what", SENSIBLE)
 def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
     codes = set(told(SENSIBLE[what], tmp_path))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 PLATE = (
     "OPTI DIME 3 ELEM QUA4 ; S = (DROI 3 (0. 0. 0.) (1.2 0.3 0.4)) TRAN 2 (0.1 1. 0.2) ; {} "
@@ -38,12 +39,12 @@ def check_forces(found, script):
         )
 
 
-@pytest.mark.parametrize("script", CASES)
+@together("script", CASES)
 def test_forces_on_gradients_are_those_of_the_geometric_stiffness(found, script):
     check_forces(found, script + MOTION + FORCES)
 
 
-@pytest.mark.parametrize("script", CASES)
+@together("script", CASES)
 def test_forces_work_as_stresses_do_on_products_of_gradients(found, script):
     """Forces made with u work in v as those made with v work in u."""
     script += MOTION + (

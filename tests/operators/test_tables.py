@@ -1,6 +1,6 @@
 """TABL, INDE, ENLE, COPI, vectors; VIDE."""
 
-import pytest
+from together import together
 
 from ssilang.language.values import Table
 
@@ -18,7 +18,7 @@ def test_sum_and_union_of_a_table(found):
     assert joined.values.tolist() == [1.0, 5.0]
 
 
-@pytest.mark.parametrize(
+@together(
     "kind",
     ["CHPOINT", "MCHAML", "MMODEL", "RIGIDITE", "EVOLUTIO", "LISTENTI", "LISTREEL", "LISTMOTS",
      "LISTCHPO", "TABLE", "CHARGEME", "MAILLAGE"],

@@ -44,7 +44,7 @@ def test_exponential_format_reads_back_to_its_digits(x):
     assert float(written) == pytest.approx(x, rel=1e-8, abs=0)
 
 
-@pytest.mark.parametrize("form", ["F6.2", "(Q3)", "(", ""])
+@together("form", ["F6.2", "(Q3)", "(", ""])
 def test_wrong_format_is_explained(form):
     with pytest.raises(KernelError, match="format"):
         formatted(form, 1.0)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import meshio
 import numpy as np
-import pytest
 from script_runs import failed, ran, refused
+from together import together
 
 from ssilang.cli.run import RunResult
 from ssilang.io.vtk.series import read_pvd
@@ -150,8 +150,8 @@ def test_figures_go_to_the_session(tmp_path: Path) -> None:
     ]
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
+@together(
+    "text, said",
     [
         ("SORT 'VTK ' U ;", "MAILLAGE"),
         ("SORT 'VTKX' U ;", "VTK"),
@@ -208,7 +208,7 @@ def test_one_file_begins_anew_and_gives_way_to_files(tmp_path: Path) -> None:
     assert names(tmp_path) == ["out.0001.0001.vtu", "out.pvd", "out.vtkhdf"]
 
 
-@pytest.mark.parametrize("word", ["FORM", "BINA", "SUIT", "NPVD"])
+@together("word", ["FORM", "BINA", "SUIT", "NPVD"])
 def test_words_of_files_are_refused_for_one_file(tmp_path: Path, word: str) -> None:
     assert f"'{word}' is for .vtu files" in refused(
         PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path

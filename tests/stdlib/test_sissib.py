@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import ran, refused
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -190,8 +191,8 @@ def test_reactions_and_the_domain():
     assert found[0] == pytest.approx(np.sqrt(((-400 * answers[0]) ** 2).sum()))
 
 
-@pytest.mark.parametrize(
-    ("more", "said"),
+@together(
+    "more, said",
     [
         ("T . 'RECOMBINAISON_MODES' = 'SOMME' ;", "SOMME"),
         ("T . 'SORTIES' = TABL ;", "asks for nothing"),

@@ -76,8 +76,8 @@ def test_joined_branches(turned, dimensions, opened, dimension, open_):
     assert b.values == kept
 
 
-@pytest.mark.parametrize(
-    ("text", "names"),
+@together(
+    "text, names",
     [
         ("Z A = 1 2 ; B . 1 = 2 ; 3 + 4 ;", {"Z", "A"}),
         ("SI VRAI ; Z = 1 ; SINON ; A = 1 ; FINSI ; M = 1 ;", {"Z", "A", "M"}),

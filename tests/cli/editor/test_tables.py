@@ -2,7 +2,7 @@
 
 from types import SimpleNamespace
 
-import pytest
+from together import together
 
 from ssilang.cli.editor.document import Document, holders
 
@@ -16,8 +16,8 @@ LIBRARY = SimpleNamespace(
 GIVEN = "ZT . 'A' = 1 ; AT . 'B' = 2 ; MT = TABL ; "
 
 
-@pytest.mark.parametrize(
-    ("call", "found"),
+@together(
+    "call, found",
     [
         ("X = @PA ZT AT ;", {"ZT": ["first"], "AT": ["second"]}),
         ("X = @PA 3. AT 'MOT' ZT ;", {"AT": ["first"], "ZT": ["second"]}),

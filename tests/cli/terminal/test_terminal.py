@@ -44,7 +44,7 @@ def test_ctrl_c_stops_what_runs_and_keeps_the_session(terminal):
     terminal.press_until("\x03", "interrupted")
     terminal.type("OPTI DIME 2 ELEM QUA4 ; P1 = 0. 0. ; P2 = 1. 0. ; L1 = DROI 100 P1 P2 ;\n")
     # in the middle of one long call of an operator, in compiled code
-    terminal.type("S1 = L1 TRAN 3000 (0. 1.) ; MESS 'made' ; T1 = INVE S1 ;\n")
+    terminal.type("S1 = L1 TRAN 800 (0. 1.) ; MESS 'made' ; T1 = INVE S1 ;\n")
     terminal.wait_for("made\r")
     terminal.type("MESS 'again' ; REPE B2 ; T1 = T1 ET (S1 PLUS (1. 0.)) ; FIN B2 ;\n")
     terminal.wait_for("again\r")

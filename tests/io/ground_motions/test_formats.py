@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.io.errors import InputError
 from ssilang.io.ground_motions.formats import read_cosmos, read_esm, read_peer, read_titled
@@ -38,7 +39,7 @@ FILES = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", FILES)
+@together("name", FILES)
 def test_the_first_motion_of_a_file(tmp_path, name):
     text, values, dt, event, quantity, in_si, left_out = FILES[name]
     (tmp_path / name).write_text(text)
@@ -80,8 +81,8 @@ def test_tables_by_their_titles(tmp_path, text, columns):
         assert motion.times == pytest.approx([0, 0.005, 0.009])
 
 
-@pytest.mark.parametrize(
-    ("text", "code", "line"),
+@together(
+    "text, code, line",
     [
         ("t;a\n0;1\n1;2\n1;3\n2;4", "io.titled-times-fall", 4),
         ("t;a\n\n0;1\n1;2;7\n2;4", "io.titled-other-columns", 4),
@@ -107,8 +108,8 @@ def _motions(**peaks):
             for n, (v, unit) in peaks.items()}  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("peaks", "in_si", "apart"),
+@together(
+    "peaks, in_si, apart",
     [
         ({"z": 300.0, "b": 1.0, "k": 2.0, "a": 4.0}, False, ["z"]),
         ({"z": 3.0, "b": 100.0, "k": 200.0, "a": 400.0}, False, ["z"]),
@@ -145,7 +146,7 @@ HEAD_OF = {  # the step of each format stands for STEP
 
 
 @pytest.mark.parametrize("name", HEAD_OF)
-@pytest.mark.parametrize("step", ["1E-320", "1E-12", "1001.", "1E308", "0.", "1E400", "-.01"])
+@together("step", ["1E-320", "1E-12", "1001.", "1E308", "0.", "1E400", "-.01"])
 def test_a_step_that_no_record_has(tmp_path, name, step):
     read, text = HEAD_OF[name]
     path = tmp_path / name

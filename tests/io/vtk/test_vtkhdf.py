@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import pyvista
 from refusing import refusal
+from together import together
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkFieldData
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
@@ -207,7 +208,7 @@ def test_the_file_is_smaller_than_the_series_and_has_the_mesh_once(tmp_path: Pat
     assert (tmp_path / "s.vtkhdf").stat().st_size < files / 5
 
 
-@pytest.mark.parametrize("how", ["mesh", "gone", "array", "moved", "parts", "time"])
+@together("how", ["mesh", "gone", "array", "moved", "parts", "time"])
 def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, how: str) -> None:
     mesh = bar()
     path = tmp_path / "r.vtkhdf"

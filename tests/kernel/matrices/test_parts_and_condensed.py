@@ -9,6 +9,7 @@ import pytest
 import scipy.linalg as la
 from references.assembled import Bench
 from refusing import refusal
+from together import together
 
 from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
@@ -269,7 +270,7 @@ def test_parts_of_a_matrix_are_its_terms(symmetric):
     assert terms(matrix.scaled(-2.5)) == pytest.approx({k: -2.5 * v for k, v in all_terms.items()})
 
 
-@pytest.mark.parametrize("kept", [[0, 1, 2], [1], [0, 2], []])
+@together("kept", [[0, 1, 2], [1], [0, 2], []])
 def test_rows_on_a_mesh_are_whole_rows_of_unequal_terms(kept):
     """Those whose nodes are all in it, or whose multiplier is; they push where they pushed."""
     rng, bench = np.random.default_rng(7), Bench()

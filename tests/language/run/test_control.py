@@ -81,7 +81,7 @@ def test_what_is_not_built_is_refused_at_its_own_place_where_it_is_read(text, li
     assert f"SA, which it should give, is read at line {line}" in done.message
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     ["STRU 1. ;", "SA = STRV 1. ;", "T = TABL ; T . 1 = STRU 1. ;", "STRUC = 1 ; X = STRUD 1 ;"],
 )
@@ -126,7 +126,7 @@ def test_fin_in_a_block_that_is_never_closed_ends_the_run(text, x, missing):
     assert [w.data["missing"] for w in done.session.warnings] == missing
 
 
-@pytest.mark.parametrize(
+@together(
     "text",
     ["SI FAUX ; x = 5 ; FIN ;", "REPE B 2 ; SI FAUX ; FIN ; FINSI ;", "DEBP P ; x = 1 ; FIN ;",
      "SI FAUX ; x = 5 ; FIN ; SINON ; x = 7 ;"],

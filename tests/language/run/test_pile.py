@@ -1,6 +1,7 @@
 """Section 5: the pile of operands and the first unread word."""
 
 import pytest
+from together import together
 
 
 @pytest.mark.parametrize(
@@ -39,9 +40,7 @@ def test_an_object_that_a_parenthesis_leaves_unread_is_warned_of_once(run):
     assert (warning.code, warning.span.text) == ("unread-object", "n")
 
 
-@pytest.mark.parametrize(
-    "inside", ["l m", "DIME l «3»", "3 + 1 «-1»", "DIME l «word»", "DIME l «k»"]
-)
+@together("inside", ["l m", "DIME l «3»", "3 + 1 «-1»", "DIME l «word»", "DIME l «k»"])
 def test_a_scalar_or_a_word_too_many_in_a_parenthesis_is_refused(fails, inside):
     assert fails(f"k = 3 ; l = PROG 1. ; m = PROG 2. ; x = ({inside}) ;") in (
         "excess",
@@ -91,7 +90,7 @@ def test_a_dot_between_two_operands_of_an_operator_is_none_of_a_table(run):
     assert made["x"] == 6.0
 
 
-@pytest.mark.parametrize(
+@together(
     "phrase", ["x = «a» . 'B'", "x = «a» . B", "x = «a» . 1", "x = SIN «a» . 1", "x = «a» . l"]
 )
 def test_an_index_of_a_number_that_nothing_reads_is_refused_as_one(fails, phrase):

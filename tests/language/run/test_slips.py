@@ -2,6 +2,7 @@
 
 import pytest
 from script_runs import failed
+from together import together
 
 from ssilang.cli.run import run_text
 
@@ -79,8 +80,8 @@ def test_an_else_of_no_condition_is_refused(fails):
     assert fails("«SINON» ;") == "stray-block-end"
 
 
-@pytest.mark.parametrize(
-    ("script", "words"),
+@together(
+    "script, words",
     [
         ("SI FAUX ; MESS 'a' «SINON» ; MESS 'b' ; FINSI ;", ["SINON"]),
         ("SI VRAI ; X = 2 * 3 «FINSI» ; FINSI ;", ["FINSI"]),
@@ -109,7 +110,7 @@ def test_a_text_over_several_lines_opens_no_false_quote():
     assert "script:4:6" in result.message
 
 
-@pytest.mark.parametrize("control", ["\x1b", "\x9b", "\x07", "\x00", "\u202e"])
+@together("control", ["\x1b", "\x9b", "\x07", "\x00", "\u202e"])
 def test_control_characters_reach_nobody_as_such(control):
     result = failed(f"MESS 'a{control}[31mred' ;\nMESS (L{control}[2J) ; X = {control}[31mfoo 3 ;")
     assert control not in result.output + result.message

@@ -1,6 +1,7 @@
 """Sections 1 and 2 of the language: characters, lines, comments, words, numbers, strings."""
 
 import pytest
+from together import together
 
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.source import Source
@@ -30,15 +31,15 @@ def test_long_lines_have_no_limit(run):
     assert run("x = 0" + " + 1" * 500 + " ;")["x"] == 500
 
 
-@pytest.mark.parametrize("word", ["ABC_1", "@PROC", "&LOOP", "!GLOB", "#1"])
+@together("word", ["ABC_1", "@PROC", "&LOOP", "!GLOB", "#1"])
 def test_words_take_underscores_and_special_first_characters(word):
     (item,) = items(f"{word} ;")
     assert isinstance(item, Name)
     assert item.text == word
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
+@together(
+    "text, value",
     [
         ("1.", 1.0), (".5", 0.5), ("1.5", 1.5), ("200e9", 2e11), ("2E11", 2e11),
         ("1.D-3", 1e-3), ("2D-3", 2e-3), ("5.E-3", 5e-3), ("1.e+2", 100.0), ("-1.", -1.0),

@@ -27,7 +27,7 @@ def xy(mesh: Mesh) -> np.ndarray:
 # ---- lines --------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@together(
     "phrase",
     ["DROI 4 O A", "O D 4 A", "O DROI A 4", "'DROIT' O A 4", "4 DROI O A"],
 )
@@ -181,7 +181,7 @@ def test_six_faces_come_in_any_order() -> None:
         assert value(f"{base} X = MESU (PAVE {faces}) ;") == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("order", ["B1 B2 B3 B4", "B1 B4 B2 B3", "B3 B1 B4 B2", "B2 B4 B1 B3"])
+@together("order", ["B1 B2 B3 B4", "B1 B4 B2 B3", "B3 B1 B4 B2", "B2 B4 B1 B3"])
 def test_four_sides_of_a_grid_come_in_any_order(order: str) -> None:
     base = PLANE + "C = 0. 1. ; B1 = O D 2 A ; B2 = A D 3 B ; B3 = C D 2 B ; B4 = C D 3 O ; "
     made = value(f"{base} X = DALL {order} 'PLAN' ;")
@@ -214,8 +214,8 @@ def test_volumes_have_their_volume(phrase: str, cells: int | None) -> None:
     assert value(script) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
-    ("phrase", "said"),
+@together(
+    "phrase, said",
     [
         ("O D A", "mesh sizes must be positive"),
         ("CERC 8 A O (-1. 0.)", "in line"),

@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import pytest
 from script_runs import failed, ran
 from together import together
 
@@ -135,7 +134,7 @@ DEPL P 'PROJ' V 'DROI' O A | DEPL P 'PROJ' 'CYLI' V 'DROI' O A
 """
 
 
-@pytest.mark.parametrize("row", MOTIONS.strip().split("\n"))
+@together("row", MOTIONS.strip().split("\n"))
 def test_points_move_alike_whatever_the_order(row: str) -> None:
     first, *others = (result(f"{PLANE}{motion} ;", "P") for motion in row.split(" | "))
     assert others == [first] * len(others)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import script_runs
+from together import together
 
 ALPHA, THICKNESS = 1e-5, 0.1
 LOWER, MIDDLE, UPPER = 0.0, 30.0, 60.0
@@ -30,7 +31,7 @@ def plate(element: str, temperatures: str) -> str:
     )
 
 
-@pytest.mark.parametrize("element", sorted(CELLS))
+@together("element", sorted(CELLS))
 def test_plate_warmer_on_its_upper_skin_grows_and_bends(found, element: str) -> None:
     x, y, z = found(
         plate(element, SKINS)

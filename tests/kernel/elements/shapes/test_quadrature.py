@@ -11,7 +11,7 @@ from together import together
 from ssilang.kernel.elements.shapes.quadrature import quadrature
 
 
-@pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
+@together("n", [1, 2, 3, 4, 5])
 def test_points_of_a_line_are_those_of_legendre(n: int) -> None:
     rule = quadrature("line", n)
     points, weights = roots_legendre(n)

@@ -7,6 +7,7 @@ import pytest
 from scipy.linalg import eigh
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import spsolve
+from together import together
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
@@ -92,9 +93,7 @@ def solved(zone, mat, fixed, load):
 SKEW = np.array([[1.0, 0.4, 0.0], [0.0, 0.8, 0.0], [0.0, 0.0, 1.0]])
 
 
-@pytest.mark.parametrize(
-    ("element", "h", "n"), [("DKT", H, 2), ("DST", H, 4), ("DST", 0.3, 4), ("COQ3", H, 4)]
-)
+@together("element, h, n", [("DKT", H, 2), ("DST", H, 4), ("DST", 0.3, 4), ("COQ3", H, 4)])
 def test_plate_bent_to_a_quadratic_surface_has_the_exact_moments(element, h, n):
     """In balance inside; of cubic triangles on a regular mesh alone, that it may be skew."""
     kx, ky, kxy = curved = (1e-3, -5e-4, 3e-4)
@@ -121,9 +120,7 @@ def test_plate_bent_to_a_quadratic_surface_has_the_exact_moments(element, h, n):
         assert np.abs(forces.values_at(name, inside)).max() < 1e-10 * all_of_them
 
 
-@pytest.mark.parametrize(
-    ("element", "h"), [("DKT", H), ("DST", H), ("DST", 0.3), ("COQ4", H), ("COQ4", 0.3)]
-)
+@together("element, h", [("DKT", H), ("DST", H), ("DST", 0.3), ("COQ4", H), ("COQ4", 0.3)])
 def test_orthotropic_plate_is_stiff_along_its_first_axis(element, h):
     """A cantilever that bends and shears: P L^3 / 3 E I + P L / (5/6 G A)."""
     ends, b = [], 0.1
@@ -350,8 +347,8 @@ def _buckling(zone, stress):
     return 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
 
 
-@pytest.mark.parametrize(
-    ("element", "n", "rtol"),
+@together(
+    "element, n, rtol",
     [("DKT", 8, 0.02), ("DST", 8, 0.02), ("COQ3", 8, 0.02), ("COQ4", 8, 0.03), ("COQ8", 4, 0.03)],
 )
 def test_square_plate_pressed_on_all_sides_buckles_at_two_pi_squared_d(element, n, rtol):
@@ -362,7 +359,7 @@ def test_square_plate_pressed_on_all_sides_buckles_at_two_pi_squared_d(element, 
     assert load == pytest.approx(2 * np.pi**2 * D, rel=rtol)
 
 
-@pytest.mark.parametrize("element", ["DKT", "DST", "COQ3", "COQ4", "COQ8"])
+@together("element", ["DKT", "DST", "COQ3", "COQ4", "COQ8"])
 def test_strip_off_its_mesh_bends_when_pulled_along_the_mesh(element):
     L, b, e = 1.0, 0.1, 0.03
     zone, x, used = flat_zone(element, 8, L, b)
@@ -454,7 +451,7 @@ def test_clamped_thin_tube_vibrates_as_the_published_case_says():
         assert mode.frequency == pytest.approx((534.62 + 533.84) / 2, rel=5e-3)
 
 
-@pytest.mark.parametrize(("harmonic", "rigid"), [(0, 2), (1, 2), (2, 0), (3, 0)])
+@together("harmonic, rigid", [(0, 2), (1, 2), (2, 0), (3, 0)])
 def test_a_cone_moves_freely_in_as_many_ways_as_a_body_does(harmonic, rigid):
     """Along its axis and about it; sideways and tilting in the first harmonic; else not at all."""
     zone = line_zone("COQ2", [(1.0, 0.2), (1.5, 0.9)], Mode.FOURIER)

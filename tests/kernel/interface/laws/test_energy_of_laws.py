@@ -65,9 +65,7 @@ class Point:
         return t[0], point_energies(int(self.code), w, t[0], new[0], self.p[0])
 
 
-@pytest.mark.parametrize("d", [2, 3])
-@pytest.mark.parametrize("seed", [1, 2, 3])
-@pytest.mark.parametrize("name", LAWS)
+@together("name, seed, d", itertools.product(LAWS, [1, 2, 3], [2, 3]), by=lambda case: case[0])
 def test_work_is_stored_and_lost(name, seed, d):
     point = Point(name, d, 2.2 if seed == 2 else 0.4)
     before, push, work, moved, lost = np.zeros(d), np.zeros(d), 0.0, 0.0, 0.0

@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.mesh import boundary
 from ssilang.kernel.mesh.changes.degree import complete, linear, quadratic
@@ -63,8 +64,9 @@ def rows_of(mesh: Mesh) -> list:
     return [(block.cell_type, block.connectivity.tolist()) for block in mesh.blocks]
 
 
-@pytest.mark.parametrize(
-    ("change", "meant"),
+@pytest.mark.parametrize("backwards", [False, True])
+@together(
+    "change, meant",
     [(linear, CURVED), (quadratic, ALL - {*CURVED}), (complete, ALL - {"SEG3"}),
      (split_quadrangles, ("QUA4", "QUA8")), (partial(orient, space_dimension=1), LINES),
      (partial(orient, space_dimension=2), FLAT),
@@ -75,7 +77,6 @@ def rows_of(mesh: Mesh) -> list:
      (boundary.contour, FLAT), (boundary.envelope, FULL), (boundary.lone_surfaces, FLAT),
      (boundary.edges, ALL), (boundary.faces, (*FLAT, *FULL))],
 )  # fmt: skip
-@pytest.mark.parametrize("backwards", [False, True])
 def test_each_part_is_changed_as_if_it_were_alone(change, meant, backwards) -> None:
     nodes = NodeTable()
     parts = parts_of(nodes)[:: -1 if backwards else 1]

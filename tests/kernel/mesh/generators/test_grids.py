@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
@@ -104,8 +105,8 @@ def test_a_crooked_block_is_filled_on_its_trilinear_map(first, seed):
     np.testing.assert_allclose(made.nodes.density[fresh], 0.4)
 
 
-@pytest.mark.parametrize(
-    ("changed", "match"),
+@together(
+    "changed, match",
     [
         (lambda f: [*f[:5], f[4]], "side"),
         (lambda f: [f[0], f[0], *f[2:]], "faces|numbers"),
@@ -289,7 +290,7 @@ def test_a_swept_surface_has_its_layers_sides_and_volume(degree, turned):
     assert around.n_cells == 2 * 5
 
 
-@pytest.mark.parametrize("surface", ["QUA4", "TRI3", "QUA8", "TRI6"])
+@together("surface", ["QUA4", "TRI3", "QUA8", "TRI6"])
 def test_a_swept_line_has_its_sides_in_order_and_its_area(surface):
     nodes = NodeTable()
     degree = 2 if surface in ("QUA8", "TRI6") else 1

@@ -5,6 +5,7 @@ import itertools
 import numpy as np
 import pytest
 from scipy.spatial import Delaunay
+from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
@@ -207,8 +208,8 @@ def chain_of(mesh):
     return [c[0] for c in cells] + [cells[-1][1]]
 
 
-@pytest.mark.parametrize(
-    ("closed", "first", "second", "home", "away"),
+@together(
+    "closed, first, second, home, away",
     [
         (True, 3, 9, [9, 2, 7, 5, 3, 9], [3, 8, 0, 9, 3]),
         (True, 9, 3, [3, 8, 0, 9, 3], [9, 2, 7, 5, 3, 9]),

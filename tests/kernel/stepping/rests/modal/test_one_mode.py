@@ -1,5 +1,7 @@
 """The loop of one coordinate against steps by the law, one by one and over long runs."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from references.assembled import Bench
@@ -94,9 +96,9 @@ def close(a, b, tolerance):
 
 
 @pytest.mark.parametrize("scheme", SCHEMES)
-@pytest.mark.parametrize("spring", SPRINGS.values(), ids=SPRINGS)
-@pytest.mark.parametrize(("damping", "load"), [(0.0, 0.0), (0.02, 0.0), (0.02, 6e4)])
-def test_steps_by_branches_are_those_of_the_law(scheme, spring, damping, load):
+@together("spring, loaded", product(SPRINGS.values(), [(0.0, 0.0), (0.02, 0.0), (0.02, 6e4)]))
+def test_steps_by_branches_are_those_of_the_law(scheme, spring, loaded):
+    damping, load = loaded
     (one, few, kept), (two, state, rows) = both(scheme, spring, 1000, 5e-4, damping, load)
     assert one[:2] == two[:2] == (1000, 1)
     for name in ("u", "v", "a", "w", "t", "state"):

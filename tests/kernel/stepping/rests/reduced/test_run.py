@@ -8,6 +8,7 @@ import pytest
 from references.recorder import Recorder
 from references.soil_block import soil_block
 from references.whole_and_reduced import both, check, relative
+from together import together
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
@@ -208,7 +209,7 @@ def test_an_interface_of_too_many_unknowns_is_told_before_any_vector_is_made(mon
     )
 
 
-@pytest.mark.parametrize("tolerance", [0.0, -1.0, 1.0, np.nan])
+@together("tolerance", [0.0, -1.0, 1.0, np.nan])
 def test_tolerances_out_of_range_are_refused(tolerance):
     with pytest.raises(KernelError, match="tolerance"):
         integrate_reduced(soil_block(steps=2), tolerance)
