@@ -23,7 +23,7 @@ import math
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
-from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
@@ -98,12 +98,17 @@ def _on_curve(
 
 
 @compiled
+def _below_chord(p_try: float, T_try: float, c: float, q: float) -> bool:
+    """Whether the tries lie within the chord of the curve, which is concave: no arc cosine needed."""
+    return T_try <= c and 2.0 * c * (p_try - q) <= -q * T_try
+
+
+@compiled
 def _returned(
     p_try: float, T_try: float, kn: float, ks: float, c: float, q: float, friction: float
 ) -> tuple[float, float, float, float, float, float]:
     """p, T and derivatives by the tries, back within the capacity."""
-    # below the chord of the curve, which is concave, no arc cosine is needed
-    if T_try <= c and (2.0 * c * (p_try - q) <= -q * T_try or p_try <= _bearing(T_try / c, q)):
+    if T_try <= c and (_below_chord(p_try, T_try, c, q) or p_try <= _bearing(T_try / c, q)):
         found = (p_try, T_try, 1.0, 0.0, 0.0, 1.0)
     elif p_try <= 0.5 * q:
         found = (p_try, c, 1.0, 0.0, 0.0, 0.0)
@@ -117,30 +122,56 @@ def _returned(
     return found
 
 
-@compiled
+@compiled_inline
+def _tries(
+    n: int, k: int, w: FloatArray, state: FloatArray, kn: float, ks: float
+) -> tuple[float, float]:
+    """Pressure and drag at the place k of many if nothing yielded further; n directions of drag."""
+    gap, drag = w[k, n] - state[k, Var.XI], 0.0
+    for i in range(n):
+        drag += (w[k, i] - state[k, Var.SLIP1 + i]) ** 2
+    return (-kn * gap if gap < 0.0 else 0.0), ks * math.sqrt(drag)
+
+
+@compiled_inline
 def _place(
-    k: int,
-    w: FloatArray,
-    state: FloatArray,
-    p: FloatArray,
-    t: FloatArray,
-    new: FloatArray,
+    n: int, k: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray,
+    new: FloatArray, D: FloatArray,
+) -> None:  # fmt: skip
+    """What yielding takes from an elastic bed, and tangent, at the place k of many.
+
+    Written out in its callers for a known n: a call hands over more than the law reads.
+    """
+    kn, ks, friction = p[k, Par.BED_KN], p[k, Par.BED_KS], p[k, Par.FROT]
+    p_try, T_try = _tries(n, k, w, state, kn, ks)
+    if not _below_chord(p_try, T_try, p[k, Par.COHE], p[k, Par.QULT]) or (
+        0.0 <= friction and friction * p_try < T_try
+    ):
+        _yield(k, w, state, p, t, new, D)
+        return
+    # differences are written out: what never yielded takes nothing, to the last bit
+    closed = w[k, n] < 0.0
+    for i in range(n):
+        t[k, i] = -ks * state[k, Var.SLIP1 + i]
+        for j in range(n + 1):
+            D[k, i, j] = D[k, n, j] = 0.0
+        D[k, i, n] = 0.0
+    if p_try > 0.0 and closed:
+        t[k, n] = -kn * state[k, Var.XI]
+    else:
+        t[k, n] = -p_try - (kn * w[k, n] if closed else 0.0)
+    D[k, n, n] = (kn if p_try > 0.0 else 0.0) - (kn if closed else 0.0)
+
+
+@compiled
+def _yield(
+    k: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
     D: FloatArray,
-) -> None:
-    """What yielding takes from an elastic bed, new state and tangent, at the place k of many."""
+) -> None:  # fmt: skip
+    """As `_place` where the ground yields or may, and its new state."""
     n = w.shape[1] - 1
     kn, ks = p[k, Par.BED_KN], p[k, Par.BED_KS]
-    for i in range(n + 1):
-        for j in range(n + 1):
-            D[k, i, j] = 0.0
-    for i in range(state.shape[1]):
-        new[k, i] = state[k, i]
-    touching = w[k, n] < state[k, Var.XI]
-    p_try = -kn * (w[k, n] - state[k, Var.XI]) if touching else 0.0
-    T_try = 0.0
-    for i in range(n):
-        T_try += (w[k, i] - state[k, Var.SLIP1 + i]) ** 2
-    T_try = ks * math.sqrt(T_try)
+    p_try, T_try = _tries(n, k, w, state, kn, ks)
     press, drag, pp, pT, Tp, TT = _returned(
         p_try, T_try, kn, ks, p[k, Par.COHE], p[k, Par.QULT], p[k, Par.FROT]
     )
@@ -150,7 +181,7 @@ def _place(
         new[k, Var.XI] = w[k, n] + press / kn
         spent += press * (p_try - press) / kn
     # less the elastic bed
-    closed = w[k, n] < 0.0
+    touching, closed = p_try > 0.0, w[k, n] < 0.0
     t[k, n] = -press - (kn * w[k, n] if closed else 0.0)
     D[k, n, n] = (kn * pp if touching else 0.0) - (kn if closed else 0.0)
     for i in range(n):
@@ -165,9 +196,8 @@ def _place(
             e_j = ks * (w[k, j] - state[k, Var.SLIP1 + j]) / T_try if T_try > 0.0 else 0.0
             D[k, i, j] = ks * (TT - ratio) * e_i * e_j
         D[k, i, i] += ks * ratio - ks
-        if touching:
-            D[k, n, i] = -pT * ks * e_i
-            D[k, i, n] = -kn * Tp * e_i
+        D[k, n, i] = -pT * ks * e_i if touching else 0.0
+        D[k, i, n] = -kn * Tp * e_i if touching else 0.0
     new[k, Var.SHEAR_LOSS] = state[k, Var.SHEAR_LOSS] + spent
 
 
@@ -189,7 +219,14 @@ def bed_points(
     law. State: XI settlement (<= 0), SLIP1 SLIP2, SHEAR_LOSS energy lost.
     """
     for k in range(first, end):
-        _place(k, w, state, p, t, new, D)
+        for i in range(state.shape[1]):
+            new[k, i] = state[k, i]
+    if w.shape[1] == 2:
+        for k in range(first, end):
+            _place(1, k, w, state, p, t, new, D)
+    else:
+        for k in range(first, end):
+            _place(2, k, w, state, p, t, new, D)
 
 
 @seldom
