@@ -74,25 +74,16 @@ def _jumps_of_two(joints: Joints, delta: FloatArray, w: FloatArray) -> None:
 
 @compiled
 def _forces_of_two(joints: Joints, t: FloatArray, f: FloatArray) -> None:
-    """Adds what `interface_forces` gives of two pairs in the plane; points in a row share theirs.
-    """
-    pairs, B, weights, p = joints.pairs, joints.B, joints.weights, 0
-    n = B.shape[0]
-    while p < n:
-        first, second = pairs[p, 0], pairs[p, 1]
-        f0, f1, f2, f3 = 0.0, 0.0, 0.0, 0.0
-        while p < n and pairs[p, 0] == first and pairs[p, 1] == second:
-            for i in range(2):
-                force = weights[p] * t[p, i]
-                f0 += force * B[p, i, 0]
-                f1 += force * B[p, i, 1]
-                f2 += force * B[p, i, 2]
-                f3 += force * B[p, i, 3]
-            p += 1
-        f[2 * first] += f0
-        f[2 * first + 1] += f1
-        f[2 * second] += f2
-        f[2 * second + 1] += f3
+    """Adds what `interface_forces` gives of two pairs in the plane."""
+    pairs, B, weights = joints.pairs, joints.B, joints.weights
+    for p in range(B.shape[0]):
+        first, second = 2 * pairs[p, 0], 2 * pairs[p, 1]
+        for i in range(2):
+            force = weights[p] * t[p, i]
+            f[first] += force * B[p, i, 0]
+            f[first + 1] += force * B[p, i, 1]
+            f[second] += force * B[p, i, 2]
+            f[second + 1] += force * B[p, i, 3]
 
 
 @compiled
@@ -159,16 +150,24 @@ def add_stiffness_forces(
 def interface_stiffness(joints: Joints, D: FloatArray, K: FloatArray) -> None:
     """Dense stiffness K (q, q) from local tangents D (n_points, d, d)."""
     pairs, B, weights = joints.pairs, joints.B, joints.weights
-    n, d, _ = B.shape
     for row in range(K.shape[0]):
         for column in range(K.shape[1]):
             K[row, column] = 0.0
-    for p in range(n):
-        for i in range(d):
-            for j in range(d):
-                value = weights[p] * D[p, i, j]
-                if value != 0.0:
-                    _add_product(pairs[p], B[p, i], B[p, j], value, d, K)
+    for p in range(len(B)):
+        add_point_stiffness(pairs[p], B[p], weights[p], D[p], K)
+
+
+@compiled
+def add_point_stiffness(
+    pairs: IntArray, B: FloatArray, weight: float, D: FloatArray, K: FloatArray
+) -> None:
+    """`K += weight B^T D B` of one point."""
+    d = len(B)
+    for i in range(d):
+        for j in range(d):
+            value = weight * D[i, j]
+            if value != 0.0:
+                _add_product(pairs, B[i], B[j], value, d, K)
 
 
 @compiled
@@ -213,11 +212,11 @@ def interface_energies(
     joints: Joints, w: FloatArray, t: FloatArray, state: FloatArray
 ) -> tuple[float, float]:
     """Stored energy and energy lost so far of the whole interface (joules)."""
-    stored, lost = 0.0, 0.0
+    found, stored, lost = np.empty((2, w.shape[0])), 0.0, 0.0
+    point_energies(joints.codes, w, t, state, joints.p, found)
     for i in range(w.shape[0]):
-        kept, gone = point_energies(joints.codes[i], w[i], t[i], state[i], joints.p[i])
-        stored += joints.weights[i] * kept
-        lost += joints.weights[i] * gone
+        stored += joints.weights[i] * found[0, i]
+        lost += joints.weights[i] * found[1, i]
     return stored, lost
 
 

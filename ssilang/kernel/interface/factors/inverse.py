@@ -20,7 +20,11 @@ from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot
 from ssilang.kernel.interface.factors.newton_matrix import newton_matrix
-from ssilang.kernel.interface.response import Joints, add_stiffness_forces
+from ssilang.kernel.interface.response import (
+    Joints,
+    add_point_stiffness,
+    add_stiffness_forces,
+)
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
 PLAIN = 64  # jumps up to which Y is made by plain elimination
@@ -100,21 +104,6 @@ def solve_small(A: FloatArray, X: FloatArray, least: float) -> bool:
     return True
 
 
-@compiled_fast
-def _add_stiffness(pairs: IntArray, B: FloatArray, E: FloatArray, K: FloatArray) -> None:
-    """`K += B^T E B` of one point."""
-    d = len(B)
-    for a in range(B.shape[1]):
-        row = K[pairs[a // d] * d + a % d]
-        for j in range(d):
-            part = 0.0
-            for i in range(d):
-                part += B[i, a] * E[i, j]
-            if part != 0.0:
-                for b in range(B.shape[1]):
-                    row[pairs[b // d] * d + b % d] += part * B[j, b]
-
-
 @later
 @compiled_fast
 def update_point(
@@ -140,7 +129,7 @@ def update_point(
                     product += rows[k, pairs[b // d] * d + b % d] * B[j, b]
                 T[i, j] += E[i, k] * product
     if len(inverse.K):
-        _add_stiffness(pairs, B, E, inverse.K)
+        add_point_stiffness(pairs, B, 1.0, E, inverse.K)
     if not solve_small(T, E, VANISHING):
         return False
     for k in range(len(Y)):

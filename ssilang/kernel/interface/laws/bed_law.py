@@ -24,10 +24,8 @@ import math
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
-from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import Law
 
 TURNS = 60  # of the projection: halvings alone end below rounding
 SAME = 1e-15  # of a right angle
@@ -99,7 +97,7 @@ def _on_curve(
 
 @compiled
 def _below_chord(p_try: float, T_try: float, c: float, q: float) -> bool:
-    """Whether the tries lie within the chord of the curve, which is concave: no arc cosine needed."""
+    """Whether the tries lie within the chord of the curve, which is concave: no arc cosine."""
     return T_try <= c and 2.0 * c * (p_try - q) <= -q * T_try
 
 
@@ -145,7 +143,7 @@ def _place(
     kn, ks, friction = p[k, Par.BED_KN], p[k, Par.BED_KS], p[k, Par.FROT]
     p_try, T_try = _tries(n, k, w, state, kn, ks)
     if not _below_chord(p_try, T_try, p[k, Par.COHE], p[k, Par.QULT]) or (
-        0.0 <= friction and friction * p_try < T_try
+        friction >= 0.0 and friction * p_try < T_try
     ):
         _yield(k, w, state, p, t, new, D)
         return
@@ -205,7 +203,6 @@ def _yield(
 @compiled
 def bed_points(
     first: int,
-    end: int,
     w: FloatArray,
     state: FloatArray,
     p: FloatArray,
@@ -213,51 +210,51 @@ def bed_points(
     new: FloatArray,
     D: FloatArray,
 ) -> None:
-    """What yielding takes at the places from `first` to before `end`, written in place.
+    """What yielding takes at the places from `first` on, written in place.
 
     All in one call, by their numbers: a view of each array for each place takes longer than the
     law. State: XI settlement (<= 0), SLIP1 SLIP2, SHEAR_LOSS energy lost.
     """
-    for k in range(first, end):
+    n = w.shape[0]
+    for k in range(first, n):
         for i in range(state.shape[1]):
             new[k, i] = state[k, i]
     if w.shape[1] == 2:
-        for k in range(first, end):
+        for k in range(first, n):
             _place(1, k, w, state, p, t, new, D)
     else:
-        for k in range(first, end):
+        for k in range(first, n):
             _place(2, k, w, state, p, t, new, D)
 
 
-@seldom
-@compiled
-def bed_point(
-    code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
-    D: FloatArray,
-) -> None:  # fmt: skip
-    """One point, as other laws answer."""
-    d = w.shape[0]
-    bed_points(
-        0, 1, w.reshape((1, d)), state.reshape((1, state.shape[0])), p.reshape((1, p.shape[0])),
-        t.reshape((1, d)), new.reshape((1, new.shape[0])), D.reshape((1, d, d)),
-    )  # fmt: skip
-
-
-@seldom
-@compiled
-def bed_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
-    """Energy stored beyond that of the elastic bed, per unit area."""
-    n = w.shape[0] - 1
-    kn, ks = p[Par.BED_KN], p[Par.BED_KS]
-    closing = min(w[n], 0.0)
-    press = -t[n] - kn * closing
+@compiled_inline
+def _stored(n: int, k: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
+    """Energy stored beyond that of the elastic bed at the place k of many, per unit area."""
+    kn, ks = p[k, Par.BED_KN], p[k, Par.BED_KS]
+    closing = min(w[k, n], 0.0)
+    press = -t[k, n] - kn * closing
     stored: float = 0.5 * press * press / kn - 0.5 * kn * closing * closing
     for i in range(n):
-        drag = t[i] + ks * w[i]
+        drag = t[k, i] + ks * w[k, i]
         if ks > 0.0:
-            stored += 0.5 * drag * drag / ks - 0.5 * ks * w[i] * w[i]
+            stored += 0.5 * drag * drag / ks - 0.5 * ks * w[k, i] * w[k, i]
     return stored
 
 
-PLACE = Law(LawCode.BED, bed_point, bed_energy, ())
-"""No law of a model: footings over ground that yields put places under themselves."""
+@seldom
+@compiled
+def bed_energies(
+    first: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray, found: FloatArray
+) -> None:
+    """Energies stored beyond those of the elastic bed, and lost so far, of the places from `first`.
+
+    Per unit area, into `found` (2, n).
+    """
+    if w.shape[1] == 2:
+        for k in range(first, w.shape[0]):
+            found[0, k] = _stored(1, k, w, t, p)
+    else:
+        for k in range(first, w.shape[0]):
+            found[0, k] = _stored(2, k, w, t, p)
+    for k in range(first, w.shape[0]):
+        found[1, k] = state[k, Var.SHEAR_LOSS]
