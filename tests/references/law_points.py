@@ -4,6 +4,7 @@ import numpy as np
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, Parameter
 from ssilang.kernel.interface.laws.point_laws import respond
+from ssilang.kernel.interface.point_state import energies_of_points
 
 
 def table_of(n=1, **given):
@@ -21,6 +22,12 @@ def answer(code, w, state, p):
     t, new, D = np.zeros((n, d)), np.zeros((n, N_STATE)), np.zeros((n, d, d))
     respond(np.full(n, int(code)), w, state, p, t, new, D)
     return t, new, D
+
+
+def energies(code, w, t, state, p):
+    """Stored energy and energy lost so far of one point, from arrays (d,) and its rows."""
+    codes = np.array([int(code)])
+    return energies_of_points(codes, *(np.asarray(x, float)[None] for x in (w, t, state, p)))[:, 0]
 
 
 def walk(code, path, p):

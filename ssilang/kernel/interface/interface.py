@@ -390,6 +390,13 @@ MACRO_NAMES = {
 """Components of macro-elements: rotations and moments about t1 (t2), opening and force."""
 
 
+def _names(joints: JointCells, kind: str) -> tuple[str, ...]:
+    """Components of a zone's jumps or tractions, shear first."""
+    if is_macro(joints.zone):
+        return MACRO_NAMES[kind][joints.element.dimension]
+    return joints.element.stresses if kind == "traction" else joints.element.strains
+
+
 def interface_field(interface: Interface, values: FloatArray, kind: str) -> CellField:
     """Values (n_points, d) at the points of all joints as a field.
 
@@ -406,11 +413,7 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
         start += n * g
         if kind == "plastic jump" and law_of(j.zone.behaviour).code not in _SLIDING:
             continue
-        names = j.element.stresses if kind == "traction" else j.element.strains
-        if is_macro(j.zone):
-            names = MACRO_NAMES[kind][interface.dimension]
-        if kind == "plastic jump":
-            names = inelastic(names)
+        names = inelastic(_names(j, kind)) if kind == "plastic jump" else _names(j, kind)
         components = {
             names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
         }
@@ -430,10 +433,7 @@ def point_values(interface: Interface, field: CellField, kind: str) -> FloatArra
     """
     parts = []
     for j in interface.joints:
-        given = zone_field(j.zone, field)
-        names = j.element.stresses if kind == "traction" else j.element.strains
-        if is_macro(j.zone):
-            names = MACRO_NAMES[kind][interface.dimension]
+        given, names = zone_field(j.zone, field), _names(j, kind)
         missing = [n for n in names if n not in given]
         if missing:
             raise FieldError(
@@ -523,9 +523,7 @@ def point_history(
     joints = (rows.w, rows.t, rows.state)
     at_places = () if bed is None else tuple(x[:, bed.points] for x in joints)
     if kind != "variables":
-        names = j.element.strains if kind == "jump" else j.element.stresses
-        if is_macro(j.zone):
-            names = MACRO_NAMES[kind][interface.dimension]
+        names = _names(j, kind)
         places = {names[i]: i for i in component_order(j.zone)}
         if bed is not None and kind == "traction":
             t = t + bed.taken(at_places[1])

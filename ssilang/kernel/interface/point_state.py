@@ -81,6 +81,5 @@ def energies_of_points(
 ) -> FloatArray:
     """Energy stored and energy lost so far at each point, per unit area, shape (2, n)."""
     found = np.empty((2, w.shape[0]))
-    for i in range(w.shape[0]):
-        found[0, i], found[1, i] = point_energies(codes[i], w[i], t[i], state[i], p[i])
+    point_energies(codes, w, t, state, p, found)
     return found

@@ -22,7 +22,7 @@ from ssilang.kernel.materials.plastic.response import PointParameters
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
-from ssilang.kernel.stepping.problem.plausibility import solved
+from ssilang.kernel.stepping.problem.plausibility import solver_of
 from ssilang.kernel.stepping.problem.problem import closed_stiffness
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def unconfined(problem: "Problem", bulk: "Bulk", state: "State") -> tuple[str, f
     tangent = bulk.respond(state, np.zeros(problem.numbering.size), problem.times[0]).tangent
     stiffness = sp.csr_array(closed_stiffness(problem) + T.T @ tangent @ T)
     try:
-        moved = T @ solved(stiffness, T.T @ (loading.forces @ factors)[:, None])[:, 0]
+        moved = T @ solver_of(stiffness)(T.T @ (loading.forces @ factors)[:, None])[:, 0]
     except SingularFactorError:  # the steps tell what moves
         return None
     for name, z, places, old in zip(names, bulk.zones, bulk.places, state, strict=True):

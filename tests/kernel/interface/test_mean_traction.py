@@ -1,6 +1,7 @@
 """Mean tractions of a step against the work of the law along it."""
 
 import numpy as np
+from references.law_points import energies as energies_at
 from together import together
 
 from ssilang.kernel.interface.laws.columns import (
@@ -9,7 +10,6 @@ from ssilang.kernel.interface.laws.columns import (
     LawCode,
     Parameter,
 )
-from ssilang.kernel.interface.laws.point_laws import point_energies
 from ssilang.kernel.interface.response import (
     InterfaceState,
     Joints,
@@ -49,7 +49,7 @@ def test_mean_traction_times_step_is_what_is_stored_and_lost(name, d):
         return end, end.mean
 
     def energies(w, t, state):
-        return np.array([point_energies(1, *one) for one in zip(w, t, state, p, strict=True)])
+        return np.array([energies_at(1, *one) for one in zip(w, t, state, p, strict=True)])
 
     changed = 0
     for size in (1e-4, 4e-4, 1e-3, 4e-4, 1e-3, 2e-4, 1e-3):

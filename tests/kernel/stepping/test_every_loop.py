@@ -20,7 +20,8 @@ from together import together
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.interface.laws.columns import N_STATE
-from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.point_laws import respond
+from ssilang.kernel.interface.point_state import energies_of_points
 from ssilang.kernel.plasticity.added_load import Added, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.driven_load import (
@@ -122,12 +123,8 @@ def joints_at(interface, u, state):
         for k, pair in enumerate(pairs):
             B = interface.B[p][:, k * delta.shape[1] : (k + 1) * delta.shape[1]]
             force[pair] += interface.weights[p] * B.T @ t[p]
-    energies = sum(
-        weight * np.array(point_energies(*one))
-        for weight, *one in zip(
-            interface.weights, interface.codes, w, t, new, interface.parameters, strict=True
-        )
-    )
+    points = (interface.codes, w, t, new, interface.parameters)
+    energies = energies_of_points(*points) @ interface.weights
     return w, t, new, interface.J.T @ force.ravel(), energies
 
 

@@ -20,7 +20,11 @@ from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_rows, dot
 from ssilang.kernel.interface.factors.newton_matrix import newton_matrix
-from ssilang.kernel.interface.response import Joints, add_stiffness_forces
+from ssilang.kernel.interface.response import (
+    Joints,
+    add_point_stiffness,
+    add_stiffness_forces,
+)
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
 PLAIN = 64  # jumps up to which Y is made by plain elimination
@@ -36,13 +40,14 @@ class Inverse(NamedTuple):
     room: FloatArray  # (q,)
     rows: FloatArray  # (2, d, q) `B Y` and `(Y B^T)^T` of one point
     changes: FloatArray  # (2, d, d) of one point's tangent, and the matrix of their solution
+    K: FloatArray  # (q, q) the stiffness `c K - R` itself beside few jumps, else no rows
 
 
-def new_inverse(q: int, d: int, precision: Any = np.float64) -> Inverse:
-    """Room for q jumps of pairs of points in d directions."""
+def new_inverse(q: int, d: int, precision: Any = np.float64, few: bool = False) -> Inverse:
+    """Room for q jumps of pairs of points in d directions; `few` jumps join many points."""
     return Inverse(
         np.zeros((q, q), precision), np.zeros(q, precision), np.zeros(q), np.zeros((2, d, q)),
-        np.zeros((2, d, d)),
+        np.zeros((2, d, d)), np.zeros((q, q) if few else (0, 0)),
     )  # fmt: skip
 
 
@@ -107,7 +112,7 @@ def update_point(
 ) -> bool:  # fmt: skip
     """Y after the tangent of a point went from `known` to D; `weight` holds c.
 
-    False, and Y as it was, if the update is not safe.
+    False, and Y to be made anew, if the update is not safe.
     """
     d, rows, columns, Y = len(B), inverse.rows[0], inverse.rows[1], inverse.Y
     E, T = inverse.changes[0], inverse.changes[1]
@@ -123,6 +128,8 @@ def update_point(
                 for b in range(B.shape[1]):
                     product += rows[k, pairs[b // d] * d + b % d] * B[j, b]
                 T[i, j] += E[i, k] * product
+    if len(inverse.K):
+        add_point_stiffness(pairs, B, 1.0, E, inverse.K)
     if not solve_small(T, E, VANISHING):
         return False
     for k in range(len(Y)):
@@ -139,10 +146,11 @@ def update_point(
 
 @seldom
 @compiled
-def make_plain(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
+def make_plain(joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse) -> bool:
     """Y of the tangents D; False if there is none."""
+    Y, K = inverse.Y, inverse.K
     A = np.empty(Y.shape, Y.dtype)
-    newton_matrix(joints, condensed, D, A)
+    newton_matrix(joints, condensed, D, K if len(K) else np.empty(Y.shape), A)
     copy_rows(condensed.S, Y)
     return solve_small(A, Y, NOTHING)
 
@@ -152,7 +160,7 @@ def make_plain(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArra
 def make_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, Y: FloatArray) -> bool:
     """As `make_plain`, by factors that read large matrices less often, in the precision of Y."""
     A, order = np.empty(Y.shape, Y.dtype), np.empty(len(Y), np.int64)
-    newton_matrix(joints, condensed, D, A)
+    newton_matrix(joints, condensed, D, np.empty(Y.shape), A)
     if not factorise_dense(A, order):
         return False
     copy_rows(condensed.S, Y)
@@ -176,7 +184,12 @@ def apply_inverse(
     joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
 ) -> None:
     """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
-    R, forces = condensed.R, inverse.room
+    R, K, forces = condensed.R, inverse.K, inverse.room
+    for i in range(len(K)):
+        forces[i] = dot(K[i], x)
+    if len(K):
+        subtract_jumps(inverse, forces, x)
+        return
     for i in range(len(x)):
         forces[i] = 0.0
         for j in range(len(R)):

@@ -50,6 +50,7 @@ class Factors(NamedTuple):
 
     tangents: FloatArray
     asked: FloatArray
+    other: IntArray  # (n_points,) room for the points whose tangents are not those of Y
     updates: IntArray  # (1,) how many points were changed since Y was made
     inverse: Inverse
     changed: Changed
@@ -61,10 +62,11 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, single: bool = F
     `single` is the precision of their response.
     """
     tell_more("inverse" if q <= PLAIN else "blocks")
-    inverse = new_inverse(q, shape[1], np.float32 if single else np.float64)
+    inverse = new_inverse(q, shape[1], np.float32 if single else np.float64, q <= min(few, PLAIN))
     return Factors(
         np.full((*shape, shape[1]), np.nan), np.full((*shape, shape[1]), np.nan),
-        np.zeros(1, np.int64), inverse, new_changed(q if q > few else 0, inverse.Y),
+        np.zeros(shape[0], np.int64), np.zeros(1, np.int64), inverse,
+        new_changed(q if q > few else 0, inverse.Y),
     )  # fmt: skip
 
 
@@ -80,7 +82,7 @@ def make_anew(joints: Joints, condensed: Condensed, factors: Factors, D: FloatAr
     """Y of the tangents D; False if there is none."""
     known, Y = factors.tangents, factors.inverse.Y
     if len(Y) <= PLAIN:
-        good = make_plain(joints, condensed, D, Y)
+        good = make_plain(joints, condensed, D, factors.inverse)
     else:
         good = make_by_blocks(joints, condensed, D, Y)
     for p in range(len(D)):
@@ -93,25 +95,40 @@ def make_anew(joints: Joints, condensed: Condensed, factors: Factors, D: FloatAr
     return good
 
 
+@compiled
+def list_others(factors: Factors, D: FloatArray) -> int:
+    """How many points have other tangents than Y: the first ones of `factors.other`."""
+    count = 0
+    for p in range(len(D)):
+        if not is_equal(D[p], factors.tangents[p]):
+            factors.other[count] = p
+            count += 1
+    return count
+
+
 @seldom
 @compiled
-def follow_points(joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray) -> int:
-    """Y takes points whose tangents stay, if that pays: how many are left, negative if none is."""
-    known, asked, inverse = factors.tangents, factors.asked, factors.inverse
+def follow_points(
+    joints: Joints, condensed: Condensed, factors: Factors, D: FloatArray, left: int
+) -> int:
+    """Y takes points whose tangents stay, if that pays: how many are left, negative if none is.
+
+    `left` is what `list_others` found.
+    """
+    known, asked, inverse, other = factors.tangents, factors.asked, factors.inverse, factors.other
     q, d, spent = len(inverse.Y), D.shape[1], factors.changed.spent
-    few, left, staying = len(factors.changed.jumps) == 0, 0, 0
-    for p in range(len(D)):
-        if not is_equal(D[p], known[p]):
-            left += 1
-            staying += few or is_equal(D[p], asked[p])
+    few, staying = len(factors.changed.jumps) == 0, 0
+    for k in range(left):
+        staying += few or is_equal(D[other[k]], asked[other[k]])
     cost = 2.0 * d * q * q
     anew = staying * cost > ANEW * q**3 or factors.updates[0] + staying > UPDATES
     enough = few or min(staying * cost, ANEW * q**3) <= spent[ALL] + cost + AT_ONCE
     if not is_factorised(factors) or (staying and anew and enough):
         return 0 if make_anew(joints, condensed, factors, D) else -1
     if staying and enough:
-        for p in range(len(D)):
-            if not is_equal(D[p], known[p]) and (few or is_equal(D[p], asked[p])):
+        for k in range(left):
+            p = other[k]
+            if few or is_equal(D[p], asked[p]):
                 weight = condensed.c * joints.weights[p]
                 if not update_point(joints.pairs[p], joints.B[p], weight, D[p], known[p], inverse):
                     return 0 if make_anew(joints, condensed, factors, D) else -1
@@ -119,8 +136,9 @@ def follow_points(joints: Joints, condensed: Condensed, factors: Factors, D: Flo
         left -= staying
         factors.updates[0] += staying
         spent[ALL] = 0.0
-    for p in range(len(D)):
-        copy_rows(D[p], asked[p])
+    if not few:
+        for p in range(len(D)):
+            copy_rows(D[p], asked[p])
     return left
 
 
@@ -134,10 +152,9 @@ def solve_tangent(
 
     `enough` is the relative residual up to which a solution is iterated.
     """
-    known, same = factors.tangents, True
-    for p in range(len(D)):
-        same = same and is_equal(D[p], known[p])
-    left = 0 if same else follow_points(joints, condensed, factors, D)
+    known, left = factors.tangents, list_others(factors, D)
+    if left:
+        left = follow_points(joints, condensed, factors, D, left)
     if left > 0:
         return solve_changing(joints, condensed, factors, D, x, enough)
     if left == 0:

@@ -11,10 +11,15 @@ from ssilang.kernel.interface.response import Joints, interface_stiffness
 
 @apart
 @compiled
-def newton_matrix(joints: Joints, condensed: Condensed, D: FloatArray, A: FloatArray) -> None:
-    """`A = 1 + S (c K - R)`, K of the tangents D, a row of which has few entries."""
+def newton_matrix(
+    joints: Joints, condensed: Condensed, D: FloatArray, K: FloatArray, A: FloatArray
+) -> None:
+    """`A = 1 + S (c K - R)`, K of the tangents D, a row of which has few entries.
+
+    What stands in brackets is left in `K`.
+    """
     n, S, R = len(A), condensed.S, condensed.R
-    K, first, count = np.empty((n, n)), np.zeros(n + 1, np.int64), 0
+    first, count = np.zeros(n + 1, np.int64), 0
     interface_stiffness(joints, D, K)
     for k in range(n):
         for j in range(n):
@@ -29,8 +34,8 @@ def newton_matrix(joints: Joints, condensed: Condensed, D: FloatArray, A: FloatA
             if K[k, j] != 0.0:
                 columns[count], values[count] = j, K[k, j]
                 count += 1
+    row = np.empty(n)
     for i in range(n):
-        row = K[0]
         for j in range(n):
             row[j] = 0.0
         row[i] = 1.0

@@ -23,11 +23,9 @@ import math
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.apart import seldom
-from ssilang.kernel.base.compiled.compiler import compiled
-from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
-from ssilang.kernel.interface.laws.law import Law
 
 TURNS = 60  # of the projection: halvings alone end below rounding
 SAME = 1e-15  # of a right angle
@@ -98,12 +96,17 @@ def _on_curve(
 
 
 @compiled
+def _below_chord(p_try: float, T_try: float, c: float, q: float) -> bool:
+    """Whether the tries lie within the chord of the curve, which is concave: no arc cosine."""
+    return T_try <= c and 2.0 * c * (p_try - q) <= -q * T_try
+
+
+@compiled
 def _returned(
     p_try: float, T_try: float, kn: float, ks: float, c: float, q: float, friction: float
 ) -> tuple[float, float, float, float, float, float]:
     """p, T and derivatives by the tries, back within the capacity."""
-    # below the chord of the curve, which is concave, no arc cosine is needed
-    if T_try <= c and (2.0 * c * (p_try - q) <= -q * T_try or p_try <= _bearing(T_try / c, q)):
+    if T_try <= c and (_below_chord(p_try, T_try, c, q) or p_try <= _bearing(T_try / c, q)):
         found = (p_try, T_try, 1.0, 0.0, 0.0, 1.0)
     elif p_try <= 0.5 * q:
         found = (p_try, c, 1.0, 0.0, 0.0, 0.0)
@@ -117,30 +120,56 @@ def _returned(
     return found
 
 
-@compiled
+@compiled_inline
+def _tries(
+    n: int, k: int, w: FloatArray, state: FloatArray, kn: float, ks: float
+) -> tuple[float, float]:
+    """Pressure and drag at the place k of many if nothing yielded further; n directions of drag."""
+    gap, drag = w[k, n] - state[k, Var.XI], 0.0
+    for i in range(n):
+        drag += (w[k, i] - state[k, Var.SLIP1 + i]) ** 2
+    return (-kn * gap if gap < 0.0 else 0.0), ks * math.sqrt(drag)
+
+
+@compiled_inline
 def _place(
-    k: int,
-    w: FloatArray,
-    state: FloatArray,
-    p: FloatArray,
-    t: FloatArray,
-    new: FloatArray,
+    n: int, k: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray,
+    new: FloatArray, D: FloatArray,
+) -> None:  # fmt: skip
+    """What yielding takes from an elastic bed, and tangent, at the place k of many.
+
+    Written out in its callers for a known n: a call hands over more than the law reads.
+    """
+    kn, ks, friction = p[k, Par.BED_KN], p[k, Par.BED_KS], p[k, Par.FROT]
+    p_try, T_try = _tries(n, k, w, state, kn, ks)
+    if not _below_chord(p_try, T_try, p[k, Par.COHE], p[k, Par.QULT]) or (
+        friction >= 0.0 and friction * p_try < T_try
+    ):
+        _yield(k, w, state, p, t, new, D)
+        return
+    # differences are written out: what never yielded takes nothing, to the last bit
+    closed = w[k, n] < 0.0
+    for i in range(n):
+        t[k, i] = -ks * state[k, Var.SLIP1 + i]
+        for j in range(n + 1):
+            D[k, i, j] = D[k, n, j] = 0.0
+        D[k, i, n] = 0.0
+    if p_try > 0.0 and closed:
+        t[k, n] = -kn * state[k, Var.XI]
+    else:
+        t[k, n] = -p_try - (kn * w[k, n] if closed else 0.0)
+    D[k, n, n] = (kn if p_try > 0.0 else 0.0) - (kn if closed else 0.0)
+
+
+@compiled
+def _yield(
+    k: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
     D: FloatArray,
-) -> None:
-    """What yielding takes from an elastic bed, new state and tangent, at the place k of many."""
+) -> None:  # fmt: skip
+    """As `_place` where the ground yields or may, and its new state."""
     n = w.shape[1] - 1
     kn, ks = p[k, Par.BED_KN], p[k, Par.BED_KS]
-    for i in range(n + 1):
-        for j in range(n + 1):
-            D[k, i, j] = 0.0
-    for i in range(state.shape[1]):
-        new[k, i] = state[k, i]
-    touching = w[k, n] < state[k, Var.XI]
-    p_try = -kn * (w[k, n] - state[k, Var.XI]) if touching else 0.0
-    T_try = 0.0
-    for i in range(n):
-        T_try += (w[k, i] - state[k, Var.SLIP1 + i]) ** 2
-    T_try = ks * math.sqrt(T_try)
+    p_try, T_try = _tries(n, k, w, state, kn, ks)
     press, drag, pp, pT, Tp, TT = _returned(
         p_try, T_try, kn, ks, p[k, Par.COHE], p[k, Par.QULT], p[k, Par.FROT]
     )
@@ -150,7 +179,7 @@ def _place(
         new[k, Var.XI] = w[k, n] + press / kn
         spent += press * (p_try - press) / kn
     # less the elastic bed
-    closed = w[k, n] < 0.0
+    touching, closed = p_try > 0.0, w[k, n] < 0.0
     t[k, n] = -press - (kn * w[k, n] if closed else 0.0)
     D[k, n, n] = (kn * pp if touching else 0.0) - (kn if closed else 0.0)
     for i in range(n):
@@ -165,9 +194,8 @@ def _place(
             e_j = ks * (w[k, j] - state[k, Var.SLIP1 + j]) / T_try if T_try > 0.0 else 0.0
             D[k, i, j] = ks * (TT - ratio) * e_i * e_j
         D[k, i, i] += ks * ratio - ks
-        if touching:
-            D[k, n, i] = -pT * ks * e_i
-            D[k, i, n] = -kn * Tp * e_i
+        D[k, n, i] = -pT * ks * e_i if touching else 0.0
+        D[k, i, n] = -kn * Tp * e_i if touching else 0.0
     new[k, Var.SHEAR_LOSS] = state[k, Var.SHEAR_LOSS] + spent
 
 
@@ -175,7 +203,6 @@ def _place(
 @compiled
 def bed_points(
     first: int,
-    end: int,
     w: FloatArray,
     state: FloatArray,
     p: FloatArray,
@@ -183,44 +210,51 @@ def bed_points(
     new: FloatArray,
     D: FloatArray,
 ) -> None:
-    """What yielding takes at the places from `first` to before `end`, written in place.
+    """What yielding takes at the places from `first` on, written in place.
 
     All in one call, by their numbers: a view of each array for each place takes longer than the
     law. State: XI settlement (<= 0), SLIP1 SLIP2, SHEAR_LOSS energy lost.
     """
-    for k in range(first, end):
-        _place(k, w, state, p, t, new, D)
+    n = w.shape[0]
+    for k in range(first, n):
+        for i in range(state.shape[1]):
+            new[k, i] = state[k, i]
+    if w.shape[1] == 2:
+        for k in range(first, n):
+            _place(1, k, w, state, p, t, new, D)
+    else:
+        for k in range(first, n):
+            _place(2, k, w, state, p, t, new, D)
 
 
-@seldom
-@compiled
-def bed_point(
-    code: int, w: FloatArray, state: FloatArray, p: FloatArray, t: FloatArray, new: FloatArray,
-    D: FloatArray,
-) -> None:  # fmt: skip
-    """One point, as other laws answer."""
-    d = w.shape[0]
-    bed_points(
-        0, 1, w.reshape((1, d)), state.reshape((1, state.shape[0])), p.reshape((1, p.shape[0])),
-        t.reshape((1, d)), new.reshape((1, new.shape[0])), D.reshape((1, d, d)),
-    )  # fmt: skip
-
-
-@seldom
-@compiled
-def bed_energy(code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray) -> float:
-    """Energy stored beyond that of the elastic bed, per unit area."""
-    n = w.shape[0] - 1
-    kn, ks = p[Par.BED_KN], p[Par.BED_KS]
-    closing = min(w[n], 0.0)
-    press = -t[n] - kn * closing
+@compiled_inline
+def _stored(n: int, k: int, w: FloatArray, t: FloatArray, p: FloatArray) -> float:
+    """Energy stored beyond that of the elastic bed at the place k of many, per unit area."""
+    kn, ks = p[k, Par.BED_KN], p[k, Par.BED_KS]
+    closing = min(w[k, n], 0.0)
+    press = -t[k, n] - kn * closing
     stored: float = 0.5 * press * press / kn - 0.5 * kn * closing * closing
     for i in range(n):
-        drag = t[i] + ks * w[i]
+        drag = t[k, i] + ks * w[k, i]
         if ks > 0.0:
-            stored += 0.5 * drag * drag / ks - 0.5 * ks * w[i] * w[i]
+            stored += 0.5 * drag * drag / ks - 0.5 * ks * w[k, i] * w[k, i]
     return stored
 
 
-PLACE = Law(LawCode.BED, bed_point, bed_energy, ())
-"""No law of a model: footings over ground that yields put places under themselves."""
+@seldom
+@compiled
+def bed_energies(
+    first: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray, found: FloatArray
+) -> None:
+    """Energies stored beyond those of the elastic bed, and lost so far, of the places from `first`.
+
+    Per unit area, into `found` (2, n).
+    """
+    if w.shape[1] == 2:
+        for k in range(first, w.shape[0]):
+            found[0, k] = _stored(1, k, w, t, p)
+    else:
+        for k in range(first, w.shape[0]):
+            found[0, k] = _stored(2, k, w, t, p)
+    for k in range(first, w.shape[0]):
+        found[1, k] = state[k, Var.SHEAR_LOSS]

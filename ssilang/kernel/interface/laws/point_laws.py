@@ -10,7 +10,7 @@ from typing import Any
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_inline
-from ssilang.kernel.interface.laws.bed_law import PLACE, bed_points
+from ssilang.kernel.interface.laws.bed_law import bed_energies, bed_points
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.columns import Parameter as Par
 from ssilang.kernel.interface.laws.columns import Variable as Var
@@ -32,10 +32,20 @@ def _or_others(own: int, law: Answer, others: Answer) -> Any:
     return answer
 
 
-point_response, _stored = PLACE.point, PLACE.energy
-for _law in {law.code: law for law in reversed(LAWS.values())}.values():
+_last, *_others = {law.code: law for law in reversed(LAWS.values())}.values()
+point_response, _stored = _last.point, _last.energy
+for _law in _others:
     point_response = _or_others(int(_law.code), _law.point, point_response)
     _stored = _or_others(int(_law.code), _law.energy, _stored)
+
+
+@compiled
+def first_place(codes: IntArray) -> int:
+    """The first of the places under footings, which stand behind all other points."""
+    i = len(codes)
+    while i > 0 and codes[i - 1] == LawCode.BED:
+        i -= 1
+    return i
 
 
 @apart
@@ -50,22 +60,26 @@ def respond(
     D: FloatArray,
 ) -> None:
     """`point_response` on n points: w, t (n, d), state, new (n, N_STATE), D (n, d, d)."""
-    i, n = 0, w.shape[0]
-    while i < n:
-        if codes[i] == LawCode.BED:
-            first = i
-            while i < n and codes[i] == LawCode.BED:
-                i += 1
-            bed_points(first, i, w, state, p, t, new, D)
-        else:
-            point_response(codes[i], w[i], state[i], p[i], t[i], new[i], D[i])
-            i += 1
+    first = first_place(codes)
+    for i in range(first):
+        point_response(codes[i], w[i], state[i], p[i], t[i], new[i], D[i])
+    if first < len(codes):
+        bed_points(first, w, state, p, t, new, D)
 
 
 @compiled
 def point_energies(
-    code: int, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray
-) -> tuple[float, float]:
-    """Stored energy and energy lost so far of one point, per unit area, at its own state."""
-    spent = opening_loss(state[Var.XI], p[Par.FU], p[Par.GF])
-    return _stored(code, w, t, state, p), spent + state[Var.SHEAR_LOSS]
+    codes: IntArray, w: FloatArray, t: FloatArray, state: FloatArray, p: FloatArray,
+    found: FloatArray,
+) -> None:  # fmt: skip
+    """Energy stored and energy lost so far of n points at their own state, into `found` (2, n).
+
+    Per unit area.
+    """
+    first = first_place(codes)
+    for i in range(first):
+        found[0, i] = _stored(codes[i], w[i], t[i], state[i], p[i])
+        spent = opening_loss(state[i, Var.XI], p[i, Par.FU], p[i, Par.GF])
+        found[1, i] = spent + state[i, Var.SHEAR_LOSS]
+    if first < len(codes):
+        bed_energies(first, w, t, state, p, found)

@@ -6,7 +6,7 @@ and one motion for each load, that of its forces on the structure at rest.
 What presses on ground that yields, against what the ground bears.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -146,7 +146,7 @@ class Start:
     @cached_property
     def swings(self) -> list[Swing]:
         """The motions that loads and first velocities ask for."""
-        return [*swings(self.problem)]
+        return [*swings(self.problem, self.factors)]
 
     @cached_property
     def names(self) -> list[str]:
@@ -262,14 +262,14 @@ class Start:
         return bool(f @ delta > LITTLE**3 * self._closed(motion))
 
 
-def swings(problem: Problem) -> Iterator[Swing]:
-    """The motions that loads and first velocities ask for; of small problems alone.
+def swings(problem: Problem, factors: FloatArray) -> Iterator[Swing]:
+    """The motions that loads of these factors and first velocities ask for; small problems alone.
 
     Of a force f the static displacement x has the period `2 pi sqrt(x M x / x f)`, an upper
     estimate of those of the modes that it excites, weighed by their compliance (Rayleigh).
     Supports that move ask for what the inertia of the displacement that follows them does.
     """
-    T, given = problem.constraints.T, _loads(problem)
+    T, given = problem.constraints.T, _loads(problem, factors)
     if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
         return
     K = closed_stiffness(problem)
@@ -277,19 +277,19 @@ def swings(problem: Problem) -> Iterator[Swing]:
     if not largest or (K.diagonal() < 0.0).any():  # stresses of a matched layer are unknowns
         return
     # held by next to nothing: a load that moves a part of what is free is seen, too
-    weakly = K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest)
-    if moved := [k for k, (_, way, _, _) in enumerate(given) if way]:
-        ways = np.column_stack([given[k][0] for k in moved])
-        ways = problem.M @ (ways - T @ solved(weakly, T.T @ closed_forces(problem, ways)))
-        for k, force in zip(moved, ways.T, strict=True):
+    solved = solver_of(K + sp.eye_array(K.shape[0]) * (0.01 * WEAK * largest))
+    if pulled := [(k, way, held) for k, (way, held, *_) in enumerate(given) if held is not None]:
+        moved, ways, pulls = zip(*pulled, strict=True)
+        follows = T @ solved(T.T @ np.column_stack(pulls))
+        for k, force in zip(moved, (problem.M @ (np.column_stack(ways) - follows)).T, strict=True):
             given[k] = (force, *given[k][1:])
     forces = np.column_stack([T.T @ f for f, *_ in given])
-    motions = solved(weakly, forces)
+    motions = solved(forces)
     free = np.abs(motions).max(axis=0) * largest * WEAK > np.abs(forces).max(axis=0)
     free |= (motions * (K @ motions)).sum(axis=0) < WEAK * (K.diagonal() @ motions**2)
-    for x, (force, way, sudden, k), unheld in zip((T @ motions).T, given, free, strict=True):
+    for x, (force, pull, sudden, k), unheld in zip((T @ motions).T, given, free, strict=True):
         if unheld:
-            if not way and not is_dragged(problem, x):
+            if pull is None and not is_dragged(problem, x):
                 yield Swing(np.inf, 0.0, sudden, k, x)
             continue
         moved, work = float(x @ (problem.M @ x)), float(x @ force)
@@ -307,8 +307,8 @@ def is_dragged(problem: Problem, motion: FloatArray) -> bool:
     return bool(np.abs(motion * drag).max() > LITTLE * natural)
 
 
-def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
-    """Motions (n, k) under forces (n, k).
+def solver_of(K: sp.csr_array) -> Callable[[FloatArray], FloatArray]:
+    """What gives motions (n, k) under forces (n, k), K factorised once.
 
     Raises
     ------
@@ -316,27 +316,34 @@ def solved(K: sp.csr_array, forces: FloatArray) -> FloatArray:
         If nothing holds what moves.
     """
     if K.shape[0] > DENSE:
-        return SuperLUFactor(sp.csr_array(K), positive=True).solve(forces)
-    try:
-        return np.asarray(np.linalg.solve(K.toarray(), forces), float)
-    except np.linalg.LinAlgError as error:
-        raise SingularFactorError(str(error)) from None
+        return SuperLUFactor(sp.csr_array(K), positive=True).solve
+    from scipy.linalg.lapack import dgetrf, dgetrs
+
+    factors, order, singular = dgetrf(K.toarray())
+    if singular:
+        raise SingularFactorError(f"pivot {singular}")
+    return lambda forces: np.asarray(dgetrs(factors, order, forces)[0], float)
 
 
-def _loads(problem: Problem) -> list[tuple[FloatArray, bool, bool, int]]:
-    """Forces (n,) of loads that change, velocities, or ways of supports (so); if sudden; number."""
-    loading, found = problem.loading, []
-    factors = loading.at(problem.times)
+def _loads(
+    problem: Problem, factors: FloatArray
+) -> list[tuple[FloatArray, FloatArray | None, bool, int]]:
+    """Forces (n,) of loads that change and of velocities, or ways of supports; if sudden; number.
+
+    Of ways: what stiffness and closed joints hold them with (n,).
+    """
+    loading = problem.loading
+    found: list[tuple[FloatArray, FloatArray | None, bool, int]] = []
     sizes = np.abs(factors).max(axis=0, initial=0.0)
     bends = np.abs(np.diff(factors, 2, axis=0)).max(axis=0, initial=0.0)
     for k in np.flatnonzero(np.ptp(factors, axis=0) > 0.0):
         sudden = bool(bends[k] > SUDDEN * sizes[k])
-        found.append((loading.forces[:, k], False, sudden, int(k)))
+        found.append((loading.forces[:, k], None, sudden, int(k)))
         if loading.imposed[:, k].any():
             way = problem.constraints.particular(loading.imposed[:, k])
-            way *= bool(closed_forces(problem, way).any())
-            found.append((way, True, sudden, int(k)))
-    return [g for g in (*found, (problem.M @ problem.v, False, True, -1)) if g[0].any()]
+            found.append((way, closed_forces(problem, way), sudden, int(k)))
+    found.append((problem.M @ problem.v, None, True, -1))
+    return [g for g in found if (g[0] if g[1] is None else g[1]).any()]
 
 
 def against_supports(problem: Problem) -> dict[str, IntArray]:

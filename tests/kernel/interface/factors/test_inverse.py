@@ -7,10 +7,11 @@ from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
     apply_inverse,
+    make_plain,
     new_inverse,
     update_point,
 )
-from ssilang.kernel.interface.factors.kept import UPDATES, follow_points, new_factors
+from ssilang.kernel.interface.factors.kept import UPDATES, follow_points, list_others, new_factors
 from ssilang.kernel.interface.response import Joints, interface_stiffness
 from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
@@ -37,14 +38,18 @@ def matrix(joints, condensed, D):
     return np.eye(len(S)) + S @ (c * K - R)
 
 
+@together("few", [False, True])
 @together("d", [2, 3])
-def test_response_follows_points_that_change(d):
+def test_response_follows_points_that_change(d, few):
     rng = np.random.default_rng(d)
     joints, S, D = interface(rng, d)
     condensed = Condensed(S, 0.1 * np.eye(len(S)), SHARE)
-    inverse = new_inverse(len(S), d)
+    inverse = new_inverse(len(S), d, few=few)
     Y = inverse.Y
-    Y[:] = np.linalg.solve(matrix(joints, condensed, D), S)
+    if few:
+        assert make_plain(joints, condensed, D, inverse)
+    else:
+        Y[:] = np.linalg.solve(matrix(joints, condensed, D), S)
     for turn in range(40):
         p, new = turn % len(D), D.copy()
         new[p] = 0.0 if turn % 3 == 0 else 2.5 * np.eye(d) + 0.2 * rng.normal(size=(d, d))
@@ -71,14 +76,14 @@ def test_response_is_made_anew_by_elimination_or_by_blocks(n_pairs, excess):
     factors = new_factors(D.shape[:2], len(S), few=10**6)
     factors.updates[0] = 1
     condensed = Condensed(S, R, SHARE)
-    assert follow_points(joints, condensed, factors, D) == 0
+    assert follow_points(joints, condensed, factors, D, list_others(factors, D)) == 0
     truth = np.linalg.solve(matrix(joints, (S, excess * np.eye(len(S)), SHARE), D), S)
     np.testing.assert_allclose(factors.inverse.Y, truth, atol=1e-9 * np.abs(truth).max())
     np.testing.assert_array_equal(factors.tangents, D)
     counts = [0]
     for turn in range(UPDATES + 1):  # one point a turn, and none twice in the same way
         D[turn % len(D)] = (2.0 + 0.01 * turn) * np.eye(2)
-        assert follow_points(joints, condensed, factors, D) == 0
+        assert follow_points(joints, condensed, factors, D, list_others(factors, D)) == 0
         counts.append(factors.updates[0])
     assert counts == [*range(UPDATES + 1), 0]
 
@@ -89,7 +94,8 @@ def test_no_response_is_made_of_a_singular_matrix(n):
     pairs = np.arange(n, dtype=np.int64)[:, None]
     joints = Joints(pairs, np.ones((n, 1, 1)), np.ones(n), np.zeros(n, np.int64), np.zeros((n, 1)))
     factors, D = new_factors((n, 1), n), -np.ones((n, 1, 1))
-    assert follow_points(joints, Condensed(np.eye(n), np.zeros((0, 0)), 1.0), factors, D) < 0
+    alone = Condensed(np.eye(n), np.zeros((0, 0)), 1.0)
+    assert follow_points(joints, alone, factors, D, list_others(factors, D)) < 0
     assert np.isnan(factors.tangents[0]).all()
 
 

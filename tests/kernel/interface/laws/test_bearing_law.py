@@ -5,14 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from references.law_points import answer, table_of
+from references.law_points import answer, energies, table_of
 from scipy.integrate import solve_ivp
 from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode
 from ssilang.kernel.interface.laws.law_table import LAWS
-from ssilang.kernel.interface.laws.point_laws import point_energies
 
 KN, KS, KPOS, QD = 1e9, 1.1e7, 1e6, 2e5
 UY = QD / (KS - KPOS)
@@ -34,7 +33,7 @@ def along(code, p, path):
         t, state, _ = step(code, p, w, state)
         out.append(t)
     last = np.asarray(path[-1], float)
-    return np.array(out), point_energies(int(code), last, out[-1], state[0], p[0])
+    return np.array(out), energies(int(code), last, out[-1], state[0], p[0])
 
 
 def through(corners, n):

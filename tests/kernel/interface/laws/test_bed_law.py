@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from references.law_points import answer, table_of
+from references.law_points import answer, energies, table_of
 from scipy.optimize import minimize_scalar
 from together import together
 
 from ssilang.kernel.interface.laws.columns import N_STATE, Parameter, Variable
-from ssilang.kernel.interface.laws.point_laws import point_energies
 
 BED = 6
 KN, KS, C = 2e7, 1e7, 5e4
@@ -103,7 +102,7 @@ def test_paths_lose_energy_and_never_gain_any(path, friction):
     p, state, lost = parameters(FROT=friction), rest(), 0.0
     for w in path:
         t, after, _ = relief(w, state, p)
-        _, spent = point_energies(BED, np.array(w), t, after[0], p[0])
+        _, spent = energies(BED, np.array(w), t, after[0], p[0])
         assert spent >= lost - 1e-12 * abs(lost)
         # what is lost is force times plastic motion, no more
         whole, _ = carried(w, state, p)

@@ -4,10 +4,11 @@ import itertools
 
 import numpy as np
 import pytest
+from references.law_points import energies as energies_at
 from together import together
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
-from ssilang.kernel.interface.laws.point_laws import point_energies, respond
+from ssilang.kernel.interface.laws.point_laws import respond
 
 FINE = 400
 KN, KS = 3e8, 1.1e8
@@ -62,7 +63,7 @@ class Point:
         D, codes = np.zeros((1, self.d, self.d)), np.array([int(self.code)])
         respond(codes, w[None], self.state, self.p, t, new, D)
         self.state = new
-        return t[0], point_energies(int(self.code), w, t[0], new[0], self.p[0])
+        return t[0], energies_at(int(self.code), w, t[0], new[0], self.p[0])
 
 
 @together("name, seed, d", itertools.product(LAWS, [1, 2, 3], [2, 3]), by=lambda case: case[0])

@@ -7,6 +7,7 @@ import pytest
 from references import law_points
 from references.assembled import Bench
 from references.footing import Disc, Strip
+from references.law_points import energies
 from references.recorder import Recorder, recorded
 from references.rocking import macro_element_period
 from together import together
@@ -17,7 +18,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS
 from ssilang.kernel.interface.laws.macro_law import outline_of
-from ssilang.kernel.interface.laws.point_laws import point_energies
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
 
@@ -104,7 +104,7 @@ def test_tangent_and_energy(code, given, jumps):
             e = h * np.eye(len(w))[j]
             up, down = answer(code, w + e, p)[0], answer(code, w - e, p)[0]
             np.testing.assert_allclose((up - down) / (2 * h), D[:, j], rtol=1e-4, atol=20.0)
-        energy = point_energies(code, w, t, np.zeros(N_STATE), p[0])[0]
+        energy = energies(code, w, t, np.zeros(N_STATE), p[0])[0]
         s = (np.arange(400) + 0.5) / 400
         work = sum(answer(code, x * w, p)[0] @ w for x in s) / 400
         assert energy == pytest.approx(work, rel=1e-5, abs=1e-9)

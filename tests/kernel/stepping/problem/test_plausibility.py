@@ -7,6 +7,7 @@ from together import together
 
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.stepping.problem import plausibility, problem
 from ssilang.kernel.stepping.problem.plausibility import (
     Start,
     against_supports,
@@ -17,6 +18,11 @@ from ssilang.kernel.stepping.problem.plausibility import (
 )
 
 T = 1e-3 * np.arange(41)
+
+
+def swings_of(problem):
+    """`swings` with the factors of the problem's loads."""
+    return swings(problem, problem.loading.at(problem.times))
 
 
 def block(**change):
@@ -102,10 +108,20 @@ def masses(*loads, c=0.0, v=None, free=False):
 SINE, STEP = np.sin(30 * T), (T > 0.01) * 1.0
 
 
-def test_periods_are_rayleighs_of_the_static_shape():
+def counting(function, counted):
+    """The function, that counts its calls by its name."""
+
+    def count(*args):
+        counted[function.__name__] = counted.get(function.__name__, 0) + 1
+        return function(*args)
+
+    return count
+
+
+def test_periods_are_rayleighs_of_the_static_shape(monkeypatch):
     K, M = np.array([[11e4, -8e4], [-8e4, 8e4]]), np.diag([2.0, 5.0])
     loads = (7.0, -2.0, SINE), (1.0, 4.0, STEP), (1.0, 1.0, np.ones(41))
-    found = [*swings(masses(*loads, c=60.0, v=0.3))]
+    found = [*swings_of(masses(*loads, c=60.0, v=0.3))]
     assert [s.sudden for s in found] == [False, True, True]
     for s, f in zip(found, ([7.0, -2.0], [1.0, 4.0], M @ [0.3, 0.6]), strict=True):
         x = np.linalg.solve(K, f)
@@ -119,15 +135,20 @@ def test_periods_are_rayleighs_of_the_static_shape():
         b.spring(k, n[i], n[i + 1])
     base = b.relate([(1.0, "UY", n[0])])
     pull = NodeField.of(b.table, np.array([base]), {"FLX": np.array([0.4])})
-    (carried,) = swings(b.problem(T, b.load(pull, T, SINE)))
+    counted = {}
+    for name in ("solver_of", "closed_forces"):
+        monkeypatch.setattr(plausibility, name, counting(getattr(plausibility, name), counted))
+    monkeypatch.setattr(problem, "closed_forces", plausibility.closed_forces)
+    (carried,) = swings_of(b.problem(T, b.load(pull, T, SINE)))
     x = np.linalg.solve(K, M @ [1.0, 1.0])
     assert carried.period == pytest.approx(2 * np.pi * np.sqrt(x @ M @ x / (x @ M @ [1.0, 1.0])))
+    assert counted == {"solver_of": 1, "closed_forces": 2}  # of the way, and of what is free
     first = np.linalg.eigvals(np.linalg.solve(M, K)).min()
     assert carried.period == pytest.approx(2 * np.pi / np.sqrt(first), rel=0.01)
     for second in (1.0, 0.0, -0.3):
-        (loose,) = swings(masses((1.0, second, SINE), free=True))
+        (loose,) = swings_of(masses((1.0, second, SINE), free=True))
         assert loose.period == np.inf
-    assert not [*swings(masses((1.0, 1.0, SINE), free=True, c=5.0))]
+    assert not [*swings_of(masses((1.0, 1.0, SINE), free=True, c=5.0))]
     for weak, held in ((1e-16, False), (1e-10, True)):  # of the largest stiffness
         b = Bench()
         for x, k in ((0.0, 1e9), (1.0, 1e9 * weak)):
@@ -135,9 +156,9 @@ def test_periods_are_rayleighs_of_the_static_shape():
             b.mass(2.0, node, ("UY",))
             b.spring(k, node)
         push = b.load(b.field((node, "FY", 3.0)), T, SINE)
-        (one,) = swings(b.problem(T, push))
+        (one,) = swings_of(b.problem(T, push))
         assert np.isfinite(one.period) == held
-    assert not [*swings(masses((1.0, 2.0, np.ones(41))))]
+    assert not [*swings_of(masses((1.0, 2.0, np.ones(41))))]
 
 
 def test_masses_alone_and_starts_against_supports():
