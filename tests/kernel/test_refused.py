@@ -13,14 +13,20 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.elements.results.supports import nodal_of_field, values_at_points
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.isovalue import isovalue
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS
 from ssilang.kernel.interface.laws.law import columns_of
 from ssilang.kernel.interface.laws.mohr_law import check_mohr_parameters
 from ssilang.kernel.materials import behaviours
+from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.plastic import creep, laws
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
 from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.matrices import assembly, build, relations, superelement, tied_relations
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.changes.merge import cut_open
 from ssilang.kernel.mesh.combine import polygons
@@ -34,6 +40,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import enclosed_volume, node_sizes
 from ssilang.kernel.mesh.surfaces import charts, surface
 from ssilang.kernel.modal import explicit, links, oscillator
+from ssilang.kernel.modal.modes import complex_modes, modes_near
 from ssilang.kernel.records import filters, floors, inelastic, matching, modulated, power, signals
 from ssilang.kernel.records.soil_column import SoilColumn, free_field
 from ssilang.kernel.solvers.active_set.contact_methods import augmented, penalty, uzawa
@@ -46,6 +53,8 @@ PLANE, ROUND, SPATIAL = Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSI
 ONE, TWO = np.ones(1), np.array([1.0, 2.0])
 TABLE = NodeTable()
 TABLE.add(np.array([[x, y, z] for z in (0, 1) for y in (0, 1, 2) for x in (0, 1, 2)], float))
+MANY = NodeTable()
+MANY.add(np.zeros((6001, 3)))
 LINE, SURE = (Mesh.of(TABLE, "SEG2", np.array(c)) for c in ([[0, 1], [1, 2]], [[3, 4], [4, 5]]))
 STAR = Mesh.of(TABLE, "SEG2", np.array([[1, 4], [3, 4], [4, 5]]))
 QUADS = Mesh.of(TABLE, "QUA4", np.array([[0, 1, 4, 3], [1, 2, 5, 4]]))
@@ -91,6 +100,30 @@ yielding = by(inelastic.yielding_peaks, times=TIMES, signal=TIMES, frequencies=O
 match = by(matching.matched, times=TIMES, values=TIMES, frequencies=ONE, target=ONE, damping=0.1,
            tolerance=0.1)  # fmt: skip
 column = by(free_field, soil=SOIL, step=0.1, acceleration=TWO, depths=ONE, cutoff=5.0)
+
+
+def masses(*values, table=TABLE):
+    """A matrix of these terms at the first points, for UX."""
+    nodes = np.arange(len(values))
+    return build.nodal_diagonal(table, nodes, {"UX": np.array(values, float)}, "RIGIDITE")
+
+
+def askew(*nodes):
+    """An unsymmetric matrix between UX of two points."""
+    block = replace(masses(1.0).blocks[0], raw_nodes=np.array([nodes]), local=np.arange(2),
+                    unknowns=("UX", "UX"), duals=("FX", "FX"), symmetric=False,
+                    values=np.array([[[2.0, 1.0], [0.0, 2.0]]]))  # fmt: skip
+    return Matrix(TABLE, (block,))
+
+
+def held(matrix, *nodes, dual=None):
+    """The same with conditions on UX of points."""
+    rows = relations.blocked(TABLE, np.array(nodes), ("UX",))
+    return replace(matrix, relations=(replace(rows, dual=rows if dual else None),), cache={})
+
+
+def vibrating(K, M):
+    return lambda: modes_near(K, M, [(0.0, 1)])
 
 
 def law(*rows):
@@ -211,7 +244,75 @@ REFUSED = {
         "rh-coulomb-needs-cohesion": [checked("RH_COULOMB", COHE=0.0, PHI=0.4)],
         "rh-coulomb-phi": [checked("RH_COULOMB", COHE=1.0, PHI=x) for x in (0.0, np.pi / 2)],
         "fc-concrete-needs-strength": [checked("BETON_BAEL", FC=0.0)],
+        "young-modulus-youn-not": [lambda: check_isotropic(np.array([1.0, np.inf]), TWO / 5)],
+        "drucker-parfait-ltr-lcs": [
+            checked("DRUCKER_PARFAIT", LTR=x, LCS=y) for x, y in ((0.0, 1.0), (0.5, -0.49))
+        ],
+        "ultimate-cone-drucker-prager": [
+            checked("DRUCKER_PRAGER", ALFA=0.4, BETA=0.4, ETA=x, MU=0.4, DELT=0.4)
+            for x in (0.39, 0.41)
+        ],
+        "norton": [
+            lambda wrong=wrong: creep.check(PointParameters({
+                n: np.array([0.5 + k, v])
+                for k, (n, v) in enumerate(({"AF1": 0.0, "AF2": 1.0, "AF3": 1.0} | wrong).items())
+            }, {}))
+            for wrong in ({"AF1": -1e-9}, {"AF2": 0.99}, {"AF3": 0.0}, {"AF3": 1.01})
+        ],
+        "no-plastic-law-bodies": [lambda: laws.plastic_law(("ELASTIQUE", "PLASTIQUE", "PERFECT"))],
+        "must": [
+            lambda: laws.check_parameters(
+                PLASTIC_LAWS["PARFAIT"], PointParameters({"SIGY": TWO - 1.0}, {})
+            )
+        ],
         "curve-strengths-not": [checked("ISOTROPE", ECRO=Curve((CurvePart(TWO, TWO - 1.0),)))],
+    },
+    "plasticity": {
+        "parameter-curve": [lambda: laws.different_curves("ECRO", np.array([1.0], object))],
+    },
+    "fields": {
+        "no-value-looked-cells": [
+            lambda: isovalue(CellField((CellFieldBlock(FIVE.blocks[0], {"T": ONE[None]}),)), 0.5)
+        ],
+    },
+    "matrices": {
+        "numbering-needs-least-matrix": [assembly.numbering_of],
+        "relation-unknowns-numbering-lacks": [
+            lambda: assembly.constraint_matrix(
+                held(masses(1.0), 1), assembly.numbering_of(masses(1.0))
+            )
+        ],
+        "full-matrix-rows-too": [
+            lambda: build.sum_of_outer_products(
+                [NodeField(TABLE, {"UX": NodeValues(np.arange(20_001), np.zeros(20_001))})],
+                [1.0], "RIGIDITE",
+            )
+        ],
+        "segment-cable-no-length": [
+            lambda: build.cable_stiffness(
+                Mesh.of(TABLE, "SEG2", np.array([[0, 1], [2, 2]])), 3, 1.0, 1.0
+            )
+        ],
+        "weights-around-node-zero": [
+            lambda r=r: build.filter_weights(
+                NodeField(TABLE, {"T": NodeValues(np.arange(3), np.array([0.0, 0.0, 1.0]))}),
+                r, 1.0, 0.0, "T", "Q",
+            )
+            for r in (0.0, 1.0)
+        ],
+        "factor-not-finite": [
+            lambda x=x: relations.relation_rows(
+                TABLE, [relations.Term(np.array([1.0, x]), "UX", np.array([0, 1]))]
+            )
+            for x in (np.nan, -np.inf)
+        ],
+        "antisymmetry-leaves-rotations-plane": [
+            lambda: relations.mirror_rows(TABLE, np.array([0]), AXIS[1], (), ("RZ",), False)
+        ],
+        "sliding-relation-wants-line": [lambda: tied_relations.sliding(QUADS, QUADS, ("UX", "UY"))],
+        "master-unknowns-make-too": [
+            lambda: superelement.condense(many := masses(*np.ones(6001), table=MANY), many)
+        ],
     },
     "interface": {
         "joint-parameter-not-finite": [joint(columns_of, np.nan), joint(columns_of, np.inf)],
@@ -297,9 +398,26 @@ REFUSED = {
         "speed-not-positive": [lambda: Unlike(0.0), lambda: Unlike(200.0, 0.1, 0.0)],
         "gamma-negative": [lambda: Unlike(200.0, -0.1)],
         "step-not-positive": [plane(0.0)],
+        "surface-at-rest": [  # a shear wave at 45 degrees shakes it upright alone
+            lambda: waves.plane_motion(
+                replace(SPACE, shear=ONE[[0, 0]], primary=2.0 * ONE[[0, 0]], damping=0.0 * TWO),
+                replace(WAVE, kind="SV", angle=np.pi / 4, given="SURFACE"), ONE, ONE, None,
+            )
+        ],
         "angle-not-upwards": [plane(angle=np.pi / 2)],
     },
     "modal": {
+        "modes-non-associated-relations": [
+            vibrating(held(masses(1.0, 2.0), 0, dual=True), masses(1.0, 2.0))
+        ],
+        "matrices-not-symmetric-modes": [
+            vibrating(askew(0, 1), masses(1.0, 2.0)), vibrating(masses(1.0, 2.0), askew(0, 1))
+        ],
+        "conditions-hold-every-unknown": [
+            vibrating(held(masses(1.0, 2.0), 0, 1), masses(1.0, 2.0)),
+            lambda: complex_modes(held(masses(1.0, 2.0), 0, 1), masses(1.0, 2.0), None, 0.0, 1),
+        ],
+        "mass-matrix-negative-eigenvalues": [vibrating(masses(1.0, -1.0), masses(1.0, -3.0))],
         "step-numbers-steps-must": [modes(h=0.0), modes(count=0), modes(every=0)],
         "mass-modes-singular": [modes(M=np.ones((2, 2))), modes(M=np.diag([1.0, np.inf]))],
         "link-no-positive-stiffness": [contact(law=None, numbers={links.STIFF: 0.0})],

@@ -111,6 +111,10 @@ def test_functions_of_all_types_of_operands(session, word):
     assert [p.abscissas.tolist() for p in parts] == [[1, 2, 4], [0, 3]]
     for part, values in zip(parts, (A, [5.0, 0.25]), strict=True):
         np.testing.assert_allclose(part.ordinates, f(np.asarray(values)), rtol=1e-14)
+    for axis in ("ABSC", "ORDO") if " " not in word else ():
+        (part, _), place = asked(session, f"{word} '{axis}' E").parts, np.array([1.0, 2.0, 4.0])
+        both = (f(place), A) if axis == "ABSC" else (place, f(A))
+        np.testing.assert_allclose((part.abscissas, part.ordinates), both, rtol=1e-14)
 
 
 @pytest.mark.parametrize("sign", PAIRS)

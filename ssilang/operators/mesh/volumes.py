@@ -141,6 +141,7 @@ def turned(
     *_CUTS,
 )
 def along_line(
+    call: Call,
     along: Chosen,
     base: Mesh,
     count: int | None,
@@ -149,6 +150,8 @@ def along_line(
     wordy: bool,
 ) -> Mesh:
     """Sweep a volume along a line, a layer for each of its cells."""
+    if count is not None or sizes or places is not None:
+        call.warn("operators.mesh.line-gives-layers", count=along["line"].n_cells)
     path, layers = generator_path(along["line"])
     surface = surface_to_sweep(base, 1)
     made = sweep.sweep_surface(surface, path, layers)

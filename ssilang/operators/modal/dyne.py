@@ -221,10 +221,10 @@ def _start(
     if not isinstance(again, Table):
         return start
     kept = again.get("LIAISONS")
-    state = np.asarray(kept.values).reshape(-1, STATES) if isinstance(kept, ListReel) else None
-    if state is None or len(state) != links:
+    state = np.asarray(kept.values) if isinstance(kept, ListReel) else None
+    if state is None or state.size != links * STATES:
         raise call.error("operators.modal.table-reprise-not-hold", again, links=links)
-    start = replace(start, time=_of_mode(call, again, "TEMPS"), links=state)
+    start = replace(start, time=_of_mode(call, again, "TEMPS"), links=state.reshape(-1, STATES))
     if again.has("PAS_DE_TEMPS") and not np.isclose(_of_mode(call, again, "PAS_DE_TEMPS"), steps.h):
         return start  # half a step before is another instant then
     before, q_before = (
