@@ -300,7 +300,7 @@ def _lines_of(
 ) -> tuple[list[ElementMatrices], list[ElementMatrices], IntArray]:
     """Cells, lines among them, and the nodes (n,) that springs, joints or conditions have."""
     cells = [b for b in matrix.blocks if b.zone and b.nodes.shape[1] > 1 and not is_joint(b.zone)]
-    joined = [b.nodes.ravel() for b in matrix.blocks if not b.zone or is_joint(b.zone)]
+    joined = [b.nodes.ravel() for b in matrix.blocks if b not in cells]
     joined += [np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)]
     lines = [b for b in cells if b.zone and b.zone.cells.kind.dimension == 1]
     return cells, lines, np.concatenate(joined)
