@@ -1,10 +1,10 @@
 """Entries that a script puts into a table for a procedure: unknown ones, and wrong values."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ssilang.cli.checking.kinds import ANY_WORD, kind_word
-from ssilang.cli.checking.usage import statements_of
+from ssilang.cli.checking.usage import phrases_in, statements_of
 from ssilang.language.run.library import Library
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -58,8 +58,8 @@ def _calls(
     statement: tree.Statement, given: Given, library: Library
 ) -> Iterator[tuple[Declaration, str, str]]:
     """The tables that a statement calls procedures of the library with: argument and name."""
-    for items in _phrases(statement.items):
-        name = items[0].text if isinstance(items[0], tree.Name) else ""
+    for items in phrases_in(statement.items):
+        name = items[0].text if items and isinstance(items[0], tree.Name) else ""
         procedure = library.find(name) if name in library.standard_names else None
         declared = library.declared(name) if procedure is not None else None
         if procedure is None or declared is None:
@@ -68,15 +68,6 @@ def _calls(
         names = [i.text for i in items[1:] if isinstance(i, tree.Name) and i.text in given]
         for argument, table in zip(taken, names, strict=False):
             yield declared, argument, table
-
-
-def _phrases(items: Sequence[tree.Item]) -> Iterator[Sequence[tree.Item]]:
-    """A phrase and those in its parentheses, which run first."""
-    for item in items:
-        if isinstance(item, tree.Paren):
-            yield from _phrases(item.items)
-    if items:
-        yield items
 
 
 def _wrong(

@@ -124,7 +124,7 @@ def left_to_right(script: tree.Script) -> Iterator[SsiError]:
     fives = [
         five
         for statement in statements_of(script.body)
-        for items in _phrases((*statement.targets, *statement.items))
+        for items in phrases_in((*statement.targets, *statement.items))
         for five in zip(*(items[k:] for k in range(5)), strict=False)
     ]
     for five in fives:
@@ -149,7 +149,7 @@ def crossed_words(script: tree.Script, *, plane: bool) -> Iterator[SsiError]:
     Two horizontal axes of space may be turned.
     """
     for statement in statements_of(script.body):
-        for items in _phrases(statement.items):
+        for items in phrases_in(statement.items):
             word = (*items, None)[0]
             first = word.text[:4] if isinstance(word, tree.Name) else ""
             named: list[str] = []
@@ -177,12 +177,12 @@ def _sign(item: tree.Item) -> str:
     return item.text if isinstance(item, tree.Symbol) else ""
 
 
-def _phrases(items: Sequence[tree.Item]) -> Iterator[Sequence[tree.Item]]:
+def phrases_in(items: Sequence[tree.Item]) -> Iterator[Sequence[tree.Item]]:
     """A phrase and those in its parentheses."""
     yield items
     for item in items:
         inside = item.items if isinstance(item, tree.Paren) else ()
-        yield from _phrases(item.indices if isinstance(item, tree.Path) else inside)
+        yield from phrases_in(item.indices if isinstance(item, tree.Path) else inside)
 
 
 def bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:

@@ -14,6 +14,7 @@ from ssilang.cli.checking.usage import (
     left_to_right,
     misspelt_names,
     stale_names,
+    statements_of,
     unused_names,
 )
 from ssilang.cli.checking.words import misspelt_words
@@ -339,13 +340,5 @@ def _head(span: Any) -> Any:
 
 def _opens(nodes: Iterable[tree.Node]) -> bool:
     """Whether nodes contain a statement that brings names the text does not show."""
-    for node in nodes:
-        if isinstance(node, tree.Statement):
-            if not node.assigns and node.first_word[:4] in _OPENING:
-                return True
-        elif isinstance(node, tree.If):
-            if _opens(node.then) or _opens(node.otherwise):
-                return True
-        elif isinstance(node, tree.Loop) and _opens(node.body):
-            return True
-    return False
+    every = statements_of(nodes)
+    return any(not s.assigns and s.first_word[:4] in _OPENING for s in every)

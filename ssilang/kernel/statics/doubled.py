@@ -257,16 +257,13 @@ def bodies_apart(matrix: Matrix, zones: Iterable[Zone] = ()) -> IntArray:
 
 def ends_apart(matrix: Matrix) -> IntArray:
     """Ends (n,) of lines at the place of another node of their body, which nothing joins there."""
-    cells = [b for b in matrix.blocks if b.zone and b.nodes.shape[1] > 1 and not is_joint(b.zone)]
-    lines = [b.nodes for b in cells if b.zone and b.zone.cells.kind.dimension == 1]
+    cells, lines, joined = _lines_of(matrix)
     if not lines:
-        return np.zeros(0, np.int64)
-    joined = [b.nodes.ravel() for b in matrix.blocks if not b.zone or is_joint(b.zone)]
-    joined += [r.nodes for r in matrix.relations]
+        return joined[:0]
     counts = np.bincount(np.concatenate([b.nodes.ravel() for b in cells]))
-    nodes = np.unique(np.concatenate([x.ravel() for x in lines]))
+    nodes = np.unique(np.concatenate([b.nodes.ravel() for b in lines]))
     points, found = matrix.table.coordinates, list[int]()
-    loose = (counts[nodes] == 1) & ~np.isin(nodes, np.concatenate([nodes[:0], *joined]))
+    loose = (counts[nodes] == 1) & ~np.isin(nodes, joined)
     body = bodies_of_nodes(matrix, [b.nodes for b in cells])[nodes]
     near = NEAR * float(np.ptp(points[nodes], axis=0).max())
     for place in _met(points, nodes, np.arange(len(nodes))).tolist() if loose.any() else ():
@@ -274,6 +271,39 @@ def ends_apart(matrix: Matrix) -> IntArray:
         if (here & loose).any() and len(np.unique(body[here])) == 1:
             found.append(int(nodes[(here & loose).argmax()]))
     return np.array(found, np.int64)
+
+
+def feet_free(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
+    """Feet (n,) of frames that nothing holds, as high as one that a support, spring or joint holds.
+
+    A foot is a node that all its cells stand upon, beams alone.
+    """
+    cells, lines, joined = _lines_of(matrix)
+    beams = [b for b in lines if b.zone and b.zone.element in ("POUT", "TIMO")]
+    if not beams:
+        return joined[:0]
+    heights = matrix.table.coordinates[:, 1 + ("UZ" in beams[0].unknowns)]
+    ends = np.concatenate([b.nodes[:, [0, -1]] for b in beams])
+    low, high = np.take_along_axis(ends, heights[ends].argsort(axis=1), axis=1).T
+    near = NEAR * float(np.ptp(heights[ends]))
+    flat = low[heights[high] - heights[low] <= near]
+    others = [b.nodes.ravel() for b in cells if b not in beams]
+    feet = np.setdiff1d(low, np.concatenate([high, flat, *others]))
+    own = [z.cells.nodes.resolve(z.cells.raw).ravel() for z in joints]
+    held = np.isin(feet, np.concatenate([joined, *own]))
+    level = [np.abs(heights[feet[held]] - h).min(initial=np.inf) for h in heights[feet[~held]]]
+    return np.asarray(feet[~held][np.array(level) <= near], np.int64)
+
+
+def _lines_of(
+    matrix: Matrix,
+) -> tuple[list[ElementMatrices], list[ElementMatrices], IntArray]:
+    """Cells, lines among them, and the nodes (n,) that springs, joints or conditions have."""
+    cells = [b for b in matrix.blocks if b.zone and b.nodes.shape[1] > 1 and not is_joint(b.zone)]
+    joined = [b.nodes.ravel() for b in matrix.blocks if b not in cells]
+    joined += [np.zeros(0, np.int64), *(r.nodes for r in matrix.relations)]
+    lines = [b for b in cells if b.zone and b.zone.cells.kind.dimension == 1]
+    return cells, lines, np.concatenate(joined)
 
 
 def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:

@@ -44,7 +44,7 @@ AWAY = 0.2  # of the largest push: a mean that drives a body from its support
 AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
 SAME_MASS = 0.01  # of a beam
 SAME_PULL = 1e-6  # of what a node weighs by its mass
-TIMES = 9.7  # masses of a body over that of its weight: where g is left out it is 9.81
+TIMES = 10.0  # masses of a body over that of its weight
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
@@ -253,7 +253,8 @@ def bodies_stand(start: Start) -> Told:
             yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "node": node}
         if weight > 0.0 and start.touches(-up) and not start.holds(up):
             times = mass * GRAVITIES[0] / weight
-            if times > TIMES and mass != 1.0 and start.shaking.any():
+            same = abs(mass - weight) < SAME_PULL * weight and mass != 1.0  # g left out; no unit
+            if same or (times > TIMES and start.shaking.any()):
                 told = {"mass": mass, "weight": weight, "times": times}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
             if (problem.interface is None or problem.contact is None) and not start.touches(up):

@@ -80,6 +80,7 @@ def warn_connections(
         found["operators.matrices.stops-held"] = doubled.stops_held(matrix)
         found["operators.matrices.springs-apart"] = doubled.springs_apart(matrix, used)
         if not any(z.formulation == "CONTACT" for z in zones):
+            found["operators.matrices.feet-free"] = doubled.feet_free(matrix, joints)
             found["operators.matrices.beside-joints"] = doubled.beside_joints(matrix, joints)
             found["operators.matrices.bodies-apart"] = doubled.bodies_apart(matrix, joints)
     for code, nodes in found.items():
