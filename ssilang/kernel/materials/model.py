@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from enum import Enum
 
+import numpy as np
+
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 
@@ -48,6 +50,16 @@ class Zone:
     mode: Mode
     constituent: str = ""
     options: dict[str, object] = field(default_factory=dict)
+
+
+def same_cells(a: Zone | None, b: Zone) -> bool:
+    """Whether two zones are the same element on the same cells, of whatever law."""
+    if a is None or a.element != b.element:
+        return False
+    return a.cells is b.cells or (
+        a.cells.cell_type == b.cells.cell_type
+        and np.array_equal(a.cells.connectivity, b.cells.connectivity)
+    )
 
 
 @dataclass(frozen=True, eq=False)
