@@ -1,6 +1,7 @@
 """Nesting of statements into blocks, by their first word, as the language skips branches."""
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text import tree
@@ -12,6 +13,7 @@ _CONTROL = {
     "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
     "FINP": "FINP", "DEBM": "DEBM", "FINM": "FINM",
 }  # fmt: skip
+_OF_LOOPS = ("FIN", "ITER", "QUIT")
 _OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
 
 
@@ -127,13 +129,11 @@ def _without_strays(statement: tree.Statement) -> tree.Statement:
 
 def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     """Words of blocks that a statement takes as operands, as its own end is missing."""
-    found = []
-    for i, item in enumerate(statement.items[1:], 1):
-        if not isinstance(item, tree.Name):
-            continue
-        word = _CONTROL.get(item.text[:4], "")
-        loop = word == "FIN" and [getattr(x, "text", "").upper() for x in statement.items[i + 1 :]]
-        if word in ("SINO", "FINS", "FINP") or (loop and loop[0] in {o.name for o in stack[1:]}):
+    found, loops = [], {opened.name for opened in stack[1:]}
+    for item, after in pairwise((*statement.items[1:], None)):
+        word = item.text[:4].rstrip() if isinstance(item, tree.Name) else ""
+        of_loop = word in _OF_LOOPS and getattr(after, "text", "").upper() in loops
+        if word in ("SINO", "FINS", "FINP", "FINM") or of_loop:
             found.append(SsiError("block-word-inside", item.span, word=item.span.text))
             found[-1].warns = True
     return found
