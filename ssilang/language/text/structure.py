@@ -13,7 +13,6 @@ _CONTROL = {
     "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
     "FINP": "FINP", "DEBM": "DEBM", "FINM": "FINM",
 }  # fmt: skip
-_OF_LOOPS = ("FIN", "ITER", "QUIT")
 _OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
 
 
@@ -130,9 +129,10 @@ def _without_strays(statement: tree.Statement) -> tree.Statement:
 def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     """Words of blocks that a statement takes as operands, as its own end is missing."""
     found, loops = [], {opened.name for opened in stack[1:]}
+    of_loops = ("FIN", "QUIT", "ITER")[: 1 if control_word(statement) == "SI" else 3]
     for item, after in pairwise((*statement.items[1:], None)):
         word = item.text[:4].rstrip() if isinstance(item, tree.Name) else ""
-        of_loop = word in _OF_LOOPS and getattr(after, "text", "").upper() in loops
+        of_loop = word in of_loops and getattr(after, "text", "").upper() in loops
         if word in ("SINO", "FINS", "FINP", "FINM") or of_loop:
             found.append(SsiError("block-word-inside", item.span, word=item.span.text))
             found[-1].warns = True
