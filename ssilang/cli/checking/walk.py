@@ -14,6 +14,7 @@ from ssilang.cli.checking.usage import (
     left_to_right,
     misspelt_names,
     stale_names,
+    statements_of,
     unused_names,
 )
 from ssilang.cli.checking.words import misspelt_words
@@ -28,6 +29,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.values import Mot, Procedure, known_types
+from ssilang.messages.message import Sentence
 
 # statements that may bring names the text does not show
 _OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "MENU"})
@@ -51,6 +53,8 @@ class Checker:
         self.entries: dict[int, Any] = {}  # what entries of tables are given, in the same way
         self.phrases = PhraseReader(session, self._report)
         self._told = 0  # problems, those that were there already among them
+        self._doubt = self._dead = False  # whether runs may leave out what is read, or all do
+        self._excused = False  # whether a problem is one where a run takes a branch, if at all
         self._procedures: list[tree.Definition] = []
         self._names: set[str] = set()
         self._loops: set[str] = set()
@@ -94,6 +98,9 @@ class Checker:
 
     def _report(self, problem: SsiError) -> None:
         self._told += 1
+        if self._excused and problem.severity == "error":
+            problem.warns = True
+            problem.data["in_branch"] = Sentence("in-branch")
         if problem.code == "unknown-operator":  # what is read after all
             self.problems = [
                 e for e in self.problems if (e.code, e.span) != ("not-built-yet", problem.span)
@@ -104,10 +111,28 @@ class Checker:
 
     def _walk(self, nodes: Iterable[tree.Node], scope: Scope) -> None:
         for node in nodes:
+            lost = self._of_other_branches(node, scope) if self._doubt else ()
+            self._excused = self._dead or bool(lost)
             try:
                 self._visit[type(node)](node, scope)
             except SsiError as error:
                 self._report(error)
+            scope.forget(lost)  # each is told once
+            self._excused = False
+
+    def _of_other_branches(self, node: tree.Node, scope: Scope) -> Iterable[str]:
+        """Names that a node reads to which the script gives a value, on no way that leads here."""
+        head = next(statements_of([node]))
+        paths = [t for t in head.targets if isinstance(t, tree.Path)]
+        read = {name.text for name in bare_names((*paths, *head.items))}
+        return set() if scope.open else (read & self._names) - scope.values.keys()
+
+    def _branch(self, nodes: Iterable[tree.Node], scope: Scope, taken: bool | None) -> None:
+        """One branch of a SI: all runs take it, none does, or nobody knows (None)."""
+        before = self._doubt, self._dead
+        self._doubt, self._dead = self._doubt or not taken, self._dead or taken is False
+        self._walk(nodes, scope)
+        self._doubt, self._dead = before
 
     # ---- blocks --------------------------------------------------------------------------------
 
@@ -121,8 +146,9 @@ class Checker:
         asked = {n: v for n in names if isinstance(v := scope.values.get(n), int | float)}
         scope.values.update({n: typed(kind_word(v)) for n, v in asked.items()})
         other = scope.copy()
-        self._walk(node.then, scope)
-        self._walk(node.otherwise, other)
+        holds = {"VRAI": True, "FAUX": False}.get(" ".join(names))
+        self._branch(node.then, scope, holds)
+        self._branch(node.otherwise, other, None if holds is None else not holds)
         scope.join(other)
         scope.values.update({n: asked[n] for n in asked.keys() - assigned_names([node])})
 

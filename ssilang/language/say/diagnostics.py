@@ -24,7 +24,7 @@ _INDICES_SHOWN = 20
 _KINDS = {"error": "label-error", "warning": "label-warning", "note": "label-note"}
 
 
-_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here")
+_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here", "in_branch")
 """Data that phrases add to errors: sentences that are said before the hint (`phrase_errors`)."""
 
 
