@@ -24,6 +24,7 @@ from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.not_built import put_off
+from ssilang.language.run.operands import Operand
 from ssilang.language.run.phrases import name_as_word, no_result, unended
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -86,13 +87,10 @@ class Checker:
         ):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
-        for problem in misspelt_names(script, names, _known_words()):
-            if problem.span not in [e.span for e in self.problems]:
-                self._report(problem)
-        for problem in misspelt_words(script, names):
-            inside = [e.span for e in self.problems if e.span is not None]
-            assert problem.span is not None
-            if problem.span.start not in [s.start for s in inside]:
+        perhaps = (*misspelt_names(script, names, _known_words()), *misspelt_words(script, names))
+        for problem in perhaps:
+            told = {e.span.start for e in self.problems if e.span is not None}
+            if problem.span is not None and problem.span.start not in told:
                 self._report(problem)
         return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
 
@@ -173,15 +171,7 @@ class Checker:
             left = self.phrases.read(node.count, scope, node.span)
             kind = kind_word(left[0].value) if left and len(left) == 1 else ""
             if kind not in ("", "ENTIER", "FLOTTANT", "TEXTE"):
-                if isinstance(left[0].value, Mot) if left else False:
-                    words = left or []
-                    error = name_as_word("loop-count", words, scope.values.get(str(words[0].value)))
-                    if error is not None:
-                        self._report(error)
-                    else:
-                        self._undefined(words[0], "REPE")
-                else:
-                    self._report(SsiError("loop-count", node.count[0].span, found=kind))
+                self._report(self._no_count(left or [], scope, kind))
         before = scope.copy()
         scope.forget(assigned_names(node.body))
         scope.values[("&" + node.name)[:24]] = typed("ENTIER")
@@ -195,10 +185,12 @@ class Checker:
         scope.join(before)
         scope.values[("&" + node.name)[:24]] = counter
 
-    def _undefined(self, operand: Any, operator: str) -> None:
-        self._report(
-            SsiError("undefined-name", operand.span, name=str(operand.value), operator=operator)
-        )
+    def _no_count(self, left: list[Operand], scope: Scope, kind: str) -> SsiError:
+        if not isinstance(left[0].value, Mot):
+            return SsiError("loop-count", left[0].span, found=kind)
+        name = str(left[0].value)
+        error = name_as_word("loop-count", left, scope.values.get(name))
+        return error or SsiError("undefined-name", left[0].span, name=name, operator="REPE")
 
     def _definition(self, node: tree.Definition, scope: Scope) -> None:
         self._procedures.append(node)

@@ -41,7 +41,7 @@ from ssilang.kernel.interface.laws.law_table import (
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.point_state import energies_of_points, point_states
 from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.materials.model import Model, Zone, same_cells
+from ssilang.kernel.materials.model import Model, Zone, same_elements
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 
@@ -353,7 +353,7 @@ def replaced_blocks(matrix: Matrix, zones: tuple[Zone, ...]) -> tuple[ElementMat
     """
     gone: set[int] = set()
     for zone in zones:
-        there = [b for b in matrix.blocks if same_cells(b.zone, zone)]
+        there = [b for b in matrix.blocks if same_elements(b.zone, zone)]
         alike = [b for b in there if b.zone and b.zone.behaviour == zone.behaviour]
         if is_joint(zone) and law_of(zone.behaviour).linear:
             alike = [b for b in alike if b.zone is zone] or alike[:1]

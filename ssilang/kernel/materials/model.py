@@ -3,9 +3,7 @@
 from dataclasses import dataclass, field
 from enum import Enum
 
-import numpy as np
-
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, same_cells
 
 
 class Mode(Enum):
@@ -52,14 +50,9 @@ class Zone:
     options: dict[str, object] = field(default_factory=dict)
 
 
-def same_cells(a: Zone | None, b: Zone) -> bool:
+def same_elements(a: Zone | None, b: Zone) -> bool:
     """Whether two zones are the same element on the same cells, of whatever law."""
-    if a is None or a.element != b.element:
-        return False
-    return a.cells is b.cells or (
-        a.cells.cell_type == b.cells.cell_type
-        and np.array_equal(a.cells.connectivity, b.cells.connectivity)
-    )
+    return a is not None and a.element == b.element and same_cells(a.cells, b.cells)
 
 
 @dataclass(frozen=True, eq=False)

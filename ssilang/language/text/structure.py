@@ -1,7 +1,6 @@
 """Nesting of statements into blocks, by their first word, as the language skips branches."""
 
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text import tree
@@ -130,7 +129,7 @@ def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     """Words of blocks that a statement takes as operands, as its own end is missing."""
     found, loops = [], {opened.name for opened in stack[1:]}
     of_loops = ("FIN", "QUIT", "ITER")[: 1 if control_word(statement) == "SI" else 3]
-    for item, after in pairwise((*statement.items[1:], None)):
+    for item, after in zip(statement.items[1:], (*statement.items[2:], None), strict=False):
         word = item.text[:4].rstrip() if isinstance(item, tree.Name) else ""
         of_loop = word in of_loops and getattr(after, "text", "").upper() in loops
         if word in ("SINO", "FINS", "FINP", "FINM") or of_loop:

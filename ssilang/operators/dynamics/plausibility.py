@@ -10,7 +10,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import is_macro, joint_zones, replaced_blocks
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
-from ssilang.kernel.materials.model import same_cells
+from ssilang.kernel.materials.model import same_elements
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
@@ -142,7 +142,7 @@ def _joints_of_others(start: Start) -> Told:
     zones = joint_zones(inputs.model)
     gone = replaced_blocks(inputs.stiffness, zones)
     for block in gone:
-        of = [z.behaviour for z in zones if same_cells(block.zone, z)]
+        of = [z.behaviour for z in zones if same_elements(block.zone, z)]
         if block.zone and block.zone.behaviour not in of:
             told = {"node": block.table.told(int(block.nodes[0, 0])), "count": len(block.nodes)}
             yield "operators.dynamics.springs-replaced", told
