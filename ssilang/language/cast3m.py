@@ -22,6 +22,11 @@ class Cast3mWord:
     subject: str
     reason: str = ""
 
+    @property
+    def here(self) -> bool:
+        """Whether ssilang has it: as an operator, or as a word that begins a statement."""
+        return self.subject == IN_SCOPE and not self.reason
+
 
 @cache
 def cast3m_words() -> dict[str, Cast3mWord]:

@@ -238,6 +238,29 @@ def test_several_errors_in_one_pass():
     assert found == ["unknown-operator", "no-rule", "condition", "two-operands"]
 
 
+@together(
+    "text, severities",
+    [
+        ("SI (Y > 0.) ; T = TABL ; SINON ; T . 1 = 2 ; T . 2 = 3 ; FINSI ;", ["warning"]),
+        ("SI (Y > 0.) ; SI VRAI ; X = ABS T ; FINSI ; FINSI ; T = 3. ;", ["warning"]),
+        ("SI (Y > 0.) ; REPE B T ; MESS 1 ; FIN B ; SINON ; T = 3 ; FINSI ;", ["warning"]),
+        ("SI FAUX ; T . 1 = 2 ; X = PORG 1. ; FINSI ; T = TABL ;", ["warning", "warning"]),
+        ("SI VRAI ; MESS 1 ; SINON ; X = ABS T ; FINSI ; T = 3. ;", ["warning"]),
+        # these are errors of any run, or no name of another branch
+        ("SI VRAI ; T . 1 = 2 ; FINSI ; T = TABL ;", ["error"]),
+        ("SI FAUX ; T = TABL ; SINON ; T . 1 = 2 ; FINSI ;", ["error"]),
+        ("T . 1 = 2 ; SI (Y > 0.) ; T = TABL ; FINSI ;", ["error"]),
+        ("SI (Y > 0.) ; X = PORG 1. ; FINSI ;", ["error"]),
+        ("SI (Y > 0.) ; ABRA . 1 = 2 ; FINSI ;", ["error"]),
+    ],
+)
+def test_a_name_of_another_branch_is_an_error_where_all_runs_read_it(text, severities):
+    problems, _ = check_source(Source("test", f"Y = 1. ; {text}"))
+    assert [p.severity for p in problems if p.code != "unused-name"] == severities
+    told = [render(p, "en", ()) for p in problems if p.severity == "warning"]
+    assert all("takes this branch" in w for w in told if "gets a value" not in w)
+
+
 def test_an_operator_out_of_scope_is_named_with_its_subject():
     (message,) = errors(Source("test", "X = CAPA 1. 2. ; MESS X ;"))
     assert "CAPA is a Cast3M operator (heat), out of ssilang's scope" in message

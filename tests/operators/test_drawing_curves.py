@@ -52,13 +52,15 @@ SAID = {
     "legend": "'LEGE' 'SO'",
 }  # fmt: skip
 IDLE = {"logo": "'LOGO'", "no_click": "'NCLK'"}  # as their help says
+NAMED = CURVES.replace("'BLEU'", "'BLEU' 'LEGE' 'p'")
+VAIN = "operators.drawing.changes-nothing"
 FURTHER = ("'GRIL' 'POIN'", "'GRIL' 'GRIS'", "'LEGE' 'NE'", "'LEGE' 'XY' 0.5 2.", "'ECAR' FAUX")
 
 
 def drawn(folder: Path, text: str) -> list:
     """What stands in a picture, without the numbers that are made anew each time."""
     folder.mkdir()
-    ran("OPTI 'TRAC' 'SVG' ; " + CURVES.replace("'BLEU'", "'BLEU' 'LEGE' 'p'") + text, folder)
+    ran("OPTI 'TRAC' 'SVG' ; " + NAMED + text, folder)
     (path,) = folder.glob("*.svg")
     made = re.compile(r"(#|^)[a-z]\w*$|url")
     return [
@@ -81,6 +83,37 @@ def test_each_optional_word_changes_the_picture(tmp_path: Path) -> None:
     assert alike == {"'ECAR' FAUX"}  # never: two curves of other names have no difference anyway
     for first, second in itertools.combinations(told, 2):
         assert told[first] != told[second], (first, second)
+
+
+SITUATIONS = {
+    "a curve without names": ("EVOL 'MANU' (PROG 1. 2. 3.) (PROG 1. 3. 2.)", ""),
+    "a curve over words": ("EVOL 'MANU' (MOTS 'A' 'B' 'C') (PROG 3. 1. 2.)", ""),
+    "curves over powers of ten": ("E", "'LOGX' 'LOGY'"),
+    "curves in frames of their own": ("E", "'SEPA'"),
+    "curves that no number can be read of": (
+        "EVOL 'MANU' 't' (PROG 1. 2.) 'u' ((PROG 1. 2.) * 1.E308 * 1.E308)", ""
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("situation", SITUATIONS)
+def test_a_word_that_changes_nothing_is_told(situation: str, tmp_path: Path) -> None:
+    """Of all words that can stand there: those without effect and no others."""
+    curve, beside = SITUATIONS[situation]
+    plain = drawn(tmp_path / "plain", f"X = {curve} ; DESS X {beside} ;")
+    tried = {n: t for n, t in SAID.items() if t not in beside and n not in ("date", "chosen")}
+    if beside == "'LOGX' 'LOGY'":  # refused there
+        tried = {n: t for n, t in tried.items() if not n.endswith("_format")}
+    for name, text in tried.items():
+        folder = tmp_path / name
+        folder.mkdir()
+        result = ran(NAMED + f"X = {curve} ; DESS X {beside} {text} ;", folder)
+        words_told = [w.data["word"] for w in result.session.warnings if w.code == VAIN]
+        alike = (
+            drawn(tmp_path / f"{name} again", f"X = {curve} ; DESS X {beside} {text} ;") == plain
+        )
+        assert bool(words_told) == alike, (name, words_told)
+        assert all(f"'{word}'" in text for word in words_told)
 
 
 def test_the_title_in_force_is_used(tmp_path: Path) -> None:

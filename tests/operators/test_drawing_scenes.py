@@ -241,6 +241,39 @@ def test_one_shape_makes_no_animation(tmp_path: Path) -> None:
     assert not list(tmp_path.rglob("*.gif"))
 
 
+SHAPES = "((DEFO S U 0. 'BLEU') ET (DEFO S U 10. 'ROUG'))"
+
+
+@pytest.mark.parametrize(
+    ("subjects", "vain"),
+    [  # "'LEGE' 'a'" stands for a title of the legend
+        ("S", ["'LEGE' 'a'", "'CHAM'", "7", "(PROG 0.5 1.)", "'COUP' A B C", "'ANIM'", "'OSCI'"]),
+        ("X S", ["'ECLA'", "'COUP' A B C", "'ANIM'", "'OSCI'"]),
+        ("(DEFO S U 10. X)", ["'COUP' A B C", "'ANIM'", "'OSCI'"]),
+        (SHAPES, ["'LEGE' 'a'", "'CHAM'", "7", "(PROG 0.5 1.)", "'COUP' A B C"]),
+    ],
+)
+def test_a_word_that_changes_nothing_is_told(subjects: str, vain: list[str], tmp_path: Path):
+    """Of the words that ask for something to be seen; the picture decides which these are."""
+    points = "A = 1. 0. ; B = 1. 1. ; C = 2. 1. ; "
+
+    def drawn(text: str, name: str) -> tuple[list[bytes], list[str]]:
+        (folder := tmp_path / name).mkdir()
+        result = run(f"{points} TRAC {text} {subjects} ;", folder)
+        warned = [w.data["word"] for w in result.session.warnings]
+        return [p.read_bytes() for p in sorted(folder.glob("*.[pg][ni][gf]"))], warned
+
+    plain, warned = drawn("", "plain")
+    assert warned == []
+    tried = ["'LEGE' 'a'", "'CHAM'", "7", "(PROG 0.5 1.)", "'COUP' A B C", "'ANIM'", "'OSCI'",
+             "'ECLA'"]  # fmt: skip
+    found = {text: drawn(text, str(i)) for i, text in enumerate(tried)}
+    assert [t for t, (pictures, _) in found.items() if pictures == plain] == [
+        t for t in tried if t in vain
+    ]
+    assert [t for t, (_, warned) in found.items() if warned] == [t for t in tried if t in vain]
+
+
 def test_pictures_keep_nothing_of_a_run_that_is_gone(tmp_path: Path) -> None:
     result = run("TRAC U S ; DESS (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;", tmp_path)
     kept = weakref.ref(result.session)

@@ -5,6 +5,8 @@ import pytest
 from references.small_motions import HOPPER
 from script_runs import ran
 
+from ssilang.cli.run import run_text
+
 STRIP = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
 A = DROI 4 (-2. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; J = RACC 1.E-6 A B ;
@@ -70,6 +72,67 @@ def test_strip_footing_with_sixteen_joints_and_lobatto_points(found):
     # theta_u = 2 N/(k0 B^2) = 0.00375, theta = 10 theta_u: M = (3 - 2 sqrt(1/10)) N B/6
     exact = (3 - 2 * np.sqrt(0.1)) * 6e5 * 4 / 6
     assert abs(found(text, "Z")) == pytest.approx(exact, rel=1e-2)
+
+
+# --- linear springs beside a law ------------------------------------------------------------------
+
+
+POINTS = """
+OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; A = 0. 0. ; B = 0. 0. ; J = MANU 'SEG2' B A ; Q = A ;
+"""
+LINES = STRIP.replace("DROI 4", "DROI 1") + "Q = A POIN 1 ;"
+PLACES = {  # of a mass: mesh, words of the element, length that it stands on
+    "points": (POINTS, {"element": "'JOI1'", "axis": "'DIRECTION' (0. 1.)", "turn": "'RZ'"}, 1.0),
+    "lines": (LINES, {"element": "'JOI2'", "axis": "", "turn": ""}, 2.0),
+}
+SPRUNG = """
+MJ = MODE J 'MECANIQUE' 'ELASTIQUE' {law} {element} ;
+ML = MODE J 'MECANIQUE' 'ELASTIQUE' {element} ; M = MASS 'DEPL' 1.E3 A ;
+AJ = MATE MJ 'KN' 3.E6 'KS' 3.E6 {axis} ; AL = MATE ML 'KN' 5.E6 'KS' 1.E6 {axis} ;
+K = {matrices} ET (BLOQ 'DEPL' {turn} B) ET (BLOQ 'UX' {turn} A) ;
+W = M * (MANU 'CHPO' A 1 'UY' -10.) ; T = TABL ;
+T . 'RIGI' = K ; T . 'MASS' = M ; T . 'MODELE' = MJ ; T . 'CARACTERISTIQUES' = AJ ; U = RESO K W ;
+T . 'DEPL' = U ; T . 'CHAR' = CHAR 'MECA' W ; T . 'VITE' = MANU 'CHPO' A 1 'UY' 1.E-2 ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 0.1 ; R = DYNAMIC T ;
+X = EXTR (EVOL 'TEMP' R 'DEPL' 'UY' Q) 'ORDO' ; S = EXTR U 'UY' Q ;
+"""
+
+
+@pytest.mark.parametrize(
+    ("law", "matrices"),
+    [
+        ("'JOINT_SDM'", "(RIGI MJ AJ) ET (RIGI ML AL)"),
+        ("'JOINT_SDM'", "(RIGI ML AL) ET (RIGI MJ AJ)"),
+        ("", "(RIGI ML AL) ET (RIGI MJ AJ)"),  # a law that is linear, too
+    ],
+)
+@pytest.mark.parametrize("place", PLACES)
+def test_a_spring_on_the_cell_of_a_joint_acts_beside_it(law, matrices, place, tmp_path):
+    """Both carry the weight, and the mass swings on their sum, as RESO and VIBR have it."""
+    mesh, words, length = PLACES[place]
+    text = mesh + SPRUNG.format(**words, law=law, matrices=matrices)
+    result = run_text(text, output_directory=tmp_path)
+    assert (result.errors, result.session.warnings) == ([], [])
+    moved, rest = result.session.root.find("X").values, result.session.root.find("S")
+    stiffness, t = 8e6 * length, np.linspace(0.0, 0.1, len(moved))
+    assert rest == pytest.approx(-1e4 / stiffness, rel=1e-9)
+    omega, way = np.sqrt(stiffness / 1e3), 1e-2 / np.sqrt(stiffness / 1e3)
+    assert moved == pytest.approx(rest + way * np.sin(omega * t), abs=1e-3 * way)
+
+
+def test_an_elastic_body_in_the_cells_of_one_that_yields_bears_its_part(found):
+    rests = """
+    OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; L = DROI 1 (0. 0.) (1. 0.) ; S = TRAN 1 L (0. 1.) ;
+    MP = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' ;
+    ME = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE MP 'YOUN' 3.E6 'NU' 0. 'SIGY' 1.E5 ;
+    AE = MATE ME 'YOUN' 5.E6 'NU' 0. ;
+    Q = (COTE 3 S) POIN 1 ; M = MASS 'DEPL' 1.E3 (COTE 3 S) ; W = M * (MANU 'CHPO' S 1 'UY' -10.) ;
+    K = (RIGI ME AE) ET (RIGI MP A) ET (BLOQ 'DEPL' L) ET (BLOQ 'UX' S) ; T = TABL ; U = RESO K W ;
+    T . 'RIGI' = K ; T . 'MASS' = M ; T . 'MODELE' = MP ; T . 'CARACTERISTIQUES' = A ;
+    T . 'DEPL' = U ; T . 'CHAR' = CHAR 'MECA' W ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.1 ;
+    R = DYNAMIC T ; X = EXTR (EVOL 'TEMP' R 'DEPL' 'UY' Q) 'ORDO' ;
+    """
+    assert found(rests, "X").values == pytest.approx(-1e4 / (8e6 / 2.0), rel=1e-9)
 
 
 # --- states and energies ------------------------------------------------------------------------

@@ -24,11 +24,13 @@ from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of
 from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.not_built import put_off
+from ssilang.language.run.operands import Operand
 from ssilang.language.run.phrases import name_as_word, no_result, unended
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.values import Mot, Procedure, known_types
+from ssilang.messages.message import Sentence
 
 # statements that may bring names the text does not show
 _OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "MENU"})
@@ -52,6 +54,8 @@ class Checker:
         self.entries: dict[int, Any] = {}  # what entries of tables are given, in the same way
         self.phrases = PhraseReader(session, self._report)
         self._told = 0  # problems, those that were there already among them
+        self._doubt = self._dead = False  # whether runs may leave out what is read, or all do
+        self._excused = False  # whether a problem is one where a run takes a branch, if at all
         self._procedures: list[tree.Definition] = []
         self._names: set[str] = set()
         self._loops: set[str] = set()
@@ -83,18 +87,18 @@ class Checker:
         ):
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
-        for problem in misspelt_names(script, names, _known_words()):
-            if problem.span not in [e.span for e in self.problems]:
-                self._report(problem)
-        for problem in misspelt_words(script, names):
-            inside = [e.span for e in self.problems if e.span is not None]
-            assert problem.span is not None
-            if problem.span.start not in [s.start for s in inside]:
+        perhaps = (*misspelt_names(script, names, _known_words()), *misspelt_words(script, names))
+        for problem in perhaps:
+            told = {e.span.start for e in self.problems if e.span is not None}
+            if problem.span is not None and problem.span.start not in told:
                 self._report(problem)
         return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
 
     def _report(self, problem: SsiError) -> None:
         self._told += 1
+        if self._excused and problem.severity == "error":
+            problem.warns = True
+            problem.data["in_branch"] = Sentence("in-branch")
         if problem.code == "unknown-operator":  # what is read after all
             self.problems = [
                 e for e in self.problems if (e.code, e.span) != ("not-built-yet", problem.span)
@@ -105,10 +109,28 @@ class Checker:
 
     def _walk(self, nodes: Iterable[tree.Node], scope: Scope) -> None:
         for node in nodes:
+            lost = self._of_other_branches(node, scope) if self._doubt else ()
+            self._excused = self._dead or bool(lost)
             try:
                 self._visit[type(node)](node, scope)
             except SsiError as error:
                 self._report(error)
+            scope.forget(lost)  # each is told once
+            self._excused = False
+
+    def _of_other_branches(self, node: tree.Node, scope: Scope) -> Iterable[str]:
+        """Names that a node reads to which the script gives a value, on no way that leads here."""
+        head = next(statements_of([node]))
+        paths = [t for t in head.targets if isinstance(t, tree.Path)]
+        read = {name.text for name in bare_names((*paths, *head.items))}
+        return set() if scope.open else (read & self._names) - scope.values.keys()
+
+    def _branch(self, nodes: Iterable[tree.Node], scope: Scope, taken: bool | None) -> None:
+        """One branch of a SI: all runs take it, none does, or nobody knows (None)."""
+        before = self._doubt, self._dead
+        self._doubt, self._dead = self._doubt or not taken, self._dead or taken is False
+        self._walk(nodes, scope)
+        self._doubt, self._dead = before
 
     # ---- blocks --------------------------------------------------------------------------------
 
@@ -122,8 +144,9 @@ class Checker:
         asked = {n: v for n in names if isinstance(v := scope.values.get(n), int | float)}
         scope.values.update({n: typed(kind_word(v)) for n, v in asked.items()})
         other = scope.copy()
-        self._walk(node.then, scope)
-        self._walk(node.otherwise, other)
+        holds = {"VRAI": True, "FAUX": False}.get(" ".join(names))
+        self._branch(node.then, scope, holds)
+        self._branch(node.otherwise, other, None if holds is None else not holds)
         scope.join(other)
         scope.values.update({n: asked[n] for n in asked.keys() - assigned_names([node])})
 
@@ -148,15 +171,7 @@ class Checker:
             left = self.phrases.read(node.count, scope, node.span)
             kind = kind_word(left[0].value) if left and len(left) == 1 else ""
             if kind not in ("", "ENTIER", "FLOTTANT", "TEXTE"):
-                if isinstance(left[0].value, Mot) if left else False:
-                    words = left or []
-                    error = name_as_word("loop-count", words, scope.values.get(str(words[0].value)))
-                    if error is not None:
-                        self._report(error)
-                    else:
-                        self._undefined(words[0], "REPE")
-                else:
-                    self._report(SsiError("loop-count", node.count[0].span, found=kind))
+                self._report(self._no_count(left or [], scope, kind))
         before = scope.copy()
         scope.forget(assigned_names(node.body))
         scope.values[("&" + node.name)[:24]] = typed("ENTIER")
@@ -170,10 +185,12 @@ class Checker:
         scope.join(before)
         scope.values[("&" + node.name)[:24]] = counter
 
-    def _undefined(self, operand: Any, operator: str) -> None:
-        self._report(
-            SsiError("undefined-name", operand.span, name=str(operand.value), operator=operator)
-        )
+    def _no_count(self, left: list[Operand], scope: Scope, kind: str) -> SsiError:
+        if not isinstance(left[0].value, Mot):
+            return SsiError("loop-count", left[0].span, found=kind)
+        name = str(left[0].value)
+        error = name_as_word("loop-count", left, scope.values.get(name))
+        return error or SsiError("undefined-name", left[0].span, name=name, operator="REPE")
 
     def _definition(self, node: tree.Definition, scope: Scope) -> None:
         self._procedures.append(node)

@@ -27,7 +27,7 @@ from ssilang.kernel.elements.solids import solid_moduli
 from ssilang.kernel.elements.solids.solid import Incompressible, OnePoint, Solid
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Mode, Zone, same_elements
 from ssilang.kernel.matrices.matrix import ElementMatrices
 
 _OTHER = 1e-3  # of a stiffness: what differs more was given otherwise
@@ -109,9 +109,11 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
 def unlike(given: Iterable[ElementMatrices], zone: Zone, material: CellField) -> float:
     """How far the stiffness that a zone has is from what a material gives, of its largest entry.
 
-    0. below a thousandth, or where the zone has none or one of another form.
+    0. below a thousandth, or where the zone has none or one of another form. A zone of the same
+    law on the same cells is the zone, whatever model it stands in.
     """
-    mine = [b.values for b in given if b.zone is zone]
+    laws = ((b.values, b.zone) for b in given if same_elements(b.zone, zone))
+    mine = [values for values, z in laws if z and z.behaviour == zone.behaviour]
     own = stiffness(zone, material).values if mine else np.zeros(0)
     if not mine or mine[0].shape != own.shape or not (most := np.abs(own).max(initial=0.0)):
         return 0.0

@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
-from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.mesh import same_cells
 
 Values = NDArray[Any]
 SCALAR = "SCAL"
@@ -21,15 +21,6 @@ ObjectRule = Callable[[str, object, object], object]
 def rebuilt(block: CellFieldBlock, components: Mapping[str, Values]) -> CellFieldBlock:
     """A block like `block` with other components."""
     return CellFieldBlock(block.cells, components, block.support, block.element, block.constituent)
-
-
-def same_cells(a: CellBlock, b: CellBlock) -> bool:
-    """Whether two blocks hold the same cells in the same order."""
-    return a is b or (
-        a.cell_type == b.cell_type
-        and a.raw.shape == b.raw.shape
-        and np.array_equal(a.connectivity, b.connectivity)
-    )
 
 
 def _same_zone(a: CellFieldBlock, b: CellFieldBlock) -> bool:

@@ -41,7 +41,7 @@ from ssilang.kernel.interface.laws.law_table import (
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.point_state import energies_of_points, point_states
 from ssilang.kernel.interface.response import Joints
-from ssilang.kernel.materials.model import Model, Zone
+from ssilang.kernel.materials.model import Model, Zone, same_elements
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 
@@ -344,22 +344,28 @@ def _jump_matrix(keys: IntArray, names: tuple[str, ...], numbering: Numbering) -
 # --- joints in matrices ----------------------------------------------------------------------
 
 
-def same_zone(a: Zone | None, b: Zone) -> bool:
-    """Whether two zones are the same joints (the same element on the same cells)."""
-    if a is None or a.element != b.element:
-        return False
-    return a.cells is b.cells or (
-        a.cells.cell_type == b.cells.cell_type
-        and np.array_equal(a.cells.connectivity, b.cells.connectivity)
-    )
+def replaced_blocks(matrix: Matrix, zones: tuple[Zone, ...]) -> tuple[ElementMatrices, ...]:
+    """Blocks of a matrix that the laws of these zones take the place of.
+
+    All on a zone's cells where none is of its own law: they may be its stiffness in a linear
+    study. Beside one of its own law those of others are springs of their own, and so are those
+    that a further model gives to a law that is linear.
+    """
+    gone: set[int] = set()
+    for zone in zones:
+        there = [b for b in matrix.blocks if same_elements(b.zone, zone)]
+        alike = [b for b in there if b.zone and b.zone.behaviour == zone.behaviour]
+        if is_joint(zone) and law_of(zone.behaviour).linear:
+            alike = [b for b in alike if b.zone is zone] or alike[:1]
+        gone |= {id(b) for b in alike or there}
+    return tuple(b for b in matrix.blocks if id(b) in gone)
 
 
 def without_zones(matrix: Matrix, zones: tuple[Zone, ...]) -> Matrix:
-    """The matrix without the blocks made from these zones (their law replaces them)."""
-    kept = tuple(b for b in matrix.blocks if not any(same_zone(b.zone, z) for z in zones))
-    if len(kept) == len(matrix.blocks):
-        return matrix
-    return Matrix(matrix.table, kept, matrix.relations, matrix.kind)
+    """The matrix without the blocks that the laws of these zones take the place of."""
+    gone = {id(b) for b in replaced_blocks(matrix, zones)}
+    kept = tuple(b for b in matrix.blocks if id(b) not in gone)
+    return Matrix(matrix.table, kept, matrix.relations, matrix.kind) if gone else matrix
 
 
 def nonlinear_blocks(matrix: Matrix) -> tuple[ElementMatrices, ...]:

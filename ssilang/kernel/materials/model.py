@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from enum import Enum
 
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh, same_cells
 
 
 class Mode(Enum):
@@ -48,6 +48,11 @@ class Zone:
     mode: Mode
     constituent: str = ""
     options: dict[str, object] = field(default_factory=dict)
+
+
+def same_elements(a: Zone | None, b: Zone) -> bool:
+    """Whether two zones are the same element on the same cells, of whatever law."""
+    return a is not None and a.element == b.element and same_cells(a.cells, b.cells)
 
 
 @dataclass(frozen=True, eq=False)

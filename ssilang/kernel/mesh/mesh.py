@@ -102,6 +102,15 @@ class CellBlock:
         return self.nodes.shown(self.coordinates[cell].mean(axis=0))
 
 
+def same_cells(a: CellBlock, b: CellBlock) -> bool:
+    """Whether two blocks hold the same cells in the same order."""
+    return a is b or (
+        a.cell_type == b.cell_type
+        and a.raw.shape == b.raw.shape
+        and np.array_equal(a.connectivity, b.connectivity)
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh:
     """Blocks of cells (MAILLAGE).

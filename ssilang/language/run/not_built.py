@@ -48,7 +48,7 @@ def put_off(statement: Statement, error: SsiError, names: Iterable[str]) -> NotB
     if error.code != "unknown-operator" or error.calls or not targets or "read_here" in error.data:
         return None
     known = find_cast3m_word(str(error.data["name"]))
-    if known is None or known.kind != "operator" or find_operator(known.name) is not None:
+    if known is None or known.kind != "operator" or known.here or find_operator(known.name):
         return None
     if suggestion(error, names) or not all(isinstance(t, Name) for t in targets):
         return None

@@ -24,7 +24,7 @@ _INDICES_SHOWN = 20
 _KINDS = {"error": "label-error", "warning": "label-warning", "note": "label-note"}
 
 
-_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here")
+_NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here", "in_branch")
 """Data that phrases add to errors: sentences that are said before the hint (`phrase_errors`)."""
 
 
@@ -288,16 +288,19 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
 
 
 def elsewhere(word: str, language: str) -> str:
-    """What to say of a word of Cast3M that is not built here, '' if it is none."""
+    """What to say of a word of Cast3M that is no operator here, '' if it is none."""
     found = find_cast3m_word(word)
     if found is None or find_operator(found.name) is not None:
         return ""
     data: dict[str, Any] = {"name": found.name, "operator": found.kind == "operator"}
-    if found.subject == IN_SCOPE:
-        data["reason"] = Sentence(f"help.reason-{found.reason}") if found.reason else ""
-        return message.sentence("not-built", data, language)
-    data["subject"] = Sentence(f"help.subject-{found.subject}")
-    return message.sentence("out-of-scope", data, language)
+    code = "out-of-scope"
+    if found.here:
+        code, data["name"] = "stands-first", word
+    elif found.subject == IN_SCOPE:
+        code, data["reason"] = "not-built", Sentence(f"help.reason-{found.reason}")
+    else:
+        data["subject"] = Sentence(f"help.subject-{found.subject}")
+    return message.sentence(code, data, language)
 
 
 def _syntax_hint(data: dict[str, object]) -> str:

@@ -127,13 +127,12 @@ def _without_strays(statement: tree.Statement) -> tree.Statement:
 
 def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     """Words of blocks that a statement takes as operands, as its own end is missing."""
-    found = []
-    for i, item in enumerate(statement.items[1:], 1):
-        if not isinstance(item, tree.Name):
-            continue
-        word = _CONTROL.get(item.text[:4], "")
-        loop = word == "FIN" and [getattr(x, "text", "").upper() for x in statement.items[i + 1 :]]
-        if word in ("SINO", "FINS", "FINP") or (loop and loop[0] in {o.name for o in stack[1:]}):
+    found, loops = [], {opened.name for opened in stack[1:]}
+    of_loops = ("FIN", "QUIT", "ITER")[: 1 if control_word(statement) == "SI" else 3]
+    for item, after in zip(statement.items[1:], (*statement.items[2:], None), strict=False):
+        word = item.text[:4].rstrip() if isinstance(item, tree.Name) else ""
+        of_loop = word in of_loops and getattr(after, "text", "").upper() in loops
+        if word in ("SINO", "FINS", "FINP", "FINM") or of_loop:
             found.append(SsiError("block-word-inside", item.span, word=item.span.text))
             found[-1].warns = True
     return found

@@ -4,6 +4,7 @@ from itertools import count
 
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LINE_OPTIONS, LineStyle, parse_style
+from ssilang.io.plots.graphs.traces import seen
 from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing import pictures
 from ssilang.operators.files.outputs import run_output
@@ -132,6 +133,8 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     units = workspace(call.session).units
     options = CurveOptions(**found, written=units.written if units else None)
     figure = draw_curves(curve, options)
+    vain = (told for n, told in _TRACES.items() if found.get(n) and not seen(figure, n))
+    pictures.tell_vain(call, vain)
     title = str(found.get("title") or curve.title)
     stem = pictures.picture_name(call.session, title, curves[0].name or "dess")
     files = pictures.save_picture(
@@ -140,6 +143,21 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     recording = run_output(call.session).recording
     if recording is not None:
         _take_down(recording, curve, options, title, [f.name for f in files])
+
+
+_TRACES = {
+    "legend": ("LEGE", "operators.drawing.no-curve-named"),
+    "difference": ("ECAR", "operators.drawing.no-differences"),
+    "separate": ("SEPA", "operators.drawing.one-curve"),
+    "x_title_at_end": ("POSX", "operators.drawing.axis-untitled"),
+    "y_title_at_end": ("POSY", "operators.drawing.axis-untitled"),
+    "x_step": ("XGRA", "operators.drawing.axis-of-its-own"),
+    "y_step": ("YGRA", "operators.drawing.axis-of-its-own"),
+    "x_format": ("XFMT", "operators.drawing.axis-of-its-own"),
+    "axes": ("AXES", "operators.drawing.no-origin"),
+    "extremes": ("MIMA", "operators.drawing.no-finite-value"),
+}
+"""Options that the data may leave without effect: the word of each, and why that is."""
 
 
 def _tell_unit(call: Call, parts: Sequence[CurvePart], title: str) -> None:

@@ -35,6 +35,12 @@ def save_picture(
     return files
 
 
+def tell_vain(call: Call, vain: Iterable[tuple[str, str]]) -> None:
+    """Warn of words, each with the code of the reason, that change nothing in a picture."""
+    for word, reason in vain:
+        call.warn("operators.drawing.changes-nothing", word, word=word, why=Sentence(reason))
+
+
 def refuse_rest(call: Call, words: Iterable[str]) -> None:
     """Refuse what a drawing statement has not read, before anything is drawn."""
     if not call.operands:

@@ -206,10 +206,26 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
     if said.qualify:
         options["labels"] = _labels(session, [layer.mesh for layer in made.layers])
     view = _view(session, said, [layer.mesh for layer in made.layers])
+    pictures.tell_vain(call, _in_vain(said, made, flat=_is_flat(ws)))
     try:
         _draw_files(session, said, made, view, PictureOptions(**options))
     except NoGraphicsError as problem:  # what was calculated is not lost for a picture
         call.warn(problem.code, **problem.data)
+
+
+def _in_vain(said: _Said, made: Composition, *, flat: bool) -> Iterator[tuple[str, str]]:
+    """Words that ask for what the picture does not have, each with the reason."""
+    deformed, options = said.subjects.deformed, said.options
+    if all(layer.field is None for layer in made.layers):
+        asked = {"legend_name": "LEGE", "point_values": "CHAM", "level_count": "N", "levels": "N"}
+        for word in sorted({w for name, w in asked.items() if name in options}):
+            yield word, "operators.drawing.no-field"
+    elif "shrink" in options and said.subjects.values is not None:
+        yield "ECLA", "operators.drawing.cells-of-field"
+    if said.animation and (deformed is None or len(deformed.parts) < 2):
+        yield said.animation, "operators.drawing.one-picture"
+    if flat and "beyond" in options:
+        yield "COUP", "operators.drawing.nothing-behind"
 
 
 def _draw_files(

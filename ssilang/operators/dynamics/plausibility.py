@@ -7,9 +7,10 @@ import numpy as np
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import is_macro, joint_zones, same_zone
+from ssilang.kernel.interface.interface import is_macro, joint_zones, replaced_blocks
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
+from ssilang.kernel.materials.model import same_elements
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
@@ -134,21 +135,19 @@ def _not_conserved(start: Start) -> Told:
 
 
 def _joints_of_others(start: Start) -> Told:
-    """Joints of RIGI with other parameters than CARACTERISTIQUES give their law, or of other laws.
-
-    The law of MODELE takes the place of all that stands in RIGI on its cells.
-    """
+    """What the laws of MODELE replace in RIGI: joints of other laws or of other parameters."""
     inputs = start.inputs
     if inputs.model is None or inputs.characteristics is None:
         return
     zones = joint_zones(inputs.model)
-    for block in inputs.stiffness.blocks:
-        of = [z.behaviour for z in zones if block.zone and same_zone(block.zone, z)]
-        if of and block.zone and block.zone.behaviour not in of:
+    gone = replaced_blocks(inputs.stiffness, zones)
+    for block in gone:
+        of = [z.behaviour for z in zones if same_elements(block.zone, z)]
+        if block.zone and block.zone.behaviour not in of:
             told = {"node": block.table.told(int(block.nodes[0, 0])), "count": len(block.nodes)}
             yield "operators.dynamics.springs-replaced", told
     for zone in zones:
-        if off := unlike(inputs.stiffness.blocks, zone, inputs.characteristics):
+        if off := unlike(gone, zone, inputs.characteristics):
             yield "operators.dynamics.joints-of-others", {"off": off}
 
 

@@ -4,6 +4,7 @@ from ssilang.kernel.curves.algebra import beyond, interpolated
 from ssilang.kernel.curves.cloud import Cloud
 from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.operators.curves.words import one_part
 from ssilang.operators.prelude import *
 
@@ -150,7 +151,7 @@ def _evaluated(block: CellFieldBlock, fields: CellField, support: Support) -> Ce
 
 
 def _there(block: CellFieldBlock, fields: CellField) -> list[CellFieldBlock]:
-    return [b for b in fields.blocks if cell_algebra.same_cells(b.cells, block.cells)]
+    return [b for b in fields.blocks if same_cells(b.cells, block.cells)]
 
 
 def _known(block: CellFieldBlock, fields: CellField) -> dict[str, FloatArray]:

@@ -4,6 +4,7 @@ import math
 from importlib import import_module
 
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.operators.prelude import *
 
 Function = Callable[[Any], Any]
@@ -196,9 +197,7 @@ def atg(
 def _angle_of_cells(call: Call, first: CellField, second: CellField) -> CellField:
     blocks = []
     for block in second.blocks:
-        other = next(
-            (b for b in first.blocks if cell_algebra.same_cells(b.cells, block.cells)), None
-        )
+        other = next((b for b in first.blocks if same_cells(b.cells, block.cells)), None)
         if other is None:
             raise call.error("operators.numbers.fields-on-other-cells", second)
         made = {

@@ -1,6 +1,7 @@
 """PERSO1, REEV_MEC: what procedures of the user see of PASAPAS, and what they change of it."""
 
 from ssilang.kernel.elements.results.supports import field_on_model
+from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.files.saving import save
 from ssilang.operators.prelude import *
@@ -152,6 +153,6 @@ def _is_same(first: Any, second: Any) -> bool:
     return all(
         (a.element, a.behaviour, a.mode, a.formulation)
         == (b.element, b.behaviour, b.mode, b.formulation)
-        and np.array_equal(a.cells.connectivity, b.cells.connectivity)
+        and same_cells(a.cells, b.cells)
         for a, b in zip(first.zones, second.zones, strict=True)
     )

@@ -12,7 +12,7 @@ from ssilang.kernel.fields import cell_algebra as cells
 from ssilang.kernel.fields import node_algebra as nodes
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.mesh.mesh import CellBlock
+from ssilang.kernel.mesh.mesh import CellBlock, same_cells
 from ssilang.kernel.mesh.nodes import NodeTable
 
 SEEDS = pytest.mark.parametrize("seed", range(4))
@@ -264,11 +264,11 @@ def test_sums_of_cell_fields(table, zones, factor):
         cells.added(a, elsewhere)
     assert caught.value.data == {"name": "A", "support": "STRESSES", "support_2": "MASSE"}
     copy = CellBlock.make(table, "SEG2", zones[0].raw.copy())
-    assert cells.same_cells(copy, zones[0])
-    assert not cells.same_cells(CellBlock.make(table, "SEG2", zones[0].raw[::-1]), zones[0])
-    assert not cells.same_cells(zones[0], zones[1])
+    assert same_cells(copy, zones[0])
+    assert not same_cells(CellBlock.make(table, "SEG2", zones[0].raw[::-1]), zones[0])
+    assert not same_cells(zones[0], zones[1])
     four = [CellBlock.make(table, kind, np.array([[0, 1, 2, 3]])) for kind in ("QUA4", "TET4")]
-    assert not cells.same_cells(*four)
+    assert not same_cells(*four)
 
 
 def test_products_of_cell_fields(zones):

@@ -128,7 +128,10 @@ def test_values_of_points_stand_where_they_are_asked_for(mode):
 
 
 def test_matrices_of_joints_leave_with_their_zones():
-    """Those of the same element on the same cells, whatever object holds these."""
+    """Those of the same element on the same cells, whatever object holds these.
+
+    Beside one of the law itself, linear ones are springs of their own.
+    """
     bench, _ = standing(Mode.PLANE_STRAIN)
     zone, _, other, *_ = bench.zones
     copied = replace(zone, cells=CellBlock.make(bench.table, "RAC2", zone.cells.raw))
@@ -145,8 +148,16 @@ def test_matrices_of_joints_leave_with_their_zones():
     }  # fmt: skip
     matrix = Matrix(bench.table, tuple(blocks.values()), (), "MASSE")
     left = shown.without_zones(matrix, (zone,))
-    assert [*left.blocks] == [blocks[n] for n in ("nobody", "turned", "nodal", "other")]
+    assert [*left.blocks] == [blocks[n] for n in ("nobody", "turned", "nodal", "linear", "other")]
     assert left.kind == "MASSE"
-    assert shown.without_zones(left, (zone,)) is left
+    alone = shown.without_zones(left, (zone,))
+    assert [*alone.blocks] == [blocks[n] for n in ("nobody", "turned", "nodal", "other")]
+    assert shown.without_zones(alone, (zone,)) is alone
+    both = shown.without_zones(matrix, (of["linear"], zone))
+    assert [*both.blocks] == [*alone.blocks]
+    twice = replace(blocks["linear"], zone=replace(zone, behaviour=("ELASTIQUE",)))
+    springs = Matrix(bench.table, (twice, blocks["linear"], twice))
+    assert shown.without_zones(springs, (of["linear"],)).blocks == (twice, twice)
+    assert shown.without_zones(springs, (zone,)).blocks == ()
     lawful = [n for n in of if n not in ("nobody", "linear")]
     assert [*shown.nonlinear_blocks(matrix)] == [blocks[n] for n in lawful]

@@ -86,6 +86,10 @@ def test_an_else_of_no_condition_is_refused(fails):
         ("SI FAUX ; MESS 'a' «SINON» ; MESS 'b' ; FINSI ;", ["SINON"]),
         ("SI VRAI ; X = 2 * 3 «FINSI» ; FINSI ;", ["FINSI"]),
         ("REPE B 2 ; Y = &B + 1 «FIN» B ; FIN B ;", ["FIN"]),
+        ("REPE B 2 ; Y = &B + 1 «QUIT» B ; FIN B ;", ["QUIT"]),
+        ("REPE B 2 ; Y = &B + 1 «ITERER» 'B' ; FIN B ;", ["ITERER"]),
+        ("REPE B 2 ; ITER = 'ITER' ; Y = ITER ITER ; FIN B ;", []),
+        ("DEBP F A*ENTIER ; Y = A «FINP» Y ; FINP Y ; Z = F 3 ;", ["FINP"]),
         ("SI VRAI ; MESS 'SINON' ; FINSI ; B = 'FIN' ; MESS B ;", []),
         ("T = TABL ; T . FIN = 2 ; REPE B 1 ; X = T . FIN B ; FIN B ;", []),
     ],
@@ -95,6 +99,26 @@ def test_a_word_of_a_block_inside_a_statement_is_told(script, words):
     told = [w for w in result.session.warnings if w.code == "block-word-inside"]
     assert [w.data["word"] for w in told] == words
     assert [w.span.start for w in told] == [script.find("«")] * len(words)
+
+
+@together(
+    "script, word",
+    [
+        ("SI VRAI ; X = 2 * 3 FINSI ; FINSI ; MESS X ;", "FINSI"),
+        ("X = 3 SI VRAI ; MESS 'on' ; FINSI ;", "SI"),
+        ("X = 3 SINON ; MESS X ;", "SINON"),
+        ("REPE B 2 ; X = 2 REPETER ; FIN B ;", "REPETER"),
+        ("DEBP F A*ENTIER ; Y = A FINP ; FINP Y ; Z = F 3 ;", "FINP"),
+        ("X = 2 + 1 FINMETH ;", "FINMETH"),
+        ("X = 2 + 1 DEBPROC F ;", "DEBPROC"),
+    ],
+)
+def test_a_word_of_a_block_is_no_operator_that_is_not_there(script, word):
+    """The statement that takes it is refused at once, by a sentence that is true of it."""
+    result = run_text(script)
+    assert [(e.code, e.span.text) for e in result.errors] == [("unknown-operator", word)]
+    assert f"{word} begins a statement" in result.message
+    assert "that ssilang does not have" not in result.message
 
 
 @pytest.mark.parametrize("script", ["X = 2,5 ;", "L = PROG 1. -2,5 ;", "X = (2,5E3 * 2) ;"])

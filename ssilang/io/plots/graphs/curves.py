@@ -295,8 +295,9 @@ def _frame(panel: Axes, options: CurveOptions) -> None:
         panel.grid(True)
     panel.set_axisbelow(True)
     if options.axes:
-        for line in (panel.axhline, panel.axvline):
-            line(0.0, color="#4a4f57", lw=0.9, zorder=1.5)
+        for line, log in ((panel.axhline, options.log_y), (panel.axvline, options.log_x)):
+            if not log:
+                line(0.0, color="#4a4f57", lw=0.9, zorder=1.5)
     if options.square:
         panel.set_box_aspect(1)
     for side in ("top", "right"):
