@@ -354,7 +354,7 @@ class Objet:
 
     def __init__(self, class_name: str = "") -> None:
         self.class_name = class_name
-        self.attributes: dict[str, object] = {}
+        self.attributes: dict[object, object] = {}
         self.methods: dict[str, Procedure] = {}
 
 

@@ -89,9 +89,9 @@ def take(mesh: Mesh, chosen: Callable[[CellBlock], BoolArray | IntArray]) -> Mes
     return Mesh(mesh.nodes, tuple(parts))
 
 
-def cell_keys(block: CellBlock) -> NDArray[np.void]:
-    """A key for each cell (n,), equal for cells on the same nodes whatever their order."""
-    table = np.sort(block.connectivity, axis=1)
+def cell_keys(block: CellBlock, ordered: bool = False) -> NDArray[np.void]:
+    """A key for each cell (n,), equal on the same nodes, in the same order too if `ordered`."""
+    table = block.connectivity if ordered else np.sort(block.connectivity, axis=1)
     return np.ascontiguousarray(table).view([("", table.dtype)] * table.shape[1]).ravel()
 
 
@@ -110,9 +110,15 @@ def symmetric_difference(first: Mesh, second: Mesh) -> Mesh:
     return union(difference(first, second), difference(second, first))
 
 
-def without_duplicates(mesh: Mesh) -> Mesh:
-    """Each cell once (same nodes, whatever the order or the colour), the first one kept."""
-    return take(mesh, lambda b: np.sort(np.unique(cell_keys(b), return_index=True)[1]))
+def without_duplicates(mesh: Mesh, ordered: bool = False) -> Mesh:
+    """Each cell once, the first one kept, whatever the colour.
+
+    Parameters
+    ----------
+    ordered : bool
+        Cells on the same nodes in another order are not the same.
+    """
+    return take(mesh, lambda b: np.sort(np.unique(cell_keys(b, ordered), return_index=True)[1]))
 
 
 def _found_in(block: CellBlock, other: Mesh) -> BoolArray:

@@ -351,7 +351,7 @@ def without_stiffness(zone: Zone) -> ElementMatrices:
 
 
 def state_from_fields(bulk: Bulk, given: Fields) -> State | None:
-    """The state that an earlier calculation left; None if no stress of the zones is given."""
+    """The state that an earlier calculation left; None if they say nothing of the zones."""
     pairs = [
         zone.restored(blank, given) for zone, blank in zip(bulk.zones, bulk.unloaded(), strict=True)
     ]

@@ -192,7 +192,7 @@ class PlasticPoints:
         return cell_block(self.zone, names, values, law_support(self.zone))
 
     def restored(self, blank: PointState, given: Fields) -> tuple[PointState, bool]:
-        """The state that fields hold (what they lack as in `blank`), and if stresses are known."""
+        """The state that fields hold (what they lack as in `blank`), and whether they hold any."""
         names, at = family_of(self.zone).stress_names(self.zone), law_support(self.zone)
         seen, inner, strains = (zone_field(self.zone, f) for f in given)
         state, known = blank, False
@@ -203,10 +203,12 @@ class PlasticPoints:
                 values = values / self.section[:, None]
             state = replace(state, stress=self.spread(values) / self.roots)
         if any(n in inner for n in self.law.variables):
+            known = True
             kept = inner.matrix(self.law.variables, at).transpose(0, 2, 1)
             state = replace(state, variables=kept.reshape(self.count, -1))
         names = plastic_strain_names(self.zone)
         if any(n in strains for n in names):
+            known = True
             state = replace(state, plastic=self.spread(strains.matrix(names, at)) * self.roots)
         return state, known
 

@@ -292,6 +292,8 @@ class Evaluator(phrases.PhraseRunner):
 
     def _assign(self, statement: tree.Statement, left: list[Operand]) -> None:
         if len(left) == len(statement.targets) == 1 and not is_call(left):
+            if left[0].refusal:
+                raise left[0].refusal
             self.store(statement.targets[0], left[0].value)
             return
         targets = self._typed_targets(statement.targets)

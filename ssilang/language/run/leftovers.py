@@ -81,9 +81,6 @@ def _begins(span: Span) -> bool:
 
 def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
     name = str(operand.value)
-    holder, sign, _ = operand.span.text.rpartition("%")
-    if sign:
-        return SsiError("no-attribute", operand.span, name=name, holder=holder.strip() or "%")
     place, own = later.get(name.upper()), operand.span
     if place is not None and place.start > own.start and place.source is own.source:
         line = place.source.position(place.start)[0]

@@ -150,14 +150,16 @@ class OperandReader(ABC):
         holder = self.object_of(item)
         method = method_of(holder, item.name)
         if method is not None:
-            return [Operand(method, item.span, item.name)]
+            return [Operand(method, item.span, str(item.name))]
         value = holder.attributes.get(item.name)
         if value is None:
-            word = Operand(Mot(item.name), item.span)
-            if item.name[:4] in _METHODS_OF_ALL:
-                return [word, Operand(holder, item.span)]
-            return [word]
-        return [Operand(value, item.span, item.name)]
+            word = Mot(str(item.name))
+            if word[:4] in _METHODS_OF_ALL:
+                return [Operand(word, item.span), Operand(holder, item.span)]
+            text = item.span.text.rpartition("%")[0].strip() or "%"
+            refusal = SsiError("no-attribute", item.span, name=item.name, holder=text)
+            return [Operand(word, item.span, refusal=refusal)]
+        return [Operand(value, item.span, str(item.name))]
 
     def object_of(self, item: tree.Attribute) -> Objet:
         holder = self.single(item.base) if item.base is not None else self.session.frame.object

@@ -22,9 +22,9 @@ class BoundMethod(Procedure):
         self.target = target
 
 
-def method_of(holder: Objet, name: str) -> BoundMethod | None:
+def method_of(holder: Objet, name: str | int) -> BoundMethod | None:
     """A method of an object, ready to be called."""
-    found = holder.methods.get(name)
+    found = holder.methods.get(str(name))
     return None if found is None else BoundMethod(found, holder)
 
 

@@ -61,8 +61,10 @@ def symbol_of(text: str, span: Span) -> tree.Symbol:
     return tree.Symbol(text.upper(), span)
 
 
-def attribute_name(text: str) -> str:
-    """What an attribute is called that `text` writes, with or without quotes."""
+def attribute_name(text: str) -> str | int:
+    """What an attribute is called that `text` writes, a number or with or without quotes."""
+    if text.isdigit():
+        return int(text)
     return (_unquoted(text) if text.startswith("'") else text).upper()
 
 
@@ -77,7 +79,6 @@ def statement_of(targets: tuple[tree.Item, ...] | None, items: list[tree.Item]) 
 _Maker = Callable[[str, Span], tree.Item]
 _Step = Callable[[str, int, int], None]
 _Dotted = dict[int, list[tree.Item]]  # indices behind items, by the items' places
-_NO_PATH = (tree.Symbol, tree.Attribute)  # what no dot follows
 
 
 class _Assembly:
@@ -120,7 +121,8 @@ class _Assembly:
         if joint == ".":
             self.dotted.setdefault(len(self.items) - 1, []).append(item)
             return
-        if not isinstance(item, tree.Name | tree.Quoted):
+        whole = isinstance(item, tree.Number) and isinstance(item.value, int)
+        if not (whole or isinstance(item, tree.Name | tree.Quoted)):
             raise Unsound
         base_of = None if joint == "own" else self.items.pop()
         start = base_of.span.start if base_of else self.sign
@@ -150,13 +152,13 @@ class _Assembly:
 
     def _dot(self, text: str, start: int, end: int) -> None:
         self._free()
-        if not self.items or isinstance(self.items[-1], _NO_PATH):
+        if not self.items or isinstance(self.items[-1], tree.Symbol):
             raise Unsound
         self.joint = "."
 
     def _percent(self, text: str, start: int, end: int) -> None:
         self._free()
-        if not self.items or isinstance(self.items[-1], _NO_PATH):
+        if not self.items or isinstance(self.items[-1], tree.Symbol | tree.Attribute):
             raise Unsound
         if len(self.items) - 1 in self.dotted:
             raise Unsound

@@ -74,7 +74,7 @@ class Attribute:
     """`base % name`; base None stands for the object that runs the method."""
 
     base: "Item | None"
-    name: str
+    name: str | int
     span: Span
 
 
@@ -266,7 +266,7 @@ def _path(item: Path) -> str:
 
 def _attribute(item: Attribute) -> str:
     base = "" if item.base is None else _item(item.base)
-    return f"{base}%{_word(item.name)}"
+    return f"{base}%{item.name if isinstance(item.name, int) else _word(item.name)}"
 
 
 _ITEMS: dict[type, Callable[[Any], str]] = {

@@ -281,8 +281,9 @@ def _unique(
     ),
     tolerance: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE, en="absolute tolerance of reals"),
     fold: bool = Flag("NOCA", en="whatever the case"),
+    ordered: bool = Flag("ORDO", en="cells on the same nodes in another order stay"),
 ) -> Any:
-    return tuple(_without_doubles_of(v, tolerance, fold) for v in (value, *others))
+    return tuple(_without_doubles_of(v, tolerance, fold, ordered) for v in (value, *others))
 
 
 def _first_reals(numbers: list[float], tolerance: float | None) -> list[int]:
@@ -298,9 +299,11 @@ def _first_reals(numbers: list[float], tolerance: float | None) -> list[int]:
     return kept
 
 
-def _without_doubles_of(value: Sortable | Mesh, tolerance: float | None, fold: bool) -> Any:
+def _without_doubles_of(
+    value: Sortable | Mesh, tolerance: float | None, fold: bool, ordered: bool
+) -> Any:
     if isinstance(value, Mesh):
-        return without_duplicates(value)
+        return without_duplicates(value, ordered)
     if isinstance(value, ListReel):
         return taken(value, _first_reals(value.values.tolist(), tolerance))
     seen: dict[Any, int] = {}

@@ -61,7 +61,9 @@ def continue_loads(entries: Entries) -> None:
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     saved = np.ones(len(times), bool)
-    results = ResultTables(entries.table, saved, stresses, False, start.index, zones)
+    results = ResultTables(
+        entries.table, saved, stresses, False, start.index, zones, load=entries.get("CHARGEMENT")
+    )
     followed = Followed(len(times))
     observers: list[Observer] = [results, followed]
     rate = _rate(entries, problem, times)

@@ -148,6 +148,13 @@ def part_at(part: LoadPart, time: float) -> Any:
     return _sum(_scaled(before, 1.0 - share), part.steps[k][1], share)
 
 
+def named_at(load: Load | None, name: str, time: float) -> Any:
+    """The sum of all parts of a name at a time; None without any, or of several types."""
+    parts = () if load is None else load.parts
+    values = [part_at(p, time) for p in parts if p.name.strip() == name]
+    return reduce(_sum, values) if len({type(v) for v in values}) == 1 else None
+
+
 def _on_path(abscissas: NodeField, at: float) -> Point:
     """The point of a meshed line where its curvilinear abscissa is `at`, or the nearest end."""
     along = next(iter(abscissas.components.values()))

@@ -166,7 +166,9 @@ def _stretch(
         nodes = problem.numbering.nodes[rows]
         warn_of_weight(entries.call, inputs.stiffness, zones, nodes, pressing)
     strained = _strained(given, bool(finite))
-    results = ResultTables(entries.table, saved, stresses, dynamic, number, zones, strained)
+    results = ResultTables(
+        entries.table, saved, stresses, dynamic, number, zones, strained, given.get("CHARGEMENT")
+    )
     reached = Reached(results, len(times))
     observers: list[Observer] = [results, reached]
     kept = work.get("TEMPS_SAUVEGARDES")
@@ -327,7 +329,7 @@ def start_of(entries: Entries) -> Start:
     """The last result in the table, or that of time REPRISE: later ones are removed."""
     numbers = [
         i
-        for word in ("TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VITESSES")
+        for word in ("TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "VITESSES")
         for i in entries.numbers(word)
     ]
     again = entries.get("REPRISE")

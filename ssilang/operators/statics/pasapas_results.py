@@ -2,8 +2,9 @@
 
 from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.statics.thermal_load import ThermalStress
+from ssilang.kernel.statics.thermal_load import ThermalStress, free_terms
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.loads_in_time import named_at
 
 if TYPE_CHECKING:
     from ssilang.kernel.stepping.snapshot import Snapshot
@@ -68,7 +69,8 @@ class ResultTables:
 
     `number` is that of the initial state; what the table already holds there is kept. Fields in
     cells come in the order of `zones`, the model's, which a script's EXTR counts. DEFORMATIONS
-    is filled with the linear strains where `material` is given.
+    is filled with the linear strains, less those that `load` gives (T, DEFI), where `material`
+    is given, TEMPERATURES with the temperatures of `load` where it has some.
     """
 
     table: Table
@@ -78,6 +80,7 @@ class ResultTables:
     number: int = 0
     zones: tuple[Zone, ...] = ()
     material: CellField | None = None
+    load: Load | None = None
     _last: "tuple[Snapshot, dict[str, Any]] | None" = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
@@ -113,13 +116,27 @@ class ResultTables:
         )
         if self.material is not None:
             bodies = (z for z in self.zones if not is_joint(z) and family_of(z).strain_names(z))
-            strains = [strain(z, u, self.material) for z in bodies]
+            strains = [self._strain(z, self.material, u, snapshot.time) for z in bodies]
             jumps = snapshot.jumps.blocks if snapshot.jumps else ()
             values["DEFORMATIONS"] = self._in_order(CellField((*strains, *jumps), "DEFORMATIONS"))
         if self.dynamic:
             values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
+        warm = named_at(self.load, "T", snapshot.time)
+        if warm is not None:
+            values["TEMPERATURES"] = warm
         self._last = (snapshot, values)
         return values
+
+    def _strain(
+        self, zone: Zone, material: CellField, displacement: NodeField, time: float
+    ) -> CellFieldBlock:
+        found = strain(zone, displacement, material)
+        parts = dict(found.components)
+        for free, curve in free_terms(self.load, zone, material):
+            factor = float(np.interp(time, *curve))
+            for k, name in enumerate(family_of(zone).strain_names(zone)):
+                parts[name] = parts[name] - factor * free[:, k]
+        return replace(found, components=parts)
 
     def _in_order(self, found: CellField) -> CellField:
         """A field whose blocks come in the order of the zones that they lie on."""

@@ -124,8 +124,8 @@ def test_a_state_goes_through_its_fields_and_back(line: str, law: str, more: str
     assert known
     for name in ("stress", "plastic", "variables"):
         np.testing.assert_allclose(getattr(back, name), getattr(state, name), rtol=1e-12)
-    _, known = points.restored(blank, (None, *given[1:]))
-    assert not known
+    assert points.restored(blank, (None, *given[1:]))[1]
+    assert not points.restored(blank, (None, None, None))[1]
 
 
 def test_newton_converges_quadratically() -> None:

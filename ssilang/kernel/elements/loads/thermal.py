@@ -15,6 +15,7 @@ from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.mesh.cells import CELL_TYPES
 
 THIN_SHELLS = ("plate", "meridian", "mindlin")
 JOINT_RATES = {
@@ -66,9 +67,10 @@ def refuse_expanding(joints: list[Zone], material: CellField | None) -> None:
 def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField) -> FloatArray:
     """Strains ALPH (T - TALP), (n_cells, n_strains, n_points); zero where ALPH is not given.
 
-    Orthotropic elements expand by ALP1 ALP2 (ALP3) along their axes. Shells take TINF T TSUP, the
-    temperatures of the lower skin, the middle and the upper skin, or T alone. Joints open by ALPN
-    and slide and turn by its kin, of temperatures at their own points.
+    Orthotropic elements expand by ALP1 ALP2 (ALP3) along their axes. Linear elements whose volume
+    change is a mean take the cell's mean temperature, too: else T locks what they free. Shells
+    take TINF T TSUP, the temperatures of the lower skin, the middle and the upper skin, or T
+    alone. Joints open by ALPN and slide and turn by its kin, of temperatures at their own points.
 
     Raises
     ------
@@ -84,6 +86,8 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
     values = np.zeros((len(zone.cells), len(names), rise.shape[1]))
     kind = ELEMENTS[zone.element].family
     if kind in SOLID_FAMILIES:
+        if kind == "incompressible" and CELL_TYPES[zone.cells.cell_type].degree == 1:
+            rise = np.broadcast_to(rise.mean(axis=1, keepdims=True), rise.shape)
         return _solid(zone, parameters, rise, len(names))
     if kind == "solid shell":
         values[:, :6] = _solid(zone, parameters, rise, 6)

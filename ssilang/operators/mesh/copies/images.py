@@ -95,6 +95,9 @@ class Copier:
         """A table of copies, indices kept."""
         made = Table()
         for index, value in table.items():
+            if type(value) not in _COPIES and index != "SOUSTYPE":
+                told = {"index": index, "found": type_of(value)}
+                raise MeshError("operators.mesh.copied-table-holds", **told)
             made.set(index, self(value) if type(value) in _COPIES else value)
         return made
 
@@ -206,6 +209,8 @@ def tour(
     centre: Point = Arg("POINT", en="centre"),
 ) -> tuple[Any, ...]:
     """Copy and turn about a point."""
+    if workspace(call.session).dimension == 1:
+        raise call.error("operators.mesh.no-turn-on-line")
     return _turned(call, objects, angle, centre.coordinates.copy(), np.array([0.0, 0.0, 1.0]))
 
 
