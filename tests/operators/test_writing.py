@@ -140,6 +140,10 @@ def test_a_matrix_with_its_conditions_as_matrix_market(tmp_path: Path) -> None:
         if name == "UY" and np.allclose(geom[node - 1, :2], [2.0, 1.0]):
             load[row] = 3.0
     assert np.allclose(matrix @ solution, load, atol=1e-6)
+    for word, made in {"INCO": ["inco", "mm"], "GEOM": ["geom", "mm"]}.items():
+        (alone := tmp_path / word).mkdir()
+        run(f"K = RIGI MO MA ; SORT 'MAT ' 'MM' 'ASSE' '{word}' K ;", alone)
+        assert sorted(path.suffix[1:] for path in alone.glob("out.*")) == made
 
 
 def test_figures_go_to_the_session(tmp_path: Path) -> None:

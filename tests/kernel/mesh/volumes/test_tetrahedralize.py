@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from references.straight_line import straight_line
+from refusing import refusal
 from together import together
 
 from ssilang.kernel.base.errors import MeshError
@@ -15,7 +16,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import signed_volumes
 from ssilang.kernel.mesh.queries.measure import total_measure
-from ssilang.kernel.mesh.volumes.tetrahedralize import _inner_points, lift_faces
+from ssilang.kernel.mesh.volumes.tetrahedralize import _inner_points, _lattice, lift_faces
 from ssilang.kernel.mesh.volumes.volume import fill_volume
 
 
@@ -121,3 +122,15 @@ def test_lines_are_refused() -> None:
     some = Mesh.of(skin.nodes, "QUA4", block.connectivity[:1])
     with pytest.raises(MeshError, match="SEG2"):
         fill_volume(contour(some))
+
+
+def test_a_lattice_stands_in_the_middle_of_its_box_and_is_not_too_fine():
+    low, high = np.array([-1.0, 2.0, 0.3]), np.array([1.3, 2.9, 4.0])
+    points = _lattice(low, high, 0.4)
+    corners = points[: len(points) // 2]
+    near = 2 * 0.03 * 0.4  # each point is moved by so little at most, on either side
+    np.testing.assert_allclose(corners.min(axis=0) - low, high - corners.max(axis=0), atol=near)
+    assert len(corners) == 6 * 3 * 10  # 2.3, 0.9, 3.7 by 0.4
+    np.testing.assert_allclose(points[len(corners) :], corners + 0.2, atol=near)
+    with refusal(MeshError, "kernel.mesh.surface-asks-more-ten"):
+        _lattice(low, high, 0.01)
