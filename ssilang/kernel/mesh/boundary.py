@@ -3,8 +3,9 @@
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.arrays import BoolArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -45,39 +46,86 @@ def faces_inside(faces: Mesh, mesh: Mesh) -> int:
     return count
 
 
-def _boundary(mesh: Mesh, dimension: int, shared: tuple[int, int]) -> Mesh:
-    blocks = []
-    for name, (table, colours) in faces_of(mesh, dimension).items():
-        counts, group = sharing(table)
-        keep = np.flatnonzero((counts >= shared[0]) & (counts <= shared[1]))
-        _, first = np.unique(group[keep], return_index=True)
-        keep = keep[np.sort(first)]
-        if len(keep):
-            blocks.append(
-                CellBlock.make(mesh.nodes, name, table[keep], colours[keep].astype(np.int8))
-            )
-    return Mesh(mesh.nodes, tuple(blocks))
-
-
 _MANY = 2**31
 
 
 def contour(mesh: Mesh) -> Mesh:
-    """Edges of surface cells that belong to one cell only, in the cells' own order.
+    """Edges of surface cells that belong to one cell only, walked along end to end.
 
-    Where cells of both senses meet, closed loops all run the way of their first edge.
+    The walk starts at the first corner met (of all cells the first corners, then the second ones),
+    and its first edge keeps the sense of its cell: the loop follows it, whatever way the others
+    are described.
     """
-    found = _boundary(mesh, 2, (1, 1))
-    blocks = []
-    for block in found.blocks:
-        table = block.connectivity
-        _, times = np.unique(table[:, [0, -1]], return_counts=True)
-        mixed = not np.array_equal(np.sort(table[:, 0]), np.sort(table[:, -1]))
-        if mixed and (times == 2).all():
-            turned = in_one_sense(table)
-            block = CellBlock.make(mesh.nodes, block.cell_type, turned, block.colours)
-        blocks.append(block)
+    return _walked(mesh, (1, 1))
+
+
+def _walked(mesh: Mesh, shared: tuple[int, int]) -> Mesh:
+    """Edges that as many surface cells have, in the order and sense of a walk along them."""
+    edges, corners, colours = _edges_of_surfaces(mesh)
+    counts, group = sharing(edges)
+    keep = np.flatnonzero((counts >= shared[0]) & (counts <= shared[1]))
+    keep = keep[np.sort(np.unique(group[keep], return_index=True)[1])]
+    order, turned = _walk(edges[keep][:, [0, 2]], corners)
+    found = np.where(turned[:, None], edges[keep][order][:, ::-1], edges[keep][order])
+    shades, plain = colours[keep][order], found[:, 1] < 0
+    parts = (("SEG2", plain, [0, 2]), ("SEG3", ~plain, [0, 1, 2]))
+    blocks = [
+        CellBlock.make(mesh.nodes, name, found[some][:, columns], shades[some])
+        for name, some, columns in parts
+        if some.any()
+    ]
     return Mesh(mesh.nodes, tuple(blocks))
+
+
+def _edges_of_surfaces(mesh: Mesh) -> tuple[IntArray, IntArray, NDArray[np.int8]]:
+    """Edges (start, middle or -1, end) cell by cell, their corners as met, their colours."""
+    edges, corners, colours = [], [], []
+    for block in mesh.blocks:
+        if block.kind.dimension != 2 or block.kind.joint:
+            continue
+        sides = np.array([local for _, local in block.kind.faces])
+        if sides.shape[1] == 2:
+            rows = np.insert(block.connectivity[:, sides], 1, -1, axis=2)
+        else:
+            rows = block.connectivity[:, sides]
+        edges.append(rows.reshape(-1, 3))
+        corners.append(block.connectivity[:, list(block.kind.corners)].T.ravel())
+        colours.append(np.repeat(block.colours, len(sides)))
+    if not edges:
+        return np.empty((0, 3), np.int64), np.empty(0, np.int64), np.empty(0, np.int8)
+    return np.concatenate(edges), np.concatenate(corners), np.concatenate(colours)
+
+
+def _walk(ends: IntArray, corners: IntArray) -> tuple[IntArray, BoolArray]:
+    """Edges (n, 2) in the order of a walk, and which of them it goes backwards.
+
+    Parameters
+    ----------
+    ends : array (n, 2)
+    corners : array (m,)
+        Nodes, repeats allowed, in the order in which walks start.
+    """
+    at_node: dict[int, list[int]] = {}
+    for i, pair in enumerate(ends.tolist()):
+        for node in pair:
+            at_node.setdefault(node, []).append(i)
+    rows = ends.tolist()
+    met = [c for c in dict.fromkeys(corners.tolist()) if c in at_node]
+    heads = [c for c in met if len(at_node[c]) == 1 and rows[at_node[c][0]][0] == c]
+    used, order, turned = [False] * len(rows), [], []
+    for here in [*heads, *met]:
+        first = True
+        while left := [i for i in at_node[here] if not used[i]]:
+            i = left[0]
+            used[i] = True
+            order.append(i)
+            backwards = rows[i][0] != here
+            stays = first and backwards and len(left) > 1  # enters the start, where the walk goes on
+            turned.append(backwards and not stays)
+            if not stays:
+                here = rows[i][0] if backwards else rows[i][1]
+            first = False
+    return np.array(order, dtype=np.int64), np.array(turned, dtype=bool)
 
 
 def in_one_sense(cells: IntArray) -> IntArray:
@@ -101,12 +149,19 @@ def in_one_sense(cells: IntArray) -> IntArray:
 
 def inner_contour(mesh: Mesh) -> Mesh:
     """Edges where three or more surface cells meet."""
-    return _boundary(mesh, 2, (3, _MANY))
+    return _walked(mesh, (3, _MANY))
 
 
 def envelope(mesh: Mesh) -> Mesh:
     """Faces of volume cells that belong to one cell only, oriented as the cells' faces are."""
-    return _boundary(mesh, 3, (1, 1))
+    blocks = []
+    for name, (table, colours) in faces_of(mesh, 3).items():
+        keep = np.flatnonzero(sharing(table)[0] == 1)
+        if len(keep):
+            blocks.append(
+                CellBlock.make(mesh.nodes, name, table[keep], colours[keep].astype(np.int8))
+            )
+    return Mesh(mesh.nodes, tuple(blocks))
 
 
 def lone_surfaces(mesh: Mesh) -> Mesh:

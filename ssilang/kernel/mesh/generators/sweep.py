@@ -180,16 +180,22 @@ def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
 
 
 def layer_cuts(
-    mesh: Mesh, path: Path, end_size: float, count: int, sizes: tuple[float, float] = (0.0, 0.0)
+    mesh: Mesh,
+    path: Path,
+    end_size: float,
+    count: int,
+    sizes: tuple[float | None, float | None] = (None, None),
 ) -> Subdivision:
     """Layers of a sweep: by number, by the mean density of `mesh` and `end_size`, or both.
 
     Parameters
     ----------
-    sizes : (float, float)
-        Sizes that replace the first and the second where they are positive (DINI, DFIN).
+    sizes : (float or None, float or None)
+        Sizes that replace the first and the second where they are given (DINI, DFIN).
     """
-    return subdivide(path.length, sizes[0] or mean_density(mesh), sizes[1] or end_size, count)
+    first = mean_density(mesh) if sizes[0] is None else sizes[0]
+    last = end_size if sizes[1] is None else sizes[1]
+    return subdivide(path.length, first, last, count)
 
 
 def listed_cuts(values: FloatArray, length: float) -> Subdivision:

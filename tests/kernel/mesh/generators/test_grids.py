@@ -322,7 +322,8 @@ def test_sizes_and_positions_of_a_sweep_count_nodes_by_cells():
     assert mean_density(base) == pytest.approx(density[nodes].mean())
     np.testing.assert_allclose(mean_position(base), x[nodes].mean(axis=0))
     path = translation(np.array([0.0, 0.0, 2.0]))
-    for sizes, first, last in (((0, 0), density[nodes].mean(), 0.9), ((0.4, 0.7), 0.4, 0.7)):
+    given = (((None, None), density[nodes].mean(), 0.9), ((0.4, 0.7), 0.4, 0.7))
+    for sizes, first, last in (*given, ((0.0, 0.7), 0.0, 0.7)):
         cuts = layer_cuts(base, path, 0.9, -6, sizes)
         q = cuts.fractions[2] - cuts.fractions[1]
         q /= cuts.fractions[1]
