@@ -125,8 +125,6 @@ def test_a_dot_before_an_end_separates_nothing(run, end):
     made = run(f"OPTI DIME 3 ; l = 4. ; p = 0. 0. l{end} q = (l. / 2.) (l.) l{end}")
     assert list(made["p"].coordinates) == [0.0, 0.0, 4.0]
     assert list(made["q"].coordinates) == [2.0, 4.0, 4.0]
-    apart = run(f"OPTI DIME 3 ; p = 1. 0 2 {end}")  # behind a number's blank, too
-    assert list(apart["p"].coordinates) == [1.0, 0.0, 2.0]
 
 
 def test_a_dot_behind_a_blank_wants_an_index():

@@ -67,13 +67,13 @@ def subdivide(
     Raises
     ------
     MeshError
-        If sizes are needed and one is not positive (negative, where `count` is), or the path has no length.
+        If sizes are needed and one is not positive (negative, where `count` is), or the path
+        has no length.
     """
     if count > 0:
         step = (length or 1.0) / count
         return Subdivision(np.linspace(0.0, 1.0, count + 1), step, step)
-    sizes = (start_size, end_size)
-    if not all(0.0 < size < math.inf or (size == 0.0 and count < 0) for size in sizes):
+    if not all(0.0 < s < math.inf or (s == 0.0 and count < 0) for s in (start_size, end_size)):
         raise MeshError(
             "kernel.mesh.mesh-sizes-must-positive", start_size=start_size, end_size=end_size
         )
