@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
@@ -45,68 +46,105 @@ def faces_inside(faces: Mesh, mesh: Mesh) -> int:
     return count
 
 
-def _boundary(mesh: Mesh, dimension: int, shared: tuple[int, int]) -> Mesh:
-    blocks = []
-    for name, (table, colours) in faces_of(mesh, dimension).items():
-        counts, group = sharing(table)
-        keep = np.flatnonzero((counts >= shared[0]) & (counts <= shared[1]))
-        _, first = np.unique(group[keep], return_index=True)
-        keep = keep[np.sort(first)]
-        if len(keep):
-            blocks.append(
-                CellBlock.make(mesh.nodes, name, table[keep], colours[keep].astype(np.int8))
-            )
-    return Mesh(mesh.nodes, tuple(blocks))
-
-
 _MANY = 2**31
 
 
 def contour(mesh: Mesh) -> Mesh:
-    """Edges of surface cells that belong to one cell only, in the cells' own order.
+    """Edges of surface cells that belong to one cell only, walked along end to end.
 
-    Where cells of both senses meet, closed loops all run the way of their first edge.
+    The walk starts at the first corner met (of all cells the first corners, then the second ones),
+    and its first edge keeps the sense of its cell: the loop follows it, whatever way the others
+    are described.
     """
-    found = _boundary(mesh, 2, (1, 1))
-    blocks = []
-    for block in found.blocks:
-        table = block.connectivity
-        _, times = np.unique(table[:, [0, -1]], return_counts=True)
-        mixed = not np.array_equal(np.sort(table[:, 0]), np.sort(table[:, -1]))
-        if mixed and (times == 2).all():
-            turned = in_one_sense(table)
-            block = CellBlock.make(mesh.nodes, block.cell_type, turned, block.colours)
-        blocks.append(block)
-    return Mesh(mesh.nodes, tuple(blocks))
+    return _walked(mesh, (1, 1))
 
 
-def in_one_sense(cells: IntArray) -> IntArray:
-    """Cells of closed loops, all turned the way of the first of their loop."""
+def _walked(mesh: Mesh, shared: tuple[int, int]) -> Mesh:
+    """Edges that as many surface cells have, in the order and sense of a walk along them."""
+    edges, corners, colours = _edges_of_surfaces(mesh)
+    counts, group = sharing(edges)
+    keep = np.flatnonzero((counts >= shared[0]) & (counts <= shared[1]))
+    keep = keep[np.sort(np.unique(group[keep], return_index=True)[1])]
+    starts, first = np.unique(corners, return_index=True)
+    found, order = walked(edges[keep], starts[np.argsort(first)])
+    shades, plain = colours[keep][order], found[:, 1] < 0
+    straight = CellBlock.make(mesh.nodes, "SEG2", found[plain][:, [0, 2]], shades[plain])
+    curved = CellBlock.make(mesh.nodes, "SEG3", found[~plain], shades[~plain])
+    return Mesh(mesh.nodes, tuple(b for b in (straight, curved) if len(b)))
+
+
+def _edges_of_surfaces(mesh: Mesh) -> tuple[IntArray, IntArray, NDArray[np.int8]]:
+    """Edges (start, middle or -1, end) cell by cell, their corners as met, their colours."""
+    edges, corners, colours = [], [], []
+    for block in mesh.blocks:
+        if block.kind.dimension != 2 or block.kind.joint:
+            continue
+        rows = block.connectivity[:, [local for _, local in block.kind.faces]]
+        if rows.shape[2] == 2:
+            rows = np.insert(rows, 1, -1, axis=2)
+        edges.append(rows.reshape(-1, 3))
+        corners.append(block.connectivity[:, list(block.kind.corners)].T.ravel())
+        colours.append(np.repeat(block.colours, rows.shape[1]))
+    if not edges:
+        return np.empty((0, 3), np.int64), np.empty(0, np.int64), np.empty(0, np.int8)
+    return np.concatenate(edges), np.concatenate(corners), np.concatenate(colours)
+
+
+def walked(cells: IntArray, corners: IntArray, turning: bool = True) -> tuple[IntArray, IntArray]:
+    """Lines' cells (n, k) end to end, turned as a walk along them goes, and their old places (n,).
+
+    Parameters
+    ----------
+    corners : array (m,)
+        Nodes in the order in which walks start; the ends from which an open line leaves come first.
+    turning : bool
+        False: the walk goes along cells in their own sense alone.
+    """
     at_node: dict[int, list[int]] = {}
-    for i, (a, b) in enumerate(cells[:, [0, -1]].tolist()):
-        at_node.setdefault(a, []).append(i)
-        at_node.setdefault(b, []).append(i)
-    turned = cells.copy()
-    waiting = set(range(len(cells)))
-    while waiting:
-        i = min(waiting)
-        while i in waiting:
-            waiting.discard(i)
-            end = int(turned[i, -1])
-            i = next(j for j in at_node[end] if j != i)
-            if i in waiting and turned[i, 0] != end:
-                turned[i] = turned[i, ::-1]
-    return turned
+    rows = cells[:, [0, -1]].tolist()
+    for i, pair in enumerate(rows):
+        for node in pair if turning else pair[:1]:
+            at_node.setdefault(node, []).append(i)
+    met = [c for c in corners.tolist() if c in at_node]
+    ends = {b for _, b in rows}
+    heads = [c for c in met if c not in ends and (len(at_node[c]) == 1 or not turning)]
+    used = [False] * len(rows)
+    order: list[int] = []
+    turned: list[bool] = []
+    for here in [*heads, *met]:
+        first = True
+        while left := [i for i in at_node.get(here, ()) if not used[i]]:
+            i = left[0]
+            used[i] = True
+            order.append(i)
+            backwards = rows[i][0] != here
+            stays = first and backwards and len(left) > 1  # enters the start, left by another
+            turned.append(backwards and not stays)
+            if not stays:
+                here = rows[i][0] if backwards else rows[i][1]
+            first = False
+    found = cells[order]
+    found[turned] = found[turned][:, ::-1]
+    return found, np.array(order, dtype=np.int64)
 
 
 def inner_contour(mesh: Mesh) -> Mesh:
     """Edges where three or more surface cells meet."""
-    return _boundary(mesh, 2, (3, _MANY))
+    return _walked(mesh, (3, _MANY))
 
 
 def envelope(mesh: Mesh) -> Mesh:
     """Faces of volume cells that belong to one cell only, oriented as the cells' faces are."""
-    return _boundary(mesh, 3, (1, 1))
+    return take(_all_faces(mesh), lambda b: sharing(b.connectivity)[0] == 1)
+
+
+def _all_faces(mesh: Mesh) -> Mesh:
+    """Faces of volume cells, those between two cells twice."""
+    made = [
+        CellBlock.make(mesh.nodes, name, table, colours.astype(np.int8))
+        for name, (table, colours) in faces_of(mesh, 3).items()
+    ]
+    return Mesh(mesh.nodes, tuple(made))
 
 
 def lone_surfaces(mesh: Mesh) -> Mesh:
@@ -127,37 +165,14 @@ def chained(mesh: Mesh) -> Mesh:
 
 
 def _chain_block(block: CellBlock) -> CellBlock:
-    table = block.connectivity
-    leaving: dict[int, list[int]] = {}
-    for i, node in enumerate(table[:, 0].tolist()):
-        leaving.setdefault(node, []).append(i)
-    for cells in leaving.values():
-        cells.reverse()
-    ends = set(table[:, -1].tolist())
-    heads = [i for i, node in enumerate(table[:, 0].tolist()) if node not in ends]
-    used = np.zeros(len(table), dtype=bool)
-    order: list[int] = []
-    for first in [*heads, *range(len(table))]:
-        cell = first
-        while cell >= 0 and not used[cell]:
-            used[cell] = True
-            order.append(cell)
-            following = leaving.get(int(table[cell, -1]), [])
-            while following and used[following[-1]]:
-                following.pop()
-            cell = following[-1] if following else -1
-    return CellBlock.make(block.nodes, block.cell_type, table[order], block.colours[order])
+    found, order = walked(block.connectivity, block.connectivity[:, 0], turning=False)
+    return CellBlock.make(block.nodes, block.cell_type, found, block.colours[order])
 
 
 def edges(mesh: Mesh) -> Mesh:
     """All edges of the cells, each once, as SEG2 or SEG3 (lines themselves included)."""
     tables: dict[str, list[IntArray]] = {}
-    skin = faces_of(mesh, 3)
-    flat = [(k, t) for k, (t, _) in faces_of(mesh, 2).items()]
-    surfaces = Mesh(
-        mesh.nodes, tuple(CellBlock.make(mesh.nodes, k, t) for k, (t, _) in skin.items())
-    )
-    flat += [(k, t) for k, (t, _) in faces_of(surfaces, 2).items()]
+    flat = [(k, t) for m in (mesh, _all_faces(mesh)) for k, (t, _) in faces_of(m, 2).items()]
     flat += [(b.cell_type, b.connectivity) for b in mesh.blocks if b.cell_type[:3] == "SEG"]
     for name, table in flat:
         tables.setdefault(name, []).append(table)

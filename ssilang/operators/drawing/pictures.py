@@ -42,8 +42,11 @@ def tell_vain(call: Call, vain: Iterable[tuple[str, str]]) -> None:
 
 
 def refuse_rest(call: Call, words: Iterable[str]) -> None:
-    """Refuse what a drawing statement has not read, before anything is drawn."""
-    if not call.operands:
+    """Refuse what a drawing statement has not read, before anything is drawn.
+
+    FIN alone, where the ; before it is missing, ends the run behind the picture.
+    """
+    if not call.operands or [str(o.value).upper() for o in call.operands] == ["FIN"]:
         return
     left, known = call.operands[0], tuple(dict.fromkeys(words))
     call.used.append(left)

@@ -2,7 +2,7 @@
 
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators import sweep
-from ssilang.kernel.mesh.lines.subdivision import Subdivision
+from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
 from ssilang.kernel.mesh.orientation import surface_normals
 from ssilang.kernel.mesh.volumes.block import fill_block
 from ssilang.kernel.mesh.volumes.volume import fill_volume
@@ -36,7 +36,8 @@ def _make(
     if listed is not None:
         layers = sweep.listed_cuts(listed.values, path.length)
     else:
-        layers = sweep.layer_cuts(surface, path, end_size, cuts.count, (cuts.first, cuts.last))
+        sizes = cuts.sizes((sweep.mean_density(surface), end_size))
+        layers = subdivide(path.length, *sizes, cuts.count)
     made = sweep.sweep_surface(surface, path, layers)
     return made if surface is base else stacked(base, made)
 

@@ -164,6 +164,14 @@ def _forget_name(session: Session, name: str = Name(en="name to forget")) -> Non
     session.frame.forget(name, hiding=find_operator(name) is not None)
 
 
+@OUBL.form()
+def _forget_nothing(
+    call: Call,
+    nameless: Any = Arg("*", "TEXTE", en="object without a name: nothing is forgotten"),
+) -> None:
+    call.warn("operators.session.nothing-forgotten", nameless, found=type_of(nameless))
+
+
 @operator("DETR", family="objects", full_name="DETRUIRE")
 def detr(objects: tuple[Any, ...] = Many("*", "TEXTE", en="objects no longer used")) -> None:
     """Accept and ignore."""

@@ -269,3 +269,32 @@ def test_a_filled_contour_numbers_its_nodes_ring_after_ring(across, up, inner) -
         root = ran(f"{sides}S = {word} ; {listed}").session.root
         made = np.transpose([root.find("X").values, root.find("Y").values])
         np.testing.assert_allclose(made, expected, atol=1e-9)
+
+
+@together(
+    "made, length, first, last",
+    [
+        ("O D -4 E DINI 0.5 DFIN 0.", 2.0, 0.5, 0.0),
+        ("O D -4 E DINI 0. DFIN 0.5", 2.0, 0.0, 0.5),
+        ("O D -4 E DINI 0. DFIN 0.", 2.0, 0.0, 0.0),
+        ("COTE 4 ((O D 1 A) TRAN -4 V DINI 0. DFIN 0.6)", 3.0, 0.6, 0.0),
+        ("COTE 2 ((O D 1 A) TRAN -4 V DINI 0.6 DFIN 0.)", 3.0, 0.6, 0.0),
+        ("COTE 2 (C TRAN -4 V)", 3.0, 0.4, 0.0),  # by the mean of the base's 0.2 and 0.6
+    ],
+)
+def test_sizes_of_0_grade_a_given_number(made, length, first, last):
+    base = "DENS 0.2 ; P = 0. 0. ; DENS 0.6 ; Q = 1. 0. ; C = P D 1 Q ;"
+    text = f"{PLANE}E = 2. 0. ; V = 0. 3. ; {base}"
+    places = xy(value(f"{text} X = {made} ;"))
+    steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    assert len(steps) == 4
+    assert steps.sum() == pytest.approx(length)
+    ratio = steps[1:] / steps[:-1]
+    grown = np.sqrt(ratio) - 1 / np.sqrt(ratio)
+    np.testing.assert_allclose(grown, (last - first) / length, atol=1e-9)
+
+
+def test_a_missing_end_of_a_statement_before_fin_and_names_that_are_none():
+    assert value(f"{STRIP} X = 1 ; TRAC CACH S\nFIN ; X = 2 ;") == 1
+    script = ran("T = TABL ; T . 1 = 5 ; A = 3 ; OUBL T . 1 ; OUBL (A + 1) ; X = A + (DIME T) ;")
+    assert script.session.root.find("X") == 4

@@ -17,7 +17,7 @@ from ssilang.kernel.mesh.changes.split import split_quadrangles
 from ssilang.kernel.mesh.combine import take, union
 from ssilang.kernel.mesh.lines.curves import unit_vector
 from ssilang.kernel.mesh.lines.lines import line_chain
-from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
+from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line
@@ -177,19 +177,6 @@ def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
             faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
         around = (union(*faces),)
     return Mesh(surface.nodes, blocks, (Mesh(surface.nodes, surface.blocks), end, *around))
-
-
-def layer_cuts(
-    mesh: Mesh, path: Path, end_size: float, count: int, sizes: tuple[float, float] = (0.0, 0.0)
-) -> Subdivision:
-    """Layers of a sweep: by number, by the mean density of `mesh` and `end_size`, or both.
-
-    Parameters
-    ----------
-    sizes : (float, float)
-        Sizes that replace the first and the second where they are positive (DINI, DFIN).
-    """
-    return subdivide(path.length, sizes[0] or mean_density(mesh), sizes[1] or end_size, count)
 
 
 def listed_cuts(values: FloatArray, length: float) -> Subdivision:

@@ -54,8 +54,8 @@ def subdivide(
     start_size, end_size : float
         Wanted element sizes at the two ends.
     count : int
-        `> 0`: that many equal elements. `< 0`: that many, graded by the sizes. `0`: as many as
-        the sizes ask for, graded.
+        `> 0`: that many equal elements. `< 0`: that many, graded by the sizes, of which their
+        difference alone counts then: they may be 0. `0`: as many as the sizes ask for, graded.
 
     Notes
     -----
@@ -67,12 +67,13 @@ def subdivide(
     Raises
     ------
     MeshError
-        If sizes are needed and one is not positive, or the path has no length.
+        If sizes are needed and one is not positive (negative, where `count` is), or the path
+        has no length.
     """
     if count > 0:
         step = (length or 1.0) / count
         return Subdivision(np.linspace(0.0, 1.0, count + 1), step, step)
-    if not (0.0 < start_size < math.inf and 0.0 < end_size < math.inf):
+    if not all(0.0 < s < math.inf or (s == 0.0 and count < 0) for s in (start_size, end_size)):
         raise MeshError(
             "kernel.mesh.mesh-sizes-must-positive", start_size=start_size, end_size=end_size
         )
@@ -81,15 +82,17 @@ def subdivide(
     d1, d2 = start_size / length, end_size / length
     ratio = _ratio(d1, d2)
     graded = abs(ratio - 1.0) > _UNIFORM
-    wanted = math.log(d2 / d1) / math.log(ratio) if graded else 1.0 / d1
-    n = -count if count < 0 else _nearest(wanted)
+    if count < 0:
+        n = -count
+    else:
+        n = _nearest(math.log(d2 / d1) / math.log(ratio) if graded else 1.0 / d1)
     if not graded:
         return Subdivision(np.linspace(0.0, 1.0, n + 1), length / n, end_size)
-    sizes = ratio ** np.arange(n)
-    sizes /= sizes.sum()
-    fractions = np.concatenate([[0.0], np.cumsum(sizes)])
+    steps = ratio ** np.arange(n)
+    steps /= steps.sum()
+    fractions = np.concatenate([[0.0], np.cumsum(steps)])
     fractions[-1] = 1.0
-    return Subdivision(fractions, float(sizes[0]) / ratio * length, end_size)
+    return Subdivision(fractions, float(steps[0]) / ratio * length, end_size)
 
 
 def _ratio(d1: float, d2: float) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.boundary import chained, envelope, in_one_sense
+from ssilang.kernel.mesh.boundary import chained, envelope, walked
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.changes.degree import quadratic
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -198,7 +198,7 @@ def contour_cells(contour: Mesh) -> IntArray:
             raise MeshError("kernel.mesh.contour-not-closed-line", nodes=told)
         if (times != 2).any():
             raise MeshError("kernel.mesh.lines-contour-not-run")
-        return in_one_sense(cells)
+        return walked(cells, cells[:, 0])[0]
     return cells
 
 

@@ -25,9 +25,9 @@ ANGLE = opt("angle", "FLOTTANT", en="angle", unit="deg", usual=between(-360.0, 3
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
-    arg("size", "FLOTTANT", unit="m", range=POSITIVE),
+    arg("size", "FLOTTANT", unit="m", range=NOT_NEGATIVE),
     repeated=True,
-    en="mesh size at the start, at the end, in place of the one there",
+    en="mesh size at the start, at the end, in place of the one there; 0 beside a negative number",
 )
 Sizes = Sequence[tuple[str, float]]
 START = arg("start", "POINT", "MAILLAGE", en="start, or a line to go on")
@@ -41,21 +41,25 @@ AXIS = many("axis", "POINT", at_least=1, en="centre, or in space two points of t
 
 @dataclass(frozen=True)
 class Cuts:
-    """Number of elements and mesh sizes at both ends; 0 if not given."""
+    """Number of elements, 0 if not given, and the mesh sizes given for the ends."""
 
     count: int = 0
-    first: float = 0.0
-    last: float = 0.0
+    first: float | None = None
+    last: float | None = None
 
     def sizes(self, densities: tuple[float, float]) -> tuple[float, float]:
         """The given sizes, else those of the two ends."""
-        return self.first or densities[0], self.last or densities[1]
+        first, last = densities
+        return (
+            first if self.first is None else self.first,
+            last if self.last is None else self.last,
+        )
 
 
 def cuts_of(count: int | None, sizes: Sizes) -> Cuts:
     """What `COUNT` and `SIZES` have read."""
     said = dict(sizes)
-    return Cuts(count or 0, said.get("DINI", 0.0), said.get("DFIN", 0.0))
+    return Cuts(count or 0, said.get("DINI"), said.get("DFIN"))
 
 
 def count_and_angle(call: Call, count: int | None, angle: float | None) -> tuple[int, float]:

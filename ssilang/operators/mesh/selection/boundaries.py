@@ -1,16 +1,8 @@
 """Boundaries of meshes: CONT ENVE ARET, and the sides kept from their making: COTE FACE."""
 
 from ssilang.kernel.mesh import boundary, orientation
-from ssilang.kernel.mesh.combine import join_blocks
+from ssilang.kernel.mesh.combine import gathered
 from ssilang.operators.prelude import *
-
-
-def _whole_lines(mesh: Mesh) -> Mesh:
-    """The cells of lines put end to end, one block a type."""
-    groups: dict[str, list[CellBlock]] = {}
-    for block in mesh.blocks:
-        groups.setdefault(block.cell_type, []).append(block)
-    return boundary.chained(Mesh(mesh.nodes, tuple(join_blocks(b) for b in groups.values())))
 
 
 @operator("CONT", family="mesh", full_name="CONTOUR")
@@ -22,14 +14,15 @@ def cont(
     allowed: bool = Flag("NOID", en="the result may be empty"),
 ) -> Mesh:
     """Contour of a surface."""
-    parts: list[CellBlock] = []
+    parts: list[Mesh] = []
     if which in ("EXTE", "TOUT"):
-        parts += boundary.contour(mesh).blocks
+        parts.append(boundary.contour(mesh))
     if which in ("INTE", "TOUT"):
-        parts += boundary.inner_contour(mesh).blocks
-    if not parts and not allowed:
+        parts.append(boundary.inner_contour(mesh))
+    found = gathered(parts)
+    if not found.blocks and not allowed:
         raise MeshError("operators.mesh.no-contour")
-    return _whole_lines(Mesh(mesh.nodes, tuple(parts)))
+    return found
 
 
 @operator("ENVE", family="mesh", full_name="ENVELOPPE")

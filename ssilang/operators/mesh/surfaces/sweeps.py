@@ -3,7 +3,7 @@
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.lines.lines import line_chain
-from ssilang.kernel.mesh.lines.subdivision import Subdivision
+from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
 from ssilang.kernel.mesh.orientation import reversed_line
 from ssilang.language.vocabulary.terms import CELLS_ALONG
 from ssilang.operators.mesh.lines.ends import *
@@ -53,7 +53,8 @@ def _swept(
 ) -> Mesh:
     line = line_to_sweep(mesh)
     path = path_of(line)
-    layers = sweep.layer_cuts(line, path, end_size, cuts.count, (cuts.first, cuts.last))
+    sizes = cuts.sizes((sweep.mean_density(line), end_size))
+    layers = subdivide(path.length, *sizes, cuts.count)
     return grown(mesh, _along(call, line, path, layers))
 
 

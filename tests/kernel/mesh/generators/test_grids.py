@@ -11,7 +11,6 @@ from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.generators.sweep import (
     cone,
-    layer_cuts,
     listed_cuts,
     mean_density,
     mean_position,
@@ -316,18 +315,12 @@ def test_a_swept_line_has_its_sides_in_order_and_its_area(surface):
     assert set(block.colours.tolist()) == {4}
 
 
-def test_sizes_and_positions_of_a_sweep_count_nodes_by_cells():
+def test_sizes_and_positions_of_a_base_count_nodes_by_cells():
     base = floor()
     nodes = [0, 1, 2, 3, 1, 4, 2]
     density, x = base.nodes.density, base.nodes.coordinates
     assert mean_density(base) == pytest.approx(density[nodes].mean())
     np.testing.assert_allclose(mean_position(base), x[nodes].mean(axis=0))
-    path = translation(np.array([0.0, 0.0, 2.0]))
-    for sizes, first, last in (((0, 0), density[nodes].mean(), 0.9), ((0.4, 0.7), 0.4, 0.7)):
-        cuts = layer_cuts(base, path, 0.9, -6, sizes)
-        q = cuts.fractions[2] - cuts.fractions[1]
-        q /= cuts.fractions[1]
-        assert np.sqrt(q) - 1 / np.sqrt(q) == pytest.approx((last - first) / 2.0)
     for bad in ([1.0], [2.0, 3.0, 2.0]):
         with pytest.raises(MeshError, match="list"):
             listed_cuts(np.array(bad), 1.0)

@@ -176,6 +176,8 @@ def test_surfaces_that_touch_or_points_off_them_are_refused():
         (0.02, 0.005, 0.001, 0),
         (5.0, 0.8, 0.8, 0),
         (5.0, 0.8, 0.8, -4),
+        (7.0, 0.3, 0.0, -5),
+        (5.0, 0.0, 0.0, -4),
         (5.0, 0.0, 0.0, 7),
     ],
 )
@@ -200,6 +202,7 @@ def test_sizes_grow_by_one_ratio_whose_end_sizes_are_those_asked_for(length, sta
                                [cuts.start_density, cuts.end_density])  # fmt: skip
     assert cuts.end_density == end
     for bad, match in (((1.0, 0.0, 1.0), "positive"), ((0.0, 1.0, 1.0), "zero"),
+                       ((1.0, 0.0, -1.0, -3), "positive"),
                        ((1e9, 1.0, 1.0), "elements")):  # fmt: skip
         with pytest.raises(MeshError, match=match):
             subdivide(*bad)

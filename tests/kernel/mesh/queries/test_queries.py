@@ -90,6 +90,39 @@ def joined(count, links):
     return [[k for k in range(count) if label[k] == first] for first in dict.fromkeys(label)]
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_a_contour_is_walked_whatever_way_its_cells_run(seed):
+    """Cells taken out and turned at random: loops that touch at a corner, cells of both senses."""
+    mesh, _ = grid()
+    rng = np.random.default_rng(seed)
+    mesh = combine.take(mesh, lambda b: rng.permutation(len(b))[: max(1, len(b) - 2)])
+    turned = [
+        np.where(rng.random(len(b))[:, None] < 0.5, b.connectivity[:, ::-1], b.connectivity)
+        for b in mesh.blocks
+    ]
+    pairs = zip(mesh.blocks, turned, strict=True)
+    mesh = Mesh(mesh.nodes, tuple(CellBlock.make(b.nodes, b.cell_type, t) for b, t in pairs))
+    rows, sides = sides_of(mesh)
+    found = boundary.contour(mesh).single_block().connectivity.tolist()
+    alone = {s for s, k in sides.items() if len(k) == 1}
+    assert sorted(tuple(sorted(c)) for c in found) == sorted(alone)
+    corners = [c for b in mesh.blocks for c in b.connectivity.T.ravel()]
+    begun = []
+    while found:  # walk by walk, each corner once
+        left = {c for pair in found for c in pair}
+        start = next(c for c in corners if c in left and c not in begun)
+        begun.append(start)
+        first = found[0]
+        ring = rows[sides[tuple(sorted(first))][0]]
+        assert start in first
+        assert first in [[a, b] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)]
+        length = 1
+        while length < len(found) and found[length][0] == found[length - 1][1]:
+            length += 1
+        assert found[length - 1][1] == first[0]
+        found = found[length:]
+
+
 def test_boundaries_are_the_sides_of_one_cell():
     mesh, _ = grid()
     _, sides = sides_of(mesh)
