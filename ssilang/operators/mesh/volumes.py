@@ -32,7 +32,6 @@ def _make(
     base: Mesh, path: sweep.Path, end_size: float, cuts: Cuts, listed: ListReel | None
 ) -> Mesh:
     surface = surface_to_sweep(base, 1)
-    layers: Subdivision
     if listed is not None:
         layers = sweep.listed_cuts(listed.values, path.length)
     else:
