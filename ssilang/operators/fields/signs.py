@@ -220,8 +220,7 @@ def _cell_number(
 ) -> CellField:
     chosen = call.read("LISTMOTS") if sign in "+-" else None
     names = None if chosen is None else names_of(chosen.value)
-    if names is None and sign in "+-" and any(len(b.components) > 1 for b in field.blocks):
-        raise call.missing(("LISTMOTS",))
+
     value = float(number)
 
     def made(values: Any) -> Any:

@@ -86,7 +86,13 @@ _SIDES = (
     said("MAIL"),
     choice("method", ("SYME", "MESC", "FAIB"), default="SYME", en="as of MODE 'CONTACT'"),
     opt("reach", "FLOTTANT", unit="m", range=POSITIVE, en="cells farther apart are left out"),
-    opt("least", "FLOTTANT", unit="m", en="changes nothing: sides that face away never touch"),
+    opt(
+        "least",
+        "FLOTTANT",
+        unit="m",
+        range=NOT_NEGATIVE,
+        en="changes nothing: sides that face away never touch",
+    ),
     *_SIDES,
 )
 def of_sides(
