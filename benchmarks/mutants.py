@@ -73,6 +73,8 @@ FILES = 30  # of tests, at most, for a mutant
 WORD = 1.6  # what naming the operator counts, of naming the function
 OFTEN = 6  # operators that may share a word of theirs
 COMPILES = 3.0  # times the limit: what a fault changes, and all that calls it, is compiled first
+OF_LAYOUT = ("test_tool_finds_nothing[lint]", "test_tool_finds_nothing[format]")
+"""Tests that notice how a fault is written, not what it does."""
 DATA = (".forms", ".ssi", ".toml", ".txt")
 WRITES = "_code.py"  # LLVM's code of functions that are `written`
 SERVED = "ssilang/cli/editor/"  # its tests speak to a server, a process that imports the copy
@@ -492,7 +494,7 @@ def in_turn(
     order: list[tuple[bool, bool, int, int, pytest.Item]] = []
     for item in items:
         file, test = item.nodeid.split("::")[0], item.nodeid.split("[")[0]
-        if file in rank and item.nodeid not in idle:
+        if file in rank and item.nodeid not in idle and not item.nodeid.endswith(OF_LAYOUT):
             own = words & set(re.findall(r"[a-z]+", item.nodeid.partition("[")[2].lower()))
             place = rank[file] + (0 if own else CASE * cases[test])
             last, long = item.nodeid not in ran, bool(item.get_closest_marker("long"))
