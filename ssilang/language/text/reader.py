@@ -63,7 +63,7 @@ def symbol_of(text: str, span: Span) -> tree.Symbol:
 
 def attribute_name(text: str) -> str | int:
     """What an attribute is called that `text` writes, a number or with or without quotes."""
-    if text.isdigit():
+    if text.isascii() and text.isdigit():
         return int(text)
     return (_unquoted(text) if text.startswith("'") else text).upper()
 

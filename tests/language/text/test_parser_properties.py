@@ -53,6 +53,13 @@ def test_any_text_parses_or_is_explained(kind, data):
     parse_or_explain(data.draw(_TEXTS[kind]))
 
 
+def test_digits_of_other_alphabets_are_no_numbers():
+    for text in ("%²", "X = O%³ ;", "X = O % ٣ ;", "T . ² = 1 ;", "X = ٣ + 1² ;", "OPTI DIME ² ;"):
+        parse_or_explain(text)
+    (statement,) = parse(Source("test", "X = O%1 ;")).body
+    assert statement.items[0].name == 1
+
+
 @_QUICK
 @given(st.binary(max_size=120))
 def test_any_bytes_are_read(tmp_path_factory, data):
