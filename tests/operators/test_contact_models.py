@@ -65,6 +65,25 @@ def test_cells_out_of_reach_are_left_out(found):
     assert (near, far) == (4, 5)  # nodes inside the sides are 1/3 apart
 
 
+def test_sides_of_a_mesh_are_in_contact_once(found):
+    """However often a mesh of them, or of a part of them, was made before."""
+    count = "G R = IMPO BLOC C ; {} = NBNO (EXTR R MAIL UNIL) ; "
+    text = (
+        STRIPS[0]
+        + "C = IMPO MAIL MESC A B ; "
+        + count.format("N1")
+        + "X = IMPO MAIL MESC .3 A B ; Y = IMPO MAIL MESC (A ELEM 1) B ; "
+        + "REPE I 2 ; C = IMPO MAIL MESC A B ; FIN I ; "
+        + count.format("N2")
+        + "C = IMPO MAIL SYME A B ; "
+        + count.format("N3")
+        + "C = IMPO MAIL MESC B A ; "
+        + count.format("N4")
+    )
+    once, again, both, turned = found(text, "N1", "N2", "N3", "N4")
+    assert (once, again, both, turned) == (4, 4, 7, 3)
+
+
 def test_two_meshes_of_sides_are_two_contacts(found):
     text = """
     OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; O = 0 0 ;

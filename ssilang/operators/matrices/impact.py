@@ -122,9 +122,7 @@ def of_two(call: Call, master: Mesh, slave: Mesh) -> tuple[NodeField, Matrix]:
 def _gaps_and_relations(
     call: Call, sides: list[tuple[Mesh, Mesh, str]]
 ) -> tuple[NodeField, Matrix]:
-    ws = workspace(call.session)
-    models = [contact_model(call, a, b, method, False, ws) for a, b, method in sides]
-    found = sides_of(Model(tuple(z for m in models for z in m.zones)), None, {})
+    found = sides_of(contact_model(call, sides, False, workspace(call.session)), None, {})
     if found.matrix is None or found.gaps is None:
         raise call.error("operators.matrices.sides-do-not-face", sides[0][1])
     return found.gaps, found.matrix

@@ -22,38 +22,48 @@ for _cell, _name in ELEMENTS.items():
 
 
 def contact_model(
-    call: Call, master: Mesh, slave: Mesh, method: str, rubbing: bool, ws: Workspace
+    call: Call, sides: Iterable[tuple[Mesh, Mesh, str]], rubbing: bool, ws: Workspace
 ) -> Model:
-    """A model of two sides."""
-    if ws.mode.dimension < 2:
-        raise call.error("operators.models.contact-needs-dimensions", slave)
-    bad = next((b.cell_type for b in master.blocks if b.cell_type not in ELEMENTS), None)
-    if bad is not None:
-        raise call.error("operators.models.contact-side-cells", master, bad=bad)
-    whole = {"method": method, "master": master, "slave": slave}
-    behaviour = COULOMB if rubbing else ("UNILATERAL",)
-    return Model(
-        tuple(
+    """A model of pairs of sides, each with its method."""
+    zones: list[Zone] = []
+    for master, slave, method in sides:
+        if ws.mode.dimension < 2:
+            raise call.error("operators.models.contact-needs-dimensions", slave)
+        bad = next((b.cell_type for b in master.blocks if b.cell_type not in ELEMENTS), None)
+        if bad is not None:
+            raise call.error("operators.models.contact-side-cells", master, bad=bad)
+        whole = {"method": method, "master": master, "slave": slave}
+        behaviour = COULOMB if rubbing else ("UNILATERAL",)
+        zones += (
             Zone(b, "CONTACT", behaviour, ELEMENTS[b.cell_type], ws.mode, "", dict(whole))
             for b in master.blocks
         )
-    )
+    return Model(tuple(zones))
+
+
+_Pair = tuple[set[tuple[object, ...]], set[tuple[object, ...]]]
 
 
 def sides_in(call: Call, mesh: Mesh) -> list[tuple[Mesh, Mesh, str]]:
-    """Sides and methods of the contact meshes of IMPO 'MAIL' that a mesh holds."""
-    held = {b.cell_type: {tuple(c) for c in b.connectivity.tolist()} for b in mesh.blocks}
-    found = [
-        (master, slave, method)
-        for master, slave, method in workspace(call.session).sides
-        if all(
-            held.get(b.cell_type, set()).issuperset(map(tuple, b.connectivity.tolist()))
-            for b in (*master.blocks, *slave.blocks)
-        )
-    ]
+    """Sides and methods of the contact meshes of IMPO 'MAIL' that a mesh holds.
+
+    Two sides touch once: what was said of them last counts, of the whole before a part.
+    """
+    held, found, taken = _cells(mesh), list[tuple[Mesh, Mesh, str]](), list[_Pair]()
+    last_first = reversed(workspace(call.session).sides)
+    for sides in sorted(last_first, key=lambda s: -s[0].n_cells - s[1].n_cells):
+        a, b = _cells(sides[0]), _cells(sides[1])
+        of_others = any((a <= c and b <= d) or (a <= d and b <= c) for c, d in taken)
+        if a | b <= held and not of_others:
+            found.append(sides)
+            taken.append((a, b))
     if not found:
         raise call.error("operators.models.no-sides-in-mesh", mesh)
     return found
+
+
+def _cells(mesh: Mesh) -> set[tuple[object, ...]]:
+    return {(b.cell_type, *cell) for b in mesh.blocks for cell in b.connectivity.tolist()}
 
 
 def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Workspace) -> Model:

@@ -105,8 +105,7 @@ def contact(
             raise call.missing(("MAILLAGE",))
         return cable_model(call, mesh, cables, slave, ws)
     sides = sides_in(call, mesh) if slave is None else [(mesh, slave, method)]
-    models = [contact_model(call, *pair, friction is not None, ws) for pair in sides]
-    return Model(tuple(zone for model in models for zone in model.zones))
+    return contact_model(call, sides, friction is not None, ws)
 
 
 @MODE.form()

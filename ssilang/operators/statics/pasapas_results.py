@@ -81,6 +81,7 @@ class ResultTables:
     zones: tuple[Zone, ...] = ()
     material: CellField | None = None
     load: Load | None = None
+    _free: dict[int, list[tuple[FloatArray, Any]]] = field(default_factory=dict, repr=False)
     _last: "tuple[Snapshot, dict[str, Any]] | None" = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
@@ -132,7 +133,9 @@ class ResultTables:
     ) -> CellFieldBlock:
         found = strain(zone, displacement, material)
         parts = dict(found.components)
-        for free, curve in free_terms(self.load, zone, material):
+        if id(zone) not in self._free:  # the same at all instants
+            self._free[id(zone)] = free_terms(self.load, zone, material)
+        for free, curve in self._free[id(zone)]:
             factor = float(np.interp(time, *curve))
             for k, name in enumerate(family_of(zone).strain_names(zone)):
                 parts[name] = parts[name] - factor * free[:, k]
