@@ -12,6 +12,7 @@ import os
 import re
 import signal
 import sys
+import threading
 import time
 import warnings
 from collections.abc import Callable
@@ -63,6 +64,16 @@ def cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(_os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def keep_from_closed_pipes() -> None:
+    """Have SIGPIPE answered as Python knows it: ignored, unless a script has said otherwise.
+
+    A library in C (Gmsh, in the caller's process) lets it end the process behind Python's back.
+    """
+    closed = getattr(signal, "SIGPIPE", None)
+    if closed is not None and threading.current_thread() is threading.main_thread():
+        signal.signal(closed, signal.getsignal(closed))
 
 
 def after_fork(function: Callable[[], object]) -> None:

@@ -1,9 +1,11 @@
 """Sweeps: values, all runs in one table, failures, resumption, motions, clusters."""
 
 import csv
+import ctypes
 import gc
 import io
 import os
+import signal
 import sys
 import time
 import weakref
@@ -17,6 +19,7 @@ import pyarrow.parquet as pq
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from left_behind import closed_pipes_end_it
 
 import ssilang
 from ssilang.cli.run import run_text
@@ -24,6 +27,7 @@ from ssilang.cli.sweeping.given import parse_values
 from ssilang.cli.sweeping.pool import run_grown, run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.cli.sweeping.worker import Task, row_anyhow
+from ssilang.system import keep_from_closed_pipes
 
 pytestmark = pytest.mark.usefixtures("one_after_the_other")
 
@@ -489,6 +493,18 @@ def test_a_process_that_dies_costs_its_own_run_alone(tmp_path):
     rows = sorted(run_here(tasks, 2, dies_once), key=lambda r: r["run"])
     assert [r["exit_code"] for r in rows] == [0, 1, 0, 0]
     assert "lost" in rows[1]["error"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="signals are looked up in /proc")
+def test_a_process_that_dies_ends_no_caller_whose_pipes_a_library_let_end_it(tmp_path):
+    """The pool writes what waits to pipes whose readers are no more: Gmsh leaves that deadly."""
+    try:
+        ctypes.CDLL(None).signal(signal.SIGPIPE, 0)
+        assert closed_pipes_end_it()
+        assert [r["exit_code"] for r in run_here(some_tasks(tmp_path, 1), 1, remembers)] == [0]
+        assert not closed_pipes_end_it()
+    finally:
+        keep_from_closed_pipes()
 
 
 SEEN: list[int] = []

@@ -8,6 +8,7 @@ import pytest
 
 from ssilang.io.mesh_files.writing import WRITTEN
 from ssilang.operators.files.meshes import ENDINGS
+from ssilang.system import keep_from_closed_pipes
 
 _PAGE = (Path(__file__).resolve().parents[2] / "docs/meshes.md").read_text(encoding="utf-8")
 
@@ -28,4 +29,5 @@ def test_a_block_meshed_by_gmsh_rocks(capsys, tmp_path, monkeypatch):
     ]
     assert len(script.splitlines()) <= 40
     exec(compile(script, "docs/meshes.md", "exec"), {"__name__": "page"})
+    keep_from_closed_pipes()
     assert capsys.readouterr().out == printed

@@ -14,6 +14,7 @@ from ssilang.cli.run import RunOptions, RunResult, run_file
 from ssilang.kernel.mesh.changes.degree import middle_places
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.values import Table
+from ssilang.system import keep_from_closed_pipes
 
 
 def there(library: str) -> bool:
@@ -444,6 +445,7 @@ def gmsh():
     module.option.setNumber("General.Terminal", 0)
     yield module
     module.finalize()
+    keep_from_closed_pipes()
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -21,7 +21,7 @@ from types import ModuleType
 from typing import Any
 
 from ssilang.cli.sweeping.worker import Row, Task, Work, lost_row, row_anyhow, run_task
-from ssilang.system import CAN_FORK
+from ssilang.system import CAN_FORK, keep_from_closed_pipes
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -111,6 +111,7 @@ def run_here(
     start : str
         How processes begin: empty ('spawn') or with the memory of this one ('fork').
     """
+    keep_from_closed_pipes()  # the pool writes to processes that may have died
     waiting = list(tasks)
     context = FreshContext() if start == "spawn" else get_context(start)
     with elsewhere():  # the pool's own queues would start what counts them

@@ -98,8 +98,7 @@ def within(one: Mesh, other: Mesh, reach: float) -> tuple[Mesh, Mesh]:
         nodes, points = mesh.node_ids, mesh.nodes.coordinates
         apart = np.asarray(cKDTree(points[side.node_ids]).query(points[nodes])[0])
         if (nearest := float(apart.min())) > reach:
-            told = {"reach": reach, "nearest": nearest}
-            raise MeshError("kernel.contact.sides-out-of-reach", **told)
+            raise MeshError("kernel.contact.sides-out-of-reach", reach=reach, nearest=nearest)
         close = nodes[apart <= reach]
         return take(mesh, lambda b: np.asarray(np.isin(b.connectivity, close).any(axis=1)))
 

@@ -69,7 +69,6 @@ def crossing(
     ]
     curve = crossing_curve((gaps[0], gaps[1]), first, last, length)
     if length is not None:
-        ends = Ends(
-            ends.start, int(ws.nodes.add(curve.points[-1:], cuts.last or 0.0)[0]), ends.before
-        )
+        (end,) = ws.nodes.add(curve.points[-1:], cuts.last or 0.0)
+        ends = Ends(ends.start, int(end), ends.before)
     return drawn(call, ends, curve, curve.length, cuts)
