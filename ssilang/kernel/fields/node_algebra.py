@@ -53,7 +53,6 @@ def _joined(a: NodeValues, b: NodeValues, factor: float) -> NodeValues:
 
 def added(a: NodeField, b: NodeField, factor: float = 1.0) -> NodeField:
     """`a + factor * b`, over the union of their supports."""
-    a, b = a.after_merges(), b.after_merges()
     made = dict(a.components)
     for name, part in b.components.items():
         mine = made.get(name)
@@ -76,7 +75,6 @@ def united(a: NodeField, b: NodeField, check: bool = True) -> NodeField:
     FieldError
         If two values differ at a node of two fields that are not DISCRET (with `check`).
     """
-    a, b = a.after_merges(), b.after_merges()
     if a.components and b.components and a.nature != b.nature:
         told = {"nature": a.nature or "INDETERMINE", "nature_2": b.nature or "INDETERMINE"}
         raise FieldError("kernel.fields.fields-natures-cannot-joined", **told)
@@ -123,7 +121,6 @@ def multiplied(a: NodeField, b: NodeField, divide: bool = False) -> NodeField:
     FieldError
         If neither rule applies, or a divisor is zero.
     """
-    a, b = a.after_merges(), b.after_merges()
     if divide and any(np.any(v.values == 0) for v in b.components.values()):
         raise FieldError("kernel.fields.field-divide-zero")
     run = np.divide if divide else np.multiply
@@ -188,7 +185,6 @@ def renamed(field: NodeField, old: Iterable[str], new: Iterable[str]) -> NodeFie
 
 def restricted(field: NodeField, nodes: IntArray) -> NodeField:
     """The field at those of `nodes` where it is defined."""
-    field = field.after_merges()
     wanted = np.unique(nodes)
     made: dict[str, NodeValues] = {}
     for name, part in field.components.items():

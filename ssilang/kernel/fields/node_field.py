@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.mesh.nodes import NodeTable
 
 Nature = Literal["", "DIFFUS", "DISCRET"]
@@ -25,6 +26,28 @@ class NodeValues:
             return np.full(len(nodes), default)
         place = np.minimum(np.searchsorted(self.nodes, nodes), len(self.nodes) - 1)
         return np.where(self.nodes[place] == nodes, self.values[place], default)
+
+
+class _Current:
+    """Components of a field, on the nodes that survive merges (ELIM) whenever they are read."""
+
+    def __get__(self, field: "NodeField | None", owner: type) -> Mapping[str, NodeValues]:
+        if field is None:
+            raise AttributeError  # dataclasses read it as: there is no default
+        held = field.__dict__
+        version = field.table.version
+        if held["merges"] != version:
+            held["components"] = {k: field.surviving(k, v) for k, v in held["components"].items()}
+            held["merges"] = version
+        found: Mapping[str, NodeValues] = held["components"]
+        return found
+
+    def __set__(self, field: "NodeField", components: Mapping[str, NodeValues]) -> None:
+        field.__dict__.update(components=components, merges=0)
+
+
+def _current() -> Any:
+    return _Current()
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +70,7 @@ class NodeField:
     """
 
     table: NodeTable
-    components: Mapping[str, NodeValues]
+    components: Mapping[str, NodeValues] = _current()
     nature: Nature = ""
     title: str = ""
 
@@ -79,28 +102,30 @@ class NodeField:
         part = self.components.get(name)
         return np.full(len(nodes), default) if part is None else part.at(nodes, default)
 
-    def after_merges(self) -> "NodeField":
-        """The field on the nodes that survive merges (ELIM); itself if none of its nodes is gone.
+    def surviving(self, name: str, part: NodeValues) -> NodeValues:
+        """A component on the nodes that survive merges; discrete values of one node add up.
 
-        Of two values on nodes that became one, discrete ones add up; of others the one of the
-        surviving node is kept.
+        Raises
+        ------
+        FieldError
+            If two values of a field that is not DISCRET differ at a node.
         """
-        if self.table.version == 0:
-            return self
-        made = {name: self._surviving(part) for name, part in self.components.items()}
-        if all(made[name] is part for name, part in self.components.items()):
-            return self
-        return replace(self, components=made)
-
-    def _surviving(self, part: NodeValues) -> NodeValues:
         now = self.table.resolve(part.nodes)
         if np.array_equal(now, part.nodes):
             return part
         # survivors first, so that their values are those kept
         order = np.argsort(now != part.nodes, kind="stable")
         nodes, first, place = np.unique(now[order], return_index=True, return_inverse=True)
-        values = part.values[order][first]
+        given = part.values[order]
+        values = given[first]
         if self.nature == "DISCRET":
-            weights = part.values[order]
-            values = np.asarray(np.bincount(place.ravel(), weights, len(nodes)), dtype=float)
+            values = np.asarray(np.bincount(place.ravel(), given, len(nodes)), dtype=float)
+        else:
+            kept = values[place.ravel()]
+            apart = np.flatnonzero(np.abs(given - kept) > 1e-6 * np.maximum(abs(given), abs(kept)))
+            if len(apart):
+                k = apart[0]
+                told = {"name": name, "values": kept[k], "values_2": given[k]}
+                both = self.table.told(now[order][k])
+                raise FieldError("kernel.fields.merged-values-differ", both=both, **told)
         return NodeValues(nodes, values)

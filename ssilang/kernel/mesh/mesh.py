@@ -24,7 +24,12 @@ class Point:
     @property
     def identity(self) -> int:
         """What tells points apart where they serve as indices: two points of one node are one."""
-        return self.number
+        return self.node if self.nodes.version else self.number
+
+    @property
+    def former(self) -> list[int]:
+        """Numbers that its node had, or nodes that were merged into it."""
+        return self.nodes.merged_into(self.node) if self.nodes.version else []
 
     @property
     def node(self) -> int:

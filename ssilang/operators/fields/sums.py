@@ -209,6 +209,8 @@ def dfou(
 ) -> NodeField | CellField:
     """Sum a harmonic."""
     n = workspace(call.session).fourier
+    if workspace(call.session).mode is not Mode.FOURIER:
+        call.warn("operators.fields.no-harmonic-here", harmonic=n)
     turn = np.radians(abs(n) * angle)
     even, odd = (np.cos(turn), np.sin(turn)) if n >= 0 else (np.sin(turn), np.cos(turn))
     if n == 0:

@@ -210,8 +210,8 @@ def frenet_frames(line: Mesh) -> tuple[IntArray, FloatArray]:
     """Nodes (n,) of one or several lines and their frames (n, 3, 3): rows t, n, b.
 
     At inner nodes the tangent and the normal are those of the circle through a node and its two
-    neighbours; at a free end the tangent is that of the circle through the last three nodes.
-    Where a line is straight the binormal is as near as can be to the z axis.
+    neighbours; at a free end the tangent is the cell's direction, and the binormal the neighbour's
+    as far as it is across. Where a line is straight the binormal is as near as can be to the z axis.
 
     Raises
     ------
@@ -278,16 +278,12 @@ def _ends(
     xyz: FloatArray,
     free: np.ndarray,
 ) -> None:
-    """Fill the frames of free ends: tangents mirrored in the chord, the neighbour's bend."""
+    """Fill the frames of free ends: along the chord, and as near to the neighbour's binormal."""
     for row in np.flatnonzero(free).tolist():
         node = ids[row]
         first = before[node] < 0
         other = after[node] if first else before[node]
         chord = (xyz[other] - xyz[node]) * (1.0 if first else -1.0)
         chord /= np.linalg.norm(chord)
-        near = frames[np.searchsorted(ids, other)]
-        if not near[0].any():  # a line of one cell
-            frames[row, 0] = chord
-            continue
-        frames[row, 0] = 2.0 * (near[0] @ chord) * chord - near[0]
-        frames[row, 1] = near[1]
+        tangent, bend, _ = frames[np.searchsorted(ids, other)]
+        frames[row, 0], frames[row, 1] = chord, np.cross(np.cross(tangent, bend), chord)
