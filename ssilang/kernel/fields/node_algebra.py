@@ -25,13 +25,11 @@ def rebuilt(
 
 def applied(field: NodeField, function: Function) -> NodeField:
     """The field of the values of a function `array -> array` on each component."""
-    return rebuilt(
-        field,
-        {
-            k: NodeValues(v.nodes, np.asarray(function(v.values), dtype=float))
-            for k, v in field.components.items()
-        },
-    )
+    made = {
+        k: NodeValues(v.nodes, np.asarray(function(v.values), dtype=float))
+        for k, v in field.components.items()
+    }
+    return rebuilt(field, made)
 
 
 def common_nature(a: Nature, b: Nature) -> Nature:
@@ -56,11 +54,10 @@ def added(a: NodeField, b: NodeField, factor: float = 1.0) -> NodeField:
     made = dict(a.components)
     for name, part in b.components.items():
         mine = made.get(name)
-        made[name] = (
-            NodeValues(part.nodes, factor * part.values)
-            if mine is None
-            else _joined(mine, part, factor)
-        )
+        if mine is None:
+            made[name] = NodeValues(part.nodes, factor * part.values)
+        else:
+            made[name] = _joined(mine, part, factor)
     nature = common_nature(a.nature, b.nature)
     if not a.components or not b.components:
         nature = (a if a.components else b).nature
@@ -97,11 +94,8 @@ def _merged(table: NodeTable, name: str, a: NodeValues, b: NodeValues, check: bo
         told = {"name": name, "values": a.values[ia[k]], "values_2": b.values[ib[k]]}
         told |= {"both": table.told(both[k])}
         raise FieldError("kernel.fields.component-field-node", **told)
-    nodes = np.union1d(a.nodes, b.nodes)
-    values = np.zeros(len(nodes))
-    values[np.searchsorted(nodes, b.nodes)] = b.values
-    values[np.searchsorted(nodes, a.nodes)] = a.values
-    return NodeValues(nodes, values)
+    new = np.isin(b.nodes, a.nodes, invert=True)
+    return _joined(a, NodeValues(b.nodes[new], b.values[new]), 1.0)
 
 
 def _combined(a: NodeValues, b: NodeValues, function: Callable[[Any, Any], Any]) -> NodeValues:

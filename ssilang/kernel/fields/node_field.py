@@ -1,8 +1,8 @@
 """Fields given at nodes (CHPOINT): one sparse vector per component."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Any, Literal, cast
 
 import numpy as np
 
@@ -34,20 +34,15 @@ class _Current:
     def __get__(self, field: "NodeField | None", owner: type) -> Mapping[str, NodeValues]:
         if field is None:
             raise AttributeError  # dataclasses read it as: there is no default
-        held = field.__dict__
-        version = field.table.version
-        if held["merges"] != version:
-            held["components"] = {k: field.surviving(k, v) for k, v in held["components"].items()}
-            held["merges"] = version
+        held, version = field.__dict__, field.table.version
         found: Mapping[str, NodeValues] = held["components"]
+        if held.get("merges", 0) != version:
+            found = {name: field.surviving(name, part) for name, part in found.items()}
+            held.update(components=found, merges=version)
         return found
 
     def __set__(self, field: "NodeField", components: Mapping[str, NodeValues]) -> None:
         field.__dict__.update(components=components, merges=0)
-
-
-def _current() -> Any:
-    return _Current()
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +65,7 @@ class NodeField:
     """
 
     table: NodeTable
-    components: Mapping[str, NodeValues] = _current()
+    components: Mapping[str, NodeValues] = cast("Any", _Current())
     nature: Nature = ""
     title: str = ""
 
@@ -113,19 +108,15 @@ class NodeField:
         now = self.table.resolve(part.nodes)
         if np.array_equal(now, part.nodes):
             return part
-        # survivors first, so that their values are those kept
-        order = np.argsort(now != part.nodes, kind="stable")
-        nodes, first, place = np.unique(now[order], return_index=True, return_inverse=True)
+        order = np.lexsort((now != part.nodes, now))  # survivors first: their values are kept
+        nodes, first, counts = np.unique(now[order], return_index=True, return_counts=True)
         given = part.values[order]
-        values = given[first]
         if self.nature == "DISCRET":
-            values = np.asarray(np.bincount(place.ravel(), given, len(nodes)), dtype=float)
-        else:
-            kept = values[place.ravel()]
-            apart = np.flatnonzero(np.abs(given - kept) > 1e-6 * np.maximum(abs(given), abs(kept)))
-            if len(apart):
-                k = apart[0]
-                told = {"name": name, "values": kept[k], "values_2": given[k]}
-                both = self.table.told(now[order][k])
-                raise FieldError("kernel.fields.merged-values-differ", both=both, **told)
-        return NodeValues(nodes, values)
+            return NodeValues(nodes, np.add.reduceat(given, first))
+        kept = np.repeat(given[first], counts)
+        apart = np.abs(given - kept) > 1e-6 * np.maximum(abs(given), abs(kept))
+        for k in np.flatnonzero(apart):
+            told = {"name": name, "values": kept[k], "values_2": given[k]}
+            told["both"] = self.table.told(now[order][k])
+            raise FieldError("kernel.fields.merged-values-differ", **told)
+        return NodeValues(nodes, given[first])

@@ -27,9 +27,9 @@ class Point:
         return self.node if self.nodes.version else self.number
 
     @property
-    def former(self) -> list[int]:
-        """Numbers that its node had, or nodes that were merged into it."""
-        return self.nodes.merged_into(self.node) if self.nodes.version else []
+    def former(self) -> IntArray:
+        """Numbers of all nodes that became one with its own."""
+        return np.flatnonzero(self.nodes.resolve(np.arange(len(self.nodes))) == self.node)
 
     @property
     def node(self) -> int:

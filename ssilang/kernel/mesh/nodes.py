@@ -76,11 +76,6 @@ class NodeTable:
         """The surviving node numbers of `ids` after all merges (same shape)."""
         return self._alias[ids]
 
-    def merged_into(self, node: int) -> list[int]:
-        """Numbers that stand for a node after all merges, its own among them."""
-        found: list[int] = np.flatnonzero(self._alias[: self._count] == node).tolist()
-        return found
-
     def shown(self, coordinates: FloatArray) -> FloatArray:
         """The coordinates (3,) that messages write: two where no node of the table has a third."""
         return coordinates[: 3 if self.coordinates[:, 2].any() else 2]
