@@ -136,7 +136,9 @@ def test_a_regular_net_becomes_the_hexagons_around_its_first_node(seed: int) -> 
     names = [*edge, middles[0], *later]
     names = [(int(i), int(j)) for i, j in names]
     number = {name: k for k, name in enumerate(names)}
-    net = [[m, ring[k - 1], ring[k]] for m, ring in zip(middles, around, strict=True) for k in range(6)]
+    net = [
+        [m, ring[k - 1], ring[k]] for m, ring in zip(middles, around, strict=True) for k in range(6)
+    ]
     rng.shuffle(net)
     triangles = np.array([[number[tuple(map(int, n))] for n in t] for t in net])
     points = np.array([[i + 0.5 * j, 0.75**0.5 * j] for i, j in names])
