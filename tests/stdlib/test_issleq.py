@@ -32,7 +32,7 @@ def soil(n_layers, more=""):
         f"EH = EVOL 'MANU' LG (PROG {numbers(DAMPINGS)}) ; C = TABL ;"
         f"REPE B {n_layers} ; V = VOLU 'TRAN' 1 S (0. 0. -{THICKNESS}) ; C = TABL ;"
         "C . 'MAILLAGE' = V ; C . 'FRONTIERE' = FACE 3 V ; S = FACE 2 V ;"
-        f"C . 'YOUNG' = {YOUNG} ; C . 'POISSON' = {POISSON} ; C . 'MASSE_VOLUMIQUE' = {DENSITY} ;"
+        f"C . 'MODULE_E' = {YOUNG} ; C . 'POISSON' = {POISSON} ; C . 'MASSE_VOLUMIQUE' = {DENSITY} ;"
         "C . 'G_GAMMA' = EG ; C . 'H_GAMMA' = EH ; I . &B = C ; FIN B ; C . 'BASE' = S ;"
         "P = TABL ; T . 'PARAMETRES' = P ; T . 'SOL' . 'ITERATION' = I ; P . 'POINT' = 0. 0. 0. ;"
         f"P . 'F1' = {F1} ; P . 'F2' = {F2} ; P . 'FC' = {CUTOFF} ; P . 'CHI' = {CHI} ;"
