@@ -140,10 +140,9 @@ def continue_harmonics(entries: Entries) -> None:
     names = known_names(entries)
     problem = _problem(entries, names)
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
-    if problem.samples is not None:
+    if law := problem.samples:
         still = np.ones((len(problem.basis.values), problem.places.shape[1]))
-        ends = [problem.samples(still, float(t))[0] for t in (times.min(), times.max())]
-        problem.timed = bool((ends[0] != ends[1]).any())
+        problem.timed = bool((law(still, times[0])[0] != law(still, times[-1])[0]).any())
     tracer = Tracer(problem, lengths_of(entries))
     begin = _begin(entries, problem, float(times[0]))
     if begin.way is None:

@@ -111,13 +111,6 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
     entries.table.set(Mot("ERREUR"), False)
 
 
-def _strained(given: Entries, finite: bool) -> CellField | None:
-    """The material field where strains are kept: where asked for, and in large displacements."""
-    asked = given.inside("MES_SAUVEGARDES")
-    kept = finite or (asked is not None and asked.flag("DEFTO"))
-    return cast("CellField", given.needed("CARACTERISTIQUES")) if kept else None
-
-
 def _stretch(
     entries: Entries,
     work: Entries,
@@ -160,16 +153,17 @@ def _stretch(
         pressing = -problem.loading.forces[rows] @ problem.loading.at(times[-1:])[0]
         nodes = problem.numbering.nodes[rows]
         warn_of_weight(entries.call, inputs.stiffness, zones, nodes, pressing)
-    strained = _strained(given, bool(finite))
+    asked = given.inside("MES_SAUVEGARDES")
+    kept = finite or (asked is not None and asked.flag("DEFTO"))
+    strained = given.needed("CARACTERISTIQUES") if kept else None
     results = ResultTables(
         entries.table, saved, stresses, dynamic, number, zones, strained, given.get("CHARGEMENT"),
         bool(finite),
     )  # fmt: skip
     reached = Reached(results, len(times))
     observers: list[Observer] = [results, reached]
-    kept = work.get("TEMPS_SAUVEGARDES")
-    if kept is not None:
-        observers.append(SavedTable(entries.call, entries.table, times, kept.values))
+    if (saves := work.get("TEMPS_SAUVEGARDES")) is not None:
+        observers.append(SavedTable(entries.call, entries.table, times, saves.values))
     steered = any(work.flag(word) for word in ASKED)
     if steered:
         begins = start.reached is None
