@@ -132,6 +132,14 @@ def usual_intensities(figures: Sequence[str]) -> list[str]:
     return [n for n in figures if (kind := _KIND.match(n)) and kind[0].upper() in INTENSITIES]
 
 
+def chooses_records(
+    rows: Sequence[Mapping[str, Any]], swept: Sequence[str], name: str, intensities: Sequence[str]
+) -> bool:
+    """Whether a swept value chooses records of one peak: an intensity stays, another does not."""
+    still = [is_still(rows, swept, name, [n]) for n in intensities]
+    return any(still) and not all(still)
+
+
 def unscaled(
     folder: Path,
     rows: Sequence[Mapping[str, Any]],
@@ -142,12 +150,14 @@ def unscaled(
     """Intensities that a swept value alone leaves as they are, or alone scales.
 
     Codes with their data: motions and other figures change with it where the one does not, or
-    neither do.
+    neither do; not of what chooses records.
     """
     asked, others = list[tuple[bool, str, str]](), [n for n in figures if n not in intensities]
     for figure, name in product(intensities, [n for n in swept if n != MOTION]):
         still = is_still(rows, swept, name, [figure])
         idle = is_still(rows, swept, name, figures if still else others)
+        if still and chooses_records(rows, swept, name, intensities):
+            continue
         asked += [(still, figure, name)] if still != idle and (still or others) else []
     made = []
     for row in rows if asked else ():

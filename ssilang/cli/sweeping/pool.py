@@ -1,6 +1,6 @@
 """Where the runs of a sweep go: the cores of this machine, forks of the first run, a Dask cluster.
 
-The first run of a long sweep is made in a process of its own, the trunk. It leaves imported
+A long sweep makes runs in a process of its own, the trunk, until one ends well. It leaves imported
 modules, compiled code and the factors of the model's matrices, which are found again by content.
 The other runs are made in forks of it, that share this memory until they write to it.
 """
@@ -207,11 +207,16 @@ def _received(receiver: Any, sentinel: int) -> Iterator[Row]:
 
 
 def _grow(tasks: list[Task], jobs: int, work: Work, sender: Any) -> None:
-    """The trunk: one run, then the others in forks."""
+    """The trunk: runs until one ends well, a few at most, then the others in forks."""
+    done = 0
     try:
-        sender.send(row_anyhow(tasks[0], work))
+        for done, task in enumerate(tasks[:ROUNDS], 1):  # noqa: B007
+            row = row_anyhow(task, work)
+            sender.send(row)
+            if row["exit_code"] == 0:
+                break
         gc.freeze()  # collections in a fork would copy the memory that it shares
-        for row in run_here(tasks[1:], jobs, work, "fork"):
+        for row in run_here(tasks[done:], jobs, work, "fork"):
             sender.send(row)
         sender.send(None)
     except (BrokenPipeError, KeyboardInterrupt):
