@@ -124,7 +124,8 @@ def is_still(
 
 def _rounded(value: Any) -> Any:
     """A number to nine digits: another mesh sums in another order."""
-    return float(f"{value:.9g}") if isinstance(value, float) else value
+    number = real(value) if isinstance(value, str) else value
+    return float(f"{number:.9g}") if isinstance(number, float) else value
 
 
 def usual_intensities(figures: Sequence[str]) -> list[str]:
