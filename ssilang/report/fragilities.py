@@ -281,8 +281,7 @@ def _sample(
     kept = [
         (row, x, np.inf if is_endless(figure, d) else d)
         for row in _done(sweep)
-        if (x := real(row[intensity])) is not None
-        and (d := real(row[figure])) is not None
+        if (x := real(row[intensity])) is not None and (d := real(row[figure])) is not None
     ]
     rows = [row for row, _, _ in kept]
     return rows, np.array([x for _, x, _ in kept]), np.array([d for _, _, d in kept])

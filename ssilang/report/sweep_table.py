@@ -136,9 +136,19 @@ def usual_intensities(figures: Sequence[str]) -> list[str]:
 def chooses_records(
     rows: Sequence[Mapping[str, Any]], swept: Sequence[str], name: str, intensities: Sequence[str]
 ) -> bool:
-    """Whether a swept value chooses records of one peak: an intensity stays, another does not."""
-    still = [is_still(rows, swept, name, [n]) for n in intensities]
-    return any(still) and not all(still)
+    """Whether a swept value chooses records of one peak: an intensity stays, others do not.
+
+    Where one changes in proportion to the value, that is a scale.
+    """
+    moved = [n for n in intensities if not is_still(rows, swept, name, [n])]
+    if not moved or len(moved) == len(intensities):
+        return False
+    values = [real(str(row[name])) or math.nan for row in rows]
+    made = [
+        {**row, **{n: (real(str(row[n])) or 0.0) / value for n in moved}}
+        for row, value in zip(rows, values, strict=True)
+    ]
+    return bool(np.isnan(values).any()) or not any(is_still(made, swept, name, [n]) for n in moved)
 
 
 def unscaled(

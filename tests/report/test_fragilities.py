@@ -78,14 +78,15 @@ def test_an_intensity_that_a_scale_leaves_as_it_was_is_told(tmp_path):
     for row in rows:
         row["PGA"] = row["PGA"] / row["AG"]
     chosen = [{**row, "PGV": row["AG"] ** 2} for row in rows]  # AG chooses records of one peak
-    pages = []
-    for own, names in ((rows, ["PGA"]), (suite(), ["PGA"]), (chosen, ["PGA", "PGV"])):
+    scaled = [{**row, "PGV": row["AG"] * (1 + i % 12)} for i, row in enumerate(rows)]
+    both, pages = ["PGA", "PGV"], []
+    for own, names in ((rows, ["PGA"]), (suite(), ["PGA"]), (chosen, both), (scaled, both)):
         made = sweep_of(tmp_path, own, figures=["drift", *names])
         asked = Asked(read_limits("drift>1"), names)
         pages.append(
             "PGA does not change with AG" in fragility_html(made, fits_of(made, asked), [], TOLD)
         )
-    assert pages == [True, False, False]
+    assert pages == [True, False, False, True]
 
 
 def test_an_intensity_that_a_stiffness_leaves_as_it_was_is_not(tmp_path):
