@@ -50,11 +50,8 @@ Spectrum = tuple[str, tuple[float, ...], FloatArray]
 def floor_charts(sweep: Sweep, told: Teller) -> list[Chart]:
     """A picture a floor and damping."""
     done, known = _done(sweep), usual_intensities(sweep.figures)
-    names = [
-        n for n in sweep.swept
-        if n != MOTION and len({row[n] for row in sweep.rows}) > 1
-        and not chooses_records(done, sweep.swept, n, known)
-    ]  # fmt: skip
+    names = [n for n in sweep.swept if n != MOTION and len({row[n] for row in sweep.rows}) > 1]
+    names = [n for n in names if not chooses_records(done, sweep.swept, n, known)]
     found: dict[Key, list[Spectrum]] = {}
     for row in sweep.rows:
         setting = ", ".join(f"{n} = {row[n]}" for n in names)

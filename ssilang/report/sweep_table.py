@@ -141,14 +141,10 @@ def chooses_records(
     Where one changes in proportion to the value, that is a scale.
     """
     moved = [n for n in intensities if not is_still(rows, swept, name, [n])]
-    if not moved or len(moved) == len(intensities):
-        return False
-    values = [real(str(row[name])) or math.nan for row in rows]
-    made = [
-        {**row, **{n: (real(str(row[n])) or 0.0) / value for n in moved}}
-        for row, value in zip(rows, values, strict=True)
-    ]
-    return bool(np.isnan(values).any()) or not any(is_still(made, swept, name, [n]) for n in moved)
+    if not all(real(str(r[name])) for r in rows) or len(moved) in (0, len(intensities)):
+        return 0 < len(moved) < len(intensities)
+    made = [{**r, **{n: float(r[n] or 0) / float(r[name]) for n in moved}} for r in rows]
+    return not any(is_still(made, swept, name, [n]) for n in moved)
 
 
 def unscaled(
@@ -167,9 +163,8 @@ def unscaled(
     for figure, name in product(intensities, [n for n in swept if n != MOTION]):
         still = is_still(rows, swept, name, [figure])
         idle = is_still(rows, swept, name, figures if still else others)
-        if still and chooses_records(rows, swept, name, intensities):
-            continue
-        asked += [(still, figure, name)] if still != idle and (still or others) else []
+        chosen = still and chooses_records(rows, swept, name, intensities)
+        asked += [(still, figure, name)] * (still != idle and not chosen and bool(still or others))
     made = []
     for row in rows if asked else ():
         told = summary_of(folder, row["folder"]).get("statistics", {}).get("calculations", [])

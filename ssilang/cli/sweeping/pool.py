@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
+from itertools import islice
 from multiprocessing import get_context, parent_process, resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.context import SpawnContext, SpawnProcess
@@ -190,33 +191,26 @@ def run_grown(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterat
     rest = list(waiting.values())
     if len(rest) == len(tasks):
         yield lost_row(rest.pop(0), "its process was killed (memory?)")
-    if rest:
-        yield from run_here(rest, jobs, work)
+    yield from run_here(rest, jobs, work)
 
 
 def _received(receiver: Any, sentinel: int) -> Iterator[Row]:
     """What the trunk sends, until it says that it is done or is no more."""
-    while receiver in wait([receiver, sentinel]):
-        try:
-            row = receiver.recv()
-        except EOFError:
-            return
-        if row is None:
-            return
-        yield row
+    with suppress(EOFError):
+        while receiver in wait([receiver, sentinel]) and (row := receiver.recv()) is not None:
+            yield row
 
 
 def _grow(tasks: list[Task], jobs: int, work: Work, sender: Any) -> None:
     """The trunk: runs until one ends well, a few at most, then the others in forks."""
-    done = 0
+    rest = iter(tasks)
     try:
-        for done, task in enumerate(tasks[:ROUNDS], 1):  # noqa: B007
-            row = row_anyhow(task, work)
+        for row in (row_anyhow(task, work) for task in islice(rest, ROUNDS)):
             sender.send(row)
             if row["exit_code"] == 0:
                 break
         gc.freeze()  # collections in a fork would copy the memory that it shares
-        for row in run_here(tasks[done:], jobs, work, "fork"):
+        for row in run_here(list(rest), jobs, work, "fork"):
             sender.send(row)
         sender.send(None)
     except (BrokenPipeError, KeyboardInterrupt):
