@@ -25,6 +25,7 @@ from ssilang.report.records import FRAGILITY, read_record
 from ssilang.report.sweep_table import (
     MOTION,
     Sweep,
+    chooses_records,
     link_to,
     real,
     summary_of,
@@ -48,13 +49,20 @@ Spectrum = tuple[str, tuple[float, ...], FloatArray]
 
 def floor_charts(sweep: Sweep, told: Teller) -> list[Chart]:
     """A picture a floor and damping."""
+    done, known = _done(sweep), usual_intensities(sweep.figures)
     names = [n for n in sweep.swept if n != MOTION and len({row[n] for row in sweep.rows}) > 1]
+    names = [n for n in names if not chooses_records(done, sweep.swept, n, known)]
     found: dict[Key, list[Spectrum]] = {}
     for row in sweep.rows:
         setting = ", ".join(f"{n} = {row[n]}" for n in names)
         for key, frequencies, values in _spectra(sweep, row):
             found.setdefault(key, []).append((setting, frequencies, values))
     return [_chart(key, spectra, told) for key, spectra in sorted(found.items())]
+
+
+def _done(sweep: Sweep) -> list[dict[str, str]]:
+    """Rows of the runs that ended well."""
+    return [row for row in sweep.rows if row["exit_code"] == "0"]
 
 
 def _chart(key: Key, spectra: list[Spectrum], told: Teller) -> Chart:
@@ -269,10 +277,8 @@ def _sample(
     """Runs that ended well and have both, their intensities and demands."""
     kept = [
         (row, x, np.inf if is_endless(figure, d) else d)
-        for row in sweep.rows
-        if row["exit_code"] == "0"
-        and (x := real(row[intensity])) is not None
-        and (d := real(row[figure])) is not None
+        for row in _done(sweep)
+        if (x := real(row[intensity])) is not None and (d := real(row[figure])) is not None
     ]
     rows = [row for row, _, _ in kept]
     return rows, np.array([x for _, x, _ in kept]), np.array([d for _, _, d in kept])
@@ -333,21 +339,20 @@ def _notes(sweep: Sweep, fits: list[Fit], told: Teller) -> Iterator[str]:
         count = len({row[MOTION] for row in sweep.rows})
         if count < len(sweep.rows):
             yield told("report.fragility-records", count=count)
-    for name in dict.fromkeys(fit.intensity for fit in fits):
-        if name in sweep.figures:
-            for run, ratio in _apart(sweep, name):
-                yield told("report.fragility-apart", run=run, name=name, ratio=ratio)
-            judged = [name, *(fit.limit.figure for fit in fits)]
-            done = [row for row in sweep.rows if row["exit_code"] == "0"]
-            for code, data in unscaled(sweep.folder, done, sweep.swept, judged, [name]):
-                yield told(code, **data)
+    names = [n for n in dict.fromkeys(fit.intensity for fit in fits) if n in sweep.figures]
+    for name in names:
+        for run, ratio in _apart(sweep, name):
+            yield told("report.fragility-apart", run=run, name=name, ratio=ratio)
+    judged = [*names, *(fit.limit.figure for fit in fits)]
+    for code, data in unscaled(sweep.folder, _done(sweep), sweep.swept, judged, names):
+        yield told(code, **data)
 
 
 def _apart(sweep: Sweep, name: str) -> Iterator[tuple[str, float]]:
     """Runs whose intensity is far from that of the others with the same settings, and how far."""
     groups: dict[tuple[str, ...], list[tuple[str, float]]] = {}
-    for row in sweep.rows:
-        if row["exit_code"] == "0" and (x := real(row[name])) is not None and x > 0.0:
+    for row in _done(sweep):
+        if (x := real(row[name])) is not None and x > 0.0:
             key = tuple(row[n] for n in sweep.swept if n != MOTION)
             groups.setdefault(key, []).append((row["run"], np.log(x)))
     for group in groups.values():

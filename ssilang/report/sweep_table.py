@@ -124,12 +124,27 @@ def is_still(
 
 def _rounded(value: Any) -> Any:
     """A number to nine digits: another mesh sums in another order."""
-    return float(f"{value:.9g}") if isinstance(value, float) else value
+    number = real(value) if isinstance(value, str) else value
+    return float(f"{number:.9g}") if isinstance(number, float) else value
 
 
 def usual_intensities(figures: Sequence[str]) -> list[str]:
     """Figures that are taken as intensities if none is named."""
     return [n for n in figures if (kind := _KIND.match(n)) and kind[0].upper() in INTENSITIES]
+
+
+def chooses_records(
+    rows: Sequence[Mapping[str, Any]], swept: Sequence[str], name: str, intensities: Sequence[str]
+) -> bool:
+    """Whether a swept value chooses records of one peak: an intensity stays, others do not.
+
+    Where one changes in proportion to the value, that is a scale.
+    """
+    moved = [n for n in intensities if not is_still(rows, swept, name, [n])]
+    if not all(real(str(r[name])) for r in rows) or len(moved) in (0, len(intensities)):
+        return 0 < len(moved) < len(intensities)
+    made = [{**r, **{n: float(r[n] or 0) / float(r[name]) for n in moved}} for r in rows]
+    return not any(is_still(made, swept, name, [n]) for n in moved)
 
 
 def unscaled(
@@ -142,13 +157,14 @@ def unscaled(
     """Intensities that a swept value alone leaves as they are, or alone scales.
 
     Codes with their data: motions and other figures change with it where the one does not, or
-    neither do.
+    neither do; not of what chooses records.
     """
     asked, others = list[tuple[bool, str, str]](), [n for n in figures if n not in intensities]
     for figure, name in product(intensities, [n for n in swept if n != MOTION]):
         still = is_still(rows, swept, name, [figure])
         idle = is_still(rows, swept, name, figures if still else others)
-        asked += [(still, figure, name)] if still != idle and (still or others) else []
+        chosen = still and chooses_records(rows, swept, name, intensities)
+        asked += [(still, figure, name)] * (still != idle and not chosen and bool(still or others))
     made = []
     for row in rows if asked else ():
         told = summary_of(folder, row["folder"]).get("statistics", {}).get("calculations", [])

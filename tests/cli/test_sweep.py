@@ -516,6 +516,11 @@ def remembers(task: Task) -> dict[str, object]:
     return {"run": task.number, "exit_code": 0, "first": SEEN[0], "process": os.getpid()}
 
 
+def fails_first(task: Task) -> dict[str, object]:
+    """As `remembers`; the first run leaves nothing."""
+    return {"run": 1, "exit_code": 1, "first": 2} if task.number == 1 else remembers(task)
+
+
 def dies_first(task: Task) -> dict[str, object]:
     """Kills its process for the first run."""
     if task.number == 1:
@@ -534,12 +539,13 @@ def some_tasks(tmp_path, count):
     return [Task(i, tmp_path / "x.ssi", tmp_path / str(i), {}) for i in range(1, count + 1)]
 
 
-def test_later_runs_begin_with_the_memory_of_the_first(tmp_path):
-    rows = list(run_grown(some_tasks(tmp_path, 9), 2, remembers))
+@pytest.mark.parametrize(("work", "first"), [(remembers, 1), (fails_first, 2)])
+def test_later_runs_begin_with_the_memory_of_the_first_that_ended_well(tmp_path, work, first):
+    rows = list(run_grown(some_tasks(tmp_path, 9), 2, work))
     assert sorted(r["run"] for r in rows) == list(range(1, 10))
-    assert {r["first"] for r in rows} == {1}
-    others = {r["process"] for r in rows if r["run"] > 1}
-    assert rows[0]["process"] not in others
+    assert {r["first"] for r in rows} == {first}
+    others = {r["process"] for r in rows if r["run"] > first}
+    assert rows[first - 1]["process"] not in others
     assert len(others) <= 2
 
 

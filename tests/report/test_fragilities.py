@@ -77,14 +77,16 @@ def test_an_intensity_that_a_scale_leaves_as_it_was_is_told(tmp_path):
     rows = suite()
     for row in rows:
         row["PGA"] = row["PGA"] / row["AG"]
-    pages = []
-    for own in (rows, suite()):
-        made = sweep_of(tmp_path, own)
-        asked = Asked(read_limits("drift>1"), ["PGA"])
+    chosen = [{**row, "PGV": row["AG"] ** 2} for row in rows]  # AG chooses records of one peak
+    scaled = [{**row, "PGV": row["AG"] * (1 + i % 12)} for i, row in enumerate(rows)]
+    both, pages = ["PGA", "PGV"], []
+    for own, names in ((rows, ["PGA"]), (suite(), ["PGA"]), (chosen, both), (scaled, both)):
+        made = sweep_of(tmp_path, own, figures=["drift", *names])
+        asked = Asked(read_limits("drift>1"), names)
         pages.append(
             "PGA does not change with AG" in fragility_html(made, fits_of(made, asked), [], TOLD)
         )
-    assert pages == [True, False]
+    assert pages == [True, False, False, True]
 
 
 def test_an_intensity_that_a_stiffness_leaves_as_it_was_is_not(tmp_path):
@@ -272,10 +274,15 @@ def test_intensities_are_those_known_else_what_was_swept(tmp_path):
 # --- floors --------------------------------------------------------------------------------------
 
 
-def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path, monkeypatch):
+@pytest.mark.parametrize("record", ["MOTION", "SEED"])
+def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path, monkeypatch, record):
+    """A number may choose the record, too: PGA stays then, other intensities do not."""
     rng = np.random.default_rng(6)
     rows, spectra = suite(n=5, scales=[2, 1]), rng.lognormal(size=(10, 4))
-    made = sweep_of(tmp_path, rows)
+    for number, row in enumerate(rows):
+        row[record], row["PGV"] = row.pop("MOTION"), row["AG"] * (1.0 + number % 5)
+        row["PGA"] *= 1.0 + 3e-16 * (number % 2)  # rounding of what scales
+    made = sweep_of(tmp_path, rows, ("AG", record), ("drift", "PGA", "PGV"))
     for number, values in enumerate(spectra, 1):
         folder = tmp_path / "runs" / f"r{number}"
         folder.mkdir(parents=True)

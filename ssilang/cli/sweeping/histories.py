@@ -7,7 +7,7 @@ the values that it was given. Units stay where they are: in the titles, or in th
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 
@@ -83,30 +83,19 @@ def _heads(columns: Sequence[str], swept: Sequence[str]) -> list[str]:
 
 def _csv(target: Path, runs: list[tuple[Row, Path]], swept: Sequence[str]) -> int | None:
     """Write a joined CSV file; how many runs have other columns, None if there is no history."""
-    titles: list[str] = []
-    others = 0
-
-    def fill(stream: IO[bytes]) -> None:
-        nonlocal titles, others
-        for row, path in runs:
-            columns = _columns(path)
-            if not columns:
-                continue
-            if not titles:
-                titles = list(columns)
-                stream.write((";".join([*_heads(titles, swept), *titles]) + "\n").encode())
-            if list(columns) != titles:
-                others += 1
-                continue
-            head = ";".join(_cell(row[n]) for n in ("run", *swept))
-            for values in zip(*(c.tolist() for c in columns.values()), strict=True):
-                stream.write((head + ";" + ";".join(map(_number, values)) + "\n").encode())
-
-    if not any(_columns(path) for _, path in runs[:1]):
+    titles, others = [name for _, path in runs[:1] for name in _columns(path)], 0
+    if not titles:
         return None
     target.parent.mkdir(parents=True, exist_ok=True)
     with replacing(target) as stream:
-        fill(stream)
+        stream.write((";".join([*_heads(titles, swept), *titles]) + "\n").encode())
+        for row, path in runs:
+            columns = _columns(path)
+            others += bool(columns) and list(columns) != titles
+            if list(columns) == titles:
+                head = ";".join(_cell(row[n]) for n in ("run", *swept))
+                for values in zip(*(c.tolist() for c in columns.values()), strict=True):
+                    stream.write((head + ";" + ";".join(map(_number, values)) + "\n").encode())
     return others
 
 

@@ -1,6 +1,6 @@
 """Where the runs of a sweep go: the cores of this machine, forks of the first run, a Dask cluster.
 
-The first run of a long sweep is made in a process of its own, the trunk. It leaves imported
+A long sweep makes runs in a process of its own, the trunk, until one ends well. It leaves imported
 modules, compiled code and the factors of the model's matrices, which are found again by content.
 The other runs are made in forks of it, that share this memory until they write to it.
 """
@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
+from itertools import islice
 from multiprocessing import get_context, parent_process, resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.context import SpawnContext, SpawnProcess
@@ -190,28 +191,26 @@ def run_grown(tasks: Sequence[Task], jobs: int, work: Work = run_task) -> Iterat
     rest = list(waiting.values())
     if len(rest) == len(tasks):
         yield lost_row(rest.pop(0), "its process was killed (memory?)")
-    if rest:
-        yield from run_here(rest, jobs, work)
+    yield from run_here(rest, jobs, work)
 
 
 def _received(receiver: Any, sentinel: int) -> Iterator[Row]:
     """What the trunk sends, until it says that it is done or is no more."""
-    while receiver in wait([receiver, sentinel]):
-        try:
-            row = receiver.recv()
-        except EOFError:
-            return
-        if row is None:
-            return
-        yield row
+    with suppress(EOFError):
+        while receiver in wait([receiver, sentinel]) and (row := receiver.recv()) is not None:
+            yield row
 
 
 def _grow(tasks: list[Task], jobs: int, work: Work, sender: Any) -> None:
-    """The trunk: one run, then the others in forks."""
+    """The trunk: runs until one ends well, a few at most, then the others in forks."""
+    rest = iter(tasks)
     try:
-        sender.send(row_anyhow(tasks[0], work))
+        for row in (row_anyhow(task, work) for task in islice(rest, ROUNDS)):
+            sender.send(row)
+            if row["exit_code"] == 0:
+                break
         gc.freeze()  # collections in a fork would copy the memory that it shares
-        for row in run_here(tasks[1:], jobs, work, "fork"):
+        for row in run_here(list(rest), jobs, work, "fork"):
             sender.send(row)
         sender.send(None)
     except (BrokenPipeError, KeyboardInterrupt):

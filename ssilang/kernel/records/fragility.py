@@ -28,6 +28,8 @@ LEAST_RUNS = 3
 """Two parameters and a degree of freedom."""
 LEAST_RECORDS = 5
 """Of which errors by record are given: fewer scores tell too little of their scatter."""
+_SAME = 1e-9
+"""Of logarithms of intensities: records scaled to one level differ by rounding."""
 _LEAST_SLOPE = 1e-6
 """Of the probit over a standard deviation of the intensities: less is none."""
 
@@ -106,12 +108,12 @@ def of_exceedances(
         raise FieldError("kernel.records.fragility-none", n=total, highest=intensities.max())
     if passed == total:
         raise FieldError("kernel.records.fragility-all", n=total, lowest=intensities.min())
-    if not np.ptp(x) > 0.0:
+    if not np.ptp(x) > _SAME:
         raise FieldError("kernel.records.fragility-one-level", intensity=intensities[0])
     above, below = intensities[exceeded > 0.0], intensities[exceeded < runs]
-    if above.max() <= below.min():
+    if above.max() <= below.min() * (1.0 + _SAME):
         raise FieldError("kernel.records.fragility-falls")
-    if below.max() <= above.min():
+    if below.max() <= above.min() * (1.0 + _SAME):
         raise FieldError("kernel.records.fragility-separated", low=below.max(), high=above.min())
     centre, scale = x.mean(), x.std()
     rows = np.column_stack([np.ones(len(x)), (x - centre) / scale])
@@ -198,7 +200,7 @@ def of_cloud(
         raise FieldError("kernel.records.fragility-demand", value=value)
     if not capacity >= 0.0:
         raise FieldError("kernel.records.fragility-capacity", value=capacity)
-    if not np.ptp(x) > 0.0:
+    if not np.ptp(x) > _SAME:
         raise FieldError("kernel.records.fragility-one-level", intensity=intensities[0])
     y = np.log(demands)
     line = linregress(x, y)

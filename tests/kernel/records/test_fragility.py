@@ -81,10 +81,12 @@ def test_another_unit_scales_the_median_alone():
         ([1, 2, 3], [1, 1, 1], "all"),
         ([3, 1, 2, 4], [1, 0, 0, 1], "separated"),
         ([1, 2, 2, 3], [0, 0, 1, 1], "separated"),  # a tie alone does not overlap
+        ([1, 2 + 4e-16, 2, 3], [0, 0, 1, 1], "separated"),  # one by rounding neither
         ([1, 2, 3, 4], [1, 1, 0, 0], "falls"),
         ([1, 2, 3, 4], [1, 0, 1, 0], "falls"),
         ([1, 2, 4], [1, 0, 1], "falls"),
         ([2, 2, 2], [1, 0, 1], "one-level"),
+        ([6, 6, 6.000000000000001], [1, 0, 1], "one-level"),
         ([2.0], [1], "runs"),
         ([1, 2, 0], [0, 1, 0], "intensity"),
         ([1, 2, np.nan], [0, 1, 0], "intensity"),
@@ -192,6 +194,7 @@ def test_errors_of_a_cloud_are_those_of_repeated_samples(repeated):
         ([5, 2, 3, 1], [1.998, 2.001, 2.0, 2.002], {"limit": 0.5, "below": True}, "cloud-falls"),
         ([1, 2, 3], [1, 2, 3.5], {"below": True}, "cloud-falls"),
         ([2, 2, 2], [1, 2, 3], {}, "one-level"),
+        ([6, 6, 6.000000000000001], [1, 2, 3], {}, "one-level"),
         ([1, 2, 4], [2, 4, 8], {}, "no-scatter"),
         ([1, 2], [1, 2], {}, "runs"),
         ([1, 2, 3], [1, 2, 3.5], {"capacity": -0.1}, "capacity"),
