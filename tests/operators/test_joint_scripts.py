@@ -11,39 +11,9 @@ STRIP = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ;
 A = DROI 4 (-2. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; J = RACC 1.E-6 A B ;
 """
-SURFACE = """
-OPTI DIME 3 ELEM {} ;
-L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; B = L TRAN 2 (0. 1. 0.) ; A = B PLUS (0. 0. 0.) ;
-J = LIAI A B ;
-"""
 
 
 # --- integration --------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("rule", "inertia"),
-    # four cells of a line of 4 m: Gauss sums x^2 exactly, the trapezium adds L h^2/6
-    [("'GAUSS'", 64 / 12), ("", 64 / 12), ("'LOBATTO'", 64 / 12 + 4 / 6)],
-)
-def test_rule_by_name_gives_its_rocking_stiffness(found, rule, inertia):
-    turned = """
-    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' {} ; C = MATE M 'KN' 3. 'KS' 1. ;
-    K = RIGI M C ; U = NOMC 'UY' (COOR 1 A) ; F = K * U ; X = XTY U F (MOTS 'UY') (MOTS 'FY') ;
-    """
-    assert found(STRIP + turned.format(rule), "X") == pytest.approx(3.0 * inertia, rel=1e-12)
-
-
-def test_rule_by_name_on_bilinear_faces(found):
-    turned = """
-    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ; C = MATE M 'KN' 3. 'KS' 1. ;
-    U = NOMC 'UZ' ((COOR 1 A) - 0.5) ; F = (RIGI M C) * U ;
-    X = XTY U F (MOTS 'UZ') (MOTS 'FZ') ; S = CHAN 'NOEUD' M (SIGM M C U) ;
-    Y = MAXI (EXCO 'SMN' S) ;
-    """
-    x, y = found(SURFACE.format("QUA4") + turned, "X", "Y")
-    assert x == pytest.approx(3.0 * (1 / 12 + 0.25 / 6), rel=1e-12)
-    assert y == pytest.approx(1.5, rel=1e-12)  # the nodes are the points
 
 
 def test_strip_footing_with_sixteen_joints_and_lobatto_points(found):
@@ -535,15 +505,3 @@ def test_dashpots_below_ground_that_yields_carry_what_it_carries():
     )
     assert energies["DISSIPEE"][-1] > energies["AMORTIE"][-1] > 1e3
     assert np.abs(energies["ECART"]).max() < 1e-3 * energies["AMORTIE"][-1]
-
-
-@pytest.mark.parametrize("length", ["", "'LONG' 9."])
-def test_a_footing_in_the_plane_turns_over_its_width_however_far_it_goes_on_behind(found, length):
-    """KN LARG^2 / 12, KN being that of the whole footing (Winkler's bed, integrated)."""
-    script = (
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; Q = 0. 1.E-3 ; L = MANU 'SEG2' P Q ; "
-        "M = MODE L MECANIQUE ELASTIQUE MACRO_SEMELLE JOI1 ; "
-        f"A = MATE M 'KN' 12. 'KS' 1. 'LARG' 4. {length} 'V1X' 0. 'V1Y' 1. ; "
-        "X = MAXI (EXCO 'MZ' ((RIGI M A) * (MANU 'CHPO' Q 1 'RZ' 1.))) ; "
-    )
-    assert found(script, "X") == pytest.approx(16.0)

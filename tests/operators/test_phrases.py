@@ -1,9 +1,9 @@
 """What a phrase gives is the value beside it (`test_phrases.toml`), reckoned without the package.
 
-A group is said behind its `before` in one session, without it each phrase in one of its own. What
-stands before the last `;` of a phrase is said first, what stands behind it gives the value:
-numbers, words and lists as they are, a point by
-its coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of points] by its blocks,
+A group is said behind its `before` in one session, else each phrase in one of its own, behind its
+`start` if it has one. What stands before the last `;` of a phrase is said first, what stands behind
+it gives the value, or several names with & between: numbers, words and lists as they are, points by
+their coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of points] by its blocks,
 tables by what they hold, fields by functions of x, y and z for each component.
 """
 
@@ -40,7 +40,7 @@ def oscillator(frequency, damping, values, times, start=(0.0, 0.0)):
 KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special, "approx": pytest.approx}
 KNOWN |= {"sig": signal, "osc": oscillator, "T8": np.arange(8) / 2}
 KNOWN |= {"G8": np.array([0, 2, -1, 3, 0.5, -4, 1, 2])}
-ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p != "before"]
+ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p not in ("before", "start")]
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def sessions(tmp_path_factory):
 
     def of(group):
         if group not in made or "before" not in GROUPS[group]:
-            before = GROUPS[group].get("before", "")
+            before = GROUPS[group].get("before") or GROUPS[group].get("start", "")
             made[group] = session_after(before, tmp_path_factory.mktemp(group))
         return made[group]
 
@@ -81,6 +81,8 @@ def plain(value, dimension=2):
 def assert_plain(found, wanted):
     if type(wanted).__name__.startswith("Approx"):
         assert found == wanted
+    elif callable(wanted):
+        assert wanted(found), found
     elif isinstance(wanted, dict):
         assert set(found) == set(wanted)
         for key, item in wanted.items():
@@ -115,8 +117,13 @@ def assert_field(field, wanted):
 def test_a_phrase_gives_its_value(sessions, group, phrase):
     session = sessions(group)
     said, _, asked = phrase.rpartition(";")
-    execute(session, Source("phrase", f"{said + ' ; ' if said else ''}ZZ = {asked} ;"))
-    found = session.root.find("ZZ")
+    names = asked.split(" & ")
+    said += " ;" if said else ""
+    if len(names) == 1:
+        said, names = f"{said} ZZ = {asked} ;", ["ZZ"]
+    execute(session, Source("phrase", said))
+    found = [session.root.find(name.strip()) for name in names]
+    found = found if len(names) > 1 else found[0]
     wanted = eval(GROUPS[group][phrase], KNOWN)
     if isinstance(found, NodeField | CellField):
         assert_field(found, wanted)

@@ -1,4 +1,4 @@
-"""_reso REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
+"""RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
 
 import math
 
@@ -58,13 +58,13 @@ def _options(call: Call, words: Mapping[str, Any]) -> SolveOptions:
 
 
 @operator(
-    "_reso",
+    "RESO",
     _MATRIX,
     _PRECISION,
     _LOADS,
     *_WORDS,
     family="solve",
-    full_name="_reso",
+    full_name="RESO",
     gives=Like("loads"),
 )
 def _reso(
@@ -79,7 +79,7 @@ def _reso(
             call.warn(problem.code, **problem.data)
         return tuple(solve(matrix, loads, options))
     laden = [part.nodes for load in loads for part in load.components.values()]
-    warn_connections(call.session, call.span, "_reso", matrix, laden=laden)
+    warn_connections(call.session, call.span, "RESO", matrix, laden=laden)
     known = np.concatenate([np.zeros(0, np.int64), *(r.multipliers for r in matrix.relations)])
     for load in loads:
         if count := imposed_outside(load, known):
@@ -144,7 +144,7 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     (stiff, most), (soft, least) = found.stiffest, found.softest
     digits = max(0, round(16 - math.log10(found.number)))
     call.session.warn(
-        "operators.statics.badly-conditioned", call.span, operator="_reso", number=found.number,
+        "operators.statics.badly-conditioned", call.span, operator="RESO", number=found.number,
         digits=digits, most=most, stiff=stiff, least=least, soft=soft,
     )  # fmt: skip
 

@@ -21,25 +21,6 @@ def root_of(text: str):
     return ran(text).session.root
 
 
-@together("words", ["L 'NOAJ'", "'NOAJ' L", "L T 'NOAJ'"])
-def test_without_new_points_all_nodes_are_those_of_the_lines(words):
-    root = root_of(SQUARE + f"M = TRIA 'TOPO' {words} ; X = MESU M ; N = NBEL M ; P = NBNO M ;")
-    assert root.find("X") == pytest.approx(6.0)
-    assert (root.find("P"), root.find("N")) == (28, 26)  # n - 2 triangles of n points
-
-
-@together("words", ["L", "L 'AJNO' T", "T L"])
-def test_new_points_make_good_triangles_on_the_same_boundary(words):
-    root = root_of(
-        SQUARE + f"M = TRIA 'TOPO' {words} ; X = MESU M ; Q = INDI 'TOPO' M ; Y = MINI Q ; "
-        "C = CONT M ; N = NBEL (DIFF C L) ; P = NBNO M ;"
-    )
-    assert root.find("X") == pytest.approx(6.0)
-    assert root.find("Y") > 0.6
-    assert root.find("N") == 0
-    assert root.find("P") > 28
-
-
 def test_a_hole_stays_empty():
     text = SQUARE + (
         "E = 1. 0.5 ; F = 2. 0.5 ; G = 2. 1.5 ; H = 1. 1.5 ; L2 = (DROI 3 E F) ET (DROI 3 F G) ET "
