@@ -3,7 +3,7 @@
 A group is said behind its `before` in one session, else each phrase in one of its own, behind its
 `start` if it has one. What stands before the last `;` of a phrase is said first, what stands behind
 it gives the value, or several names with & between: numbers, words and lists as they are, points by
-their coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of points] by its blocks,
+their coordinates, curves as [abscissas, ordinates], meshes as [kind, cells of points] by block,
 tables by what they hold, fields by functions of x, y and z for each component.
 """
 
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import signal, special
-from script_runs import session_after
+from script_runs import assert_field, session_after
 from together import together
 from unchanged import operands_stay  # noqa: F401
 
@@ -95,21 +95,6 @@ def assert_plain(found, wanted):
         assert found == pytest.approx(wanted, rel=1e-9, abs=1e-12)
     else:
         assert found == wanted
-
-
-def assert_field(field, wanted):
-    """Every component is its function of the place, in all nodes or points."""
-    if isinstance(field, NodeField):
-        at = field.table.coordinates
-        parts = [(n, at[p.nodes], p.values) for n, p in field.components.items()]
-    else:
-        parts = [(n, b.cells.coordinates, v) for b in field.blocks for n, v in b.components.items()]
-    assert {n for n, *_ in parts} == set(wanted)
-    for name, place, values in parts:
-        if values.shape[1:] != place.shape[1:-1]:
-            place = place.mean(axis=1, keepdims=True)
-        exact = wanted[name](*np.moveaxis(place, -1, 0))
-        np.testing.assert_allclose(values, np.broadcast_to(exact, values.shape), 1e-9, 1e-12)
 
 
 @pytest.mark.usefixtures("operands_stay")
