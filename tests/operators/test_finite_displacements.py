@@ -34,8 +34,7 @@ def energy(u):
 
 def test_released_string_swings_with_the_period_of_its_energy():
     root = run(
-        STRING
-        + """
+        f"""{STRING}
     F = EXTR (T . 'REACTIONS' . 2) P2 'FY' ; N = MAXI (T . 'CONTRAINTES' . 2) ;
     T . 'DYNAMIQUE' = VRAI ; T . 'MASSE_CONSTANTE' = MASS 'UY' 3. P2 ;
     T . 'BLOCAGES_MECANIQUES' = C ;

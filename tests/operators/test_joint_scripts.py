@@ -17,9 +17,7 @@ A = DROI 4 (-2. 0.) (2. 0.) ; B = A PLUS (0. 0.) ; J = RACC 1.E-6 A B ;
 
 
 def test_strip_footing_with_sixteen_joints_and_lobatto_points(found):
-    text = (
-        STRIP.replace("DROI 4", "DROI 16")
-        + """
+    text = f"""{STRIP.replace("DROI 4", "DROI 16")}
     M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'LOBATTO' ; C = MATE M 'KN' 2.E7 'KS' 2.E7 ;
     G = A POIN 'PROC' (-2. 0.) ; D = A POIN 'PROC' (2. 0.) ;
     BLO = (BLOQ 'UX' 'UY' B) ET (BLOQ 'UX' A) ET (RELA 0.25 'UY' D - 0.25 'UY' G) ;
@@ -38,7 +36,6 @@ def test_strip_footing_with_sixteen_joints_and_lobatto_points(found):
     R = T . 'REACTIONS' . 2 ; Z = XTY (NOMC 'SCAL' (COOR 1 B)) (EXCO 'FY' (REDU R B) 'SCAL')
       (MOTS 'SCAL') (MOTS 'SCAL') ;
     """
-    )
     # theta_u = 2 N/(k0 B^2) = 0.00375, theta = 10 theta_u: M = (3 - 2 sqrt(1/10)) N B/6
     exact = (3 - 2 * np.sqrt(0.1)) * 6e5 * 4 / 6
     assert abs(found(text, "Z")) == pytest.approx(exact, rel=1e-2)
@@ -123,9 +120,7 @@ def test_dynamic_gives_state_and_energies_of_each_point(found):
 
 
 def test_energies_of_points_add_up_to_those_of_the_table(found):
-    text = (
-        STRIP
-        + """
+    text = f"""{STRIP}
     M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
     C = MATE M 'KN' 1.E9 'KS' 1.E9 'FU' 1.E5 'GF' 20. ;
     D = BLOQ 'UY' A ; T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = C ;
@@ -136,7 +131,6 @@ def test_energies_of_points_add_up_to_those_of_the_table(found):
     E = MAXI (EXCO 'ETAT' V) ; XI = MAXI (EXCO 'SAUT' V) ;
     SJ = EXTR (T . 'ENERGIES' . 'JOINTS') 5 ; PJ = EXTR (T . 'ENERGIES' . 'DISSIPEE') 5 ;
     """
-    )
     s, p, sj, pj, state, xi = found(text, "S", "P", "SJ", "PJ", "E", "XI")
     assert state == 4.0
     assert p == pytest.approx(pj, rel=1e-12)
@@ -177,23 +171,18 @@ def test_vtk_without_mesh_takes_that_of_the_model_and_shows_states(tmp_path, bes
 
 
 def test_mate_waits_for_parameters_that_come_later(found):
-    text = (
-        STRIP
-        + """
+    text = f"""{STRIP}
     M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
     C = (MATE M 'FU' 1.E5 'GF' 100.) ET (MATE M 'KN' 1.E9 'KS' 1.) ; K1 = RIGI M C ;
     K2 = RIGI M (MATE M 'KN' 1.E9 'KS' 1. 'FU' 1.E5 'GF' 100.) ;
     """
-    )
     later, at_once = found(text, "K1", "K2")
     assert later.blocks[0].values.any()
     np.testing.assert_array_equal(later.blocks[0].values, at_once.blocks[0].values)
 
 
 def test_symmetric_friction_finds_the_same_slip(found):
-    text = (
-        STRIP
-        + """
+    text = f"""{STRIP}
     DEBP SLIDE MO*MMODEL ;
       C = MATE MO 'KN' 1.E8 'KS' 1.E8 'FROT' 0.5 ; D = BLOQ 'UX' A ;
       T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = C ;
@@ -208,7 +197,6 @@ def test_symmetric_friction_finds_the_same_slip(found):
     M2 = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'FROTTEMENT_SYMETRIQUE' ;
     S1 V1 = SLIDE M1 ; S2 V2 = SLIDE M2 ;
     """
-    )
     s1, s2, v1, v2 = found(text, "S1", "S2", "V1", "V2")
     for one, two in ((s1, s2), (v1, v2)):
         for name, values in one.blocks[0].components.items():
@@ -262,12 +250,9 @@ def test_persistent_contact_stops_the_alternating_velocity(found):
 
 
 def test_body_at_rest_on_a_relation_has_no_acceleration(found):
-    text = (
-        RESTING.replace("-1.E-4", "0.")
-        + """
+    text = f"""{RESTING.replace("-1.E-4", "0.")}
     T2 = DYNAMIC T1 ; A = EXTR (EVOL 'TEMP' T2 'ACCE' 'UY' P1) 'ORDO' ;
     """
-    )
     # beside the other mass, which swings with 10 m/s2: the step adds up what rounding leaves of
     # the velocities of the modes
     assert np.abs(found(text, "A").values).max() < 1e-7 * 10.0
