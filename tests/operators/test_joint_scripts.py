@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from references.small_motions import HOPPER
-from script_runs import ran
+from script_runs import finder, ran
 
 from ssilang.cli.run import run_text
 
@@ -302,8 +302,7 @@ def test_a_joint_between_points_of_one_place_follows_its_supports(found):
 @pytest.mark.parametrize("place", ["NOEUD", "STRESSES"])
 def test_stiffness_given_at_nodes_is_the_mean_of_both_sides(place):
     """Below 1E6 (1 + x), above 3E6: a rigid opening w meets `w int (4E6 + 1E6 x) / 2 dx`."""
-    result = ran(
-        f"""OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
+    find = finder(f"""OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
         L1 = DROI 3 (0. 0.) (2. 0.) ; L2 = DROI 3 (0. 0.) (2. 0.) ; J = RACC 1.E-6 L1 L2 ;
         MO = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;
         LOW = NOMC 'SCAL' ((1.E6 * (COOR 1 L1)) + (MANU 'CHPO' L1 1 'SCAL' 1.E6)) ;
@@ -312,9 +311,7 @@ def test_stiffness_given_at_nodes_is_the_mean_of_both_sides(place):
         W = MANU 'CHPO' L2 1 'UY' 1.E-3 ; F = (RIGI MO MA) * W ;
         TOTAL = MAXI (RESU (REDU F L2)) ;
         RIGHT = XTY F (NOMC 'UY' (COOR 1 L2)) (MOTS 'FY') (MOTS 'UY') ;
-        """
-    )
-    find = result.session.root.find
+        """)
     assert find("TOTAL") == pytest.approx(1e-3 * (4e6 * 2 + 1e6 * 2) / 2)
     assert find("RIGHT") == pytest.approx(1e-3 * (4e6 * 2 + 1e6 * 8 / 3) / 2)
 
@@ -345,7 +342,7 @@ def test_anisotropic_joint_of_two_points_gives_its_matrix_times_the_jump(dimensi
     grown = random.normal(size=size)
     rates = " ".join(f"'{n}' {v:.15E}" for n, v in zip(coefficients, grown, strict=True))
     read = " ".join(f"F{i} = EXTR F '{duals[n]}' Q ;" for i, n in enumerate(names))
-    result = ran(
+    find = finder(
         f"OPTI DIME {dimension} ELEM SEG2 ; {ends} L = MANU 'SEG2' P Q ; "
         "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'ANISOTROPE' 'JOI1' ; "
         f"A = MATE M {terms} {axes} ; U = MANU 'CHPO' Q {given} ; F = (RIGI M A) * U ; "
@@ -361,9 +358,8 @@ def test_anisotropic_joint_of_two_points_gives_its_matrix_times_the_jump(dimensi
         "H = THET M R (MANU 'CHML' M 'T' 2. 'STRESSES') ; LC = EXTR M 'CONT' ; "
         + " ".join(f"H{i} = EXTR H (EXTR LC {i + 1}) 1 1 1 ;" for i in range(size))
         + f"{read}",
-        output_directory=tmp_path,
+        tmp_path,
     )
-    find = result.session.root.find
     strain = turn @ u
     np.testing.assert_allclose(
         [find(f"F{i}") for i in range(size)], turn.T @ D @ strain, rtol=1e-12, atol=1e-12
@@ -433,8 +429,7 @@ MZ = EXTR (EVOL 'TEMP' R 'CONTRAINTES' 'MOMZ' M 1 1 1) 'ORDO' ;
 
 def far_field(speed, ground="", more=""):
     """Rotations of footing and ground, force between them, energies, of a footing thrown over."""
-    result = ran(FAR_FIELD.format(speed=speed, ground=ground))
-    find = result.session.root.find
+    find = finder(FAR_FIELD.format(speed=speed, ground=ground))
     energies = {str(k): np.array(v.values) for k, v in find("E").items() if str(k) != "TEMPS"}
     return [np.array(find(name).values) for name in ["TC", "TS", "FN", *more.split()]], energies
 

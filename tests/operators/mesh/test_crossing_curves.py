@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 from scipy.special import ellipe, ellipeinc
-from script_runs import failed, ran
+from script_runs import failed, found
 
 SPACE = "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ; "
 
 
 def line(text):
-    result = ran(SPACE + text)
-    mesh = result.session.root.find("L")
+    mesh = found(SPACE + text, "L")
     block = mesh.blocks[0]
     chain = np.append(block.connectivity[:, 0], block.connectivity[-1, -1])
     return mesh.nodes.coordinates[chain]
