@@ -246,14 +246,14 @@ for _kind in ("ENTIER", "FLOTTANT"):
 # ---- PSCA ---------------------------------------------------------------------------------------
 
 
-_NAMES = (
+PAIRED = (
     arg("left", "LISTMOTS", en="components of the first"),
     arg("right", "LISTMOTS", en="components of the second, paired with them"),
 )
 
 
 @PSCA.form(
-    main("first", "CHPOINT", en="first field"), arg("second", "CHPOINT", en="second field"), *_NAMES
+    main("first", "CHPOINT", en="first field"), arg("second", "CHPOINT", en="second field"), *PAIRED
 )
 def scalar_product(
     call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
@@ -267,7 +267,7 @@ def scalar_product(
 @PSCA.form(
     main("first", "MCHAML", en="first field"),
     arg("second", "MCHAML", en="second field"),
-    *_NAMES,
+    *PAIRED,
 )
 def scalar_product_in_cells(
     call: Call, first: CellField, second: CellField, left: ListMots, right: ListMots
