@@ -2,13 +2,15 @@
 
 import io
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, TextIO
 
+import numpy as np
 import pytest
 
 from ssilang.cli.run import RunOptions, RunResult, execute, make_session, run_text
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.language.run.session import Session
 from ssilang.language.text.source import Source
 
@@ -89,6 +91,21 @@ def assert_says(output: str, wanted: str) -> None:
     assert _NUMBER.sub("#", found) == _NUMBER.sub("#", wanted)
     numbers = [[float(x) for x in _NUMBER.findall(t)] for t in (found, wanted)]
     assert numbers[0] == pytest.approx(numbers[1], rel=1e-4, abs=1e-9)
+
+
+def assert_field(field: Any, wanted: Mapping[str, Callable[..., Any]]) -> None:
+    """Every component is its function of the place, in all nodes or points."""
+    if isinstance(field, NodeField):
+        at = field.table.coordinates
+        parts = [(n, at[p.nodes], p.values) for n, p in field.components.items()]
+    else:
+        parts = [(n, b.cells.coordinates, v) for b in field.blocks for n, v in b.components.items()]
+    assert list(dict.fromkeys(n for n, *_ in parts)) == list(wanted)
+    for name, place, values in parts:
+        if values.shape[1:] != place.shape[1:-1]:
+            place = place.mean(axis=1, keepdims=True)
+        exact = wanted[name](*np.moveaxis(place, -1, 0))
+        np.testing.assert_allclose(values, np.broadcast_to(exact, values.shape), 1e-12, 1e-12)
 
 
 def prog(values: Iterable[float]) -> str:

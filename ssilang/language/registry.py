@@ -253,25 +253,6 @@ def choice(
     return Keyword(name, tuple(words), optional=optional, default=default, length=length, en=en)
 
 
-def _of_parameter(make: Callable[Concatenate[str, P], Any]) -> Callable[P, Any]:
-    def declared(*args: P.args, **options: P.kwargs) -> Any:
-        return make("", *args, **options)
-
-    return declared
-
-
-Arg = _of_parameter(arg)
-"""`arg` as the default of the parameter that gets it, by whose name it goes; so the others."""
-Opt = _of_parameter(opt)
-Many = _of_parameter(many)
-Main = _of_parameter(main)
-Lead = _of_parameter(lead)
-Name = _of_parameter(named)
-Key = _of_parameter(key)
-Flag = _of_parameter(flag)
-Choice = _of_parameter(choice)
-
-
 def select(
     name: str,
     cases: "Mapping[str, Sequence[Entry]]",
@@ -280,7 +261,7 @@ def select(
     length: int = 4,
     en: str = "",
     unless: Callable[[Any], Collection[str]] | None = None,
-) -> Select:
+) -> Any:
     """A keyword that decides what is read behind it; `repeated` collects a list."""
     made = {word: tuple(entries) for word, entries in cases.items()}
     return Select(name, made, optional, repeated, None, length, en, unless)
@@ -299,6 +280,28 @@ def each(name: str, *entries: "Entry", at_least: int = 0, times: str = "", en: s
 def either(name: str, *groups: Group, optional: bool = False, en: str = "") -> Either:
     """The first of several groups that can be read."""
     return Either(name, groups, optional, en)
+
+
+def _of_parameter(make: Callable[Concatenate[str, P], Any]) -> Callable[P, Any]:
+    def declared(*args: P.args, **options: P.kwargs) -> Any:
+        return make("", *args, **options)
+
+    return declared
+
+
+Arg = _of_parameter(arg)
+"""`arg` as the default of the parameter that gets it, by whose name it goes; so the others."""
+Opt = _of_parameter(opt)
+Many = _of_parameter(many)
+Main = _of_parameter(main)
+Lead = _of_parameter(lead)
+Name = _of_parameter(named)
+Key = _of_parameter(key)
+Flag = _of_parameter(flag)
+Choice = _of_parameter(choice)
+Cases = _of_parameter(select)
+Each = _of_parameter(each)
+OneOf = _of_parameter(either)
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,6 +89,16 @@ def united(call: Call, left: Any, right: Any, span: Span, words: Collection[str]
     return found(words, left, right) if types in WORDED_UNIONS else found(left, right)
 
 
+@operator(
+    "ET",
+    flag("exact", "TELQ", en="words with their blanks, meshes in the order given"),
+    arg("first", en="object, or a table or list of them"),
+    opt("second", en="object joined to it"),
+    flag("merged", "NOER", en="doubles are no error"),
+    gives=ANY,
+    family="objects",
+    reads_itself="the types of its operands, words too, choose a rule, which may read more",
+)
 def _unite(call: Call) -> Any:
     words = _words_of_union(call)
     left = call.read("*")
@@ -121,15 +131,3 @@ def unite_all(call: Call, holder: Any, values: list[Any]) -> Any:
     for value in values[1:]:
         total = united(call, total, value, call.span)
     return total
-
-
-operator(
-    "ET",
-    flag("exact", "TELQ", en="words with their blanks, meshes in the order given"),
-    arg("first", en="object, or a table or list of them"),
-    opt("second", en="object joined to it"),
-    flag("merged", "NOER", en="doubles are no error"),
-    gives=ANY,
-    family="objects",
-    reads_itself="the types of its operands, words too, choose a rule, which may read more",
-)(_unite)

@@ -137,11 +137,6 @@ def test_gap_in_a_motion_file_is_refused_with_its_line(outcome, tmp_path, bad):
     assert f"m.csv, line 2: '{bad}' is no finite number" in result.message
 
 
-def test_curve_of_a_load_with_a_gap_is_refused(refused):
-    text = BODY.replace("PROG -1. 1.", "PROG -1. (EXTR ((PROG 1.) / (PROG 0.)) 1)")
-    assert "the curve has inf at abscissa 1" in refused(text)
-
-
 BLOCK = """
 OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ;
 C = DROI 4 (0. 0.) (1. 0.) ; SOL = C TRAN 2 (0. -1.) ;

@@ -87,21 +87,3 @@ def test_a_core_in_both_directions_moves_as_an_integrated_bouc_wen(found):
     assert size > 10 * uy
     np.testing.assert_allclose(x, own.y[0], atol=5e-3 * size)
     np.testing.assert_allclose(y, own.y[1], atol=5e-3 * size)
-
-
-def test_a_core_is_pushed_in_statics(found):
-    """Imposed displacements: KPOS u + QD z of backward Euler in closed form."""
-    script = (
-        "OPTI DIME 2 ELEM SEG2 ; P0 = 0. 0. ; P = 0. 0.1 ; L = DROI 1 P0 P ; "
-        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'APPUI_PLOMB' 'JOI1' ; "
-        "A = MATE M 'KN' 1.E9 'KS' 1.1E7 'QD' 2.E5 'KPOS' 1.E6 ; B = BLOQ 'UX' P ; T = TABL ; "
-        "T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = B ET "
-        "(BLOQ 'UX' 'UY' P0) ET (BLOQ 'UY' P) ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B 1.) "
-        "(EVOL 'MANU' (PROG 0. 1.) (PROG 0. 0.1)) ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 0.1 1. ; "
-        "PASAPAS T ; F = EXTR (T . 'CONTRAINTES' . 10) 'EFFY' 1 1 1 ; "
-        "H = EXTR (T . 'VARIABLES_INTERNES' . 10) 'HYS1' 1 1 1 ; "
-    )
-    force, share = found(script, "F", "H")
-    z = 1 - (1 + 0.01 / 0.02) ** -10
-    assert abs(share) == pytest.approx(z, rel=1e-9)
-    assert abs(force) == pytest.approx(1e6 * 0.1 + 2e5 * z, rel=1e-9)

@@ -2,27 +2,15 @@
 
 import numpy as np
 import pytest
-from together import together
 
 from ssilang.kernel.curves.cloud import inverse_distance, moving_plane, on_grid
 
 CLOUD = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 9. 6. ; "
-GRID = (
-    "OPTI DIME 2 ; P = 0. 0. ; N = NUAG 'COMP' 'X' (PROG 0. 1. 3.) 'COMP' 'Y' (PROG 0. 2.) "
-    "'COMP' 'F' (PROG 0. 1. 3. 20. 21. 23.) ; "
-)
 
 
 def test_both_ways_to_write_a_cloud_give_the_same(found):
     a, b = found(CLOUD + "M = NUAG 'X'*'FLOTTANT' 'Y'*'FLOTTANT' 0. 5. 1. 9. 2. 6. ;", "N", "M")
     assert a.columns == b.columns
-
-
-@together("x, y", [(0.5, 1.0), (2.0, 0.5), (3.0, 2.0), (9.0, -1.0)])
-def test_grid_reproduces_a_bilinear_function(x, y, found):
-    field = f"C = MANU 'CHPO' P 'X' {x} 'Y' {y} ; "
-    value = found(GRID + field + "V = EXTR (IPOL N C 'GRILL') 'F' P ;", "V")
-    assert value == pytest.approx(min(x, 3.0) + 10 * min(max(y, 0.0), 2.0))
 
 
 def test_moving_plane_reproduces_a_plane_and_shepard_a_constant():
@@ -44,15 +32,6 @@ def test_grid_of_three_axes_is_linear_in_each():
     # trilinear interpolation is exact for x y z inside each cell
     expected = at[:, 0] + 2 * at[:, 1] - at[:, 2] + at.prod(axis=1)
     np.testing.assert_allclose(on_grid(axes, values, at), expected, rtol=1e-12)
-
-
-def test_integrals_of_several_curves_over_several_intervals_make_a_cloud(found):
-    second = found(
-        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; "
-        "N = INTG (E ET (E * 3.)) 'BORN' (PROG 0. 1.) (PROG 1. 2.) ; L = EXTR N 'IE2' ;",
-        "L",
-    )
-    np.testing.assert_allclose(second.values, [3.0, 3.0])
 
 
 def test_clouds_are_joined_row_by_row(found, refused):

@@ -240,18 +240,6 @@ def test_criterion_of_rounded_coulomb_is_the_law_s_own(found):
     np.testing.assert_allclose(component(yielded, "SCAL"), 0.0, atol=1e-4)
 
 
-def test_unloading_joint_has_no_inelastic_step(found):
-    script = JOINT.format(law="PLASTIQUE COULOMB", more="'FRIC' 30. 'COHE' 10.") + (
-        "F = MANU 'CHPO' T 2 'UX' 6.E-4 'UY' -2.E-4 'NATURE' 'DIFFUS' ; "
-        "E1 = EPSI M F A ; S1 V1 D1 = ECOU M S0 V0 E1 A ; "
-        "B = MANU 'CHPO' T 2 'UX' -1.E-5 'UY' 0. 'NATURE' 'DIFFUS' ; "
-        "S2 V2 D2 = ECOU M S1 V1 (EPSI M B A) A ; X1 = MAXI D1 'ABS' ; X2 = MAXI D2 'ABS' ; "
-    )
-    first, second = found(script, "X1", "X2")
-    assert first > 1e-4
-    assert second < 1e-15
-
-
 def test_a_point_joint_slips_in_space_beside_its_springs_of_rotation(found):
     """Slip along the shear that was tried, on Coulomb's cone; moments add up."""
     m, a, first, second = found(

@@ -58,13 +58,6 @@ def test_a_mesh_of_earlier_years_is_the_contact_of_its_sides(found, method):
     assert abs(closed - sums[0]) > 0.1 * abs(closed)  # the gap that is kept counts
 
 
-def test_cells_out_of_reach_are_left_out(found):
-    near, far = found(
-        STRIPS[0] + "N1 = NBEL (IMPO MAIL .3 A B) ; N2 = NBEL (IMPO MAIL .4 A B) ;", "N1", "N2"
-    )
-    assert (near, far) == (4, 5)  # nodes inside the sides are 1/3 apart
-
-
 def test_sides_of_a_mesh_are_in_contact_once(found):
     """However often a mesh of them, or of a part of them, was made before."""
     count = "G R = IMPO BLOC C ; {} = NBNO (EXTR R MAIL UNIL) ; "

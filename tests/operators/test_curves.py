@@ -3,35 +3,6 @@
 import pytest
 from together import together
 
-from ssilang.cli.run import run_text
-
-LINE = "OPTI DIME 2 ELEM SEG2 ; L = DROI 10 (0. 0.) (3. 4.) ; X Y = COOR L ; "
-
-
-def test_integral_around_a_loop_is_the_area_inside(found):
-    loop = "X = PROG 0. 2. 3. 1. 0. ; Y = PROG 0. 0. 5. 5. 0. ; "  # a parallelogram 2 x 5
-    assert found(loop + "A = INTG (EVOL 'MANU' X Y) ;", "A") == pytest.approx(-10.0)
-    result = run_text(loop + "A = INTG (EVOL 'MANU' X Y) 'BORN' 0. 1. ;")
-    assert "abscissas must increase" in result.message
-
-
-def test_integrals_of_one_curve_are_read_as_a_list_and_as_a_number(found):
-    """Places without a word give a list, one curve a number whose first item is itself."""
-    curve = "C = EVOL 'MANU' (PROG 0. 1. 3. 4.) (PROG 2. 2. 6. 6.) ; "
-    whole, bare, listed, more = found(
-        curve + "A = EXTR (INTG C) 1 ; B = EXTR (INTG C 2 3) 1 ; D = TYPE (INTG C 1 4) ; "
-        "E = INTG C (LECT 1 2) (LECT 4 3) ;", "A", "B", "D", "E",
-    )  # fmt: skip
-    assert (whole, bare) == (16.0, 8.0)  # trapezia 2, 8 and 6
-    assert listed.rstrip() == "LISTREEL"
-    assert list(more.values) == [16.0, 8.0]
-
-
-@together("phrase", ["EXTR 2.5 2", "EXTR (INTG C) 2"])
-def test_a_number_has_no_second_item(phrase):
-    result = run_text(f"C = EVOL 'MANU' (PROG 0. 1.) (PROG 2. 2.) ; X = {phrase} ;")
-    assert [e.code for e in result.errors] == ["operators.lists.no-such-place"]
-
 
 def test_parts_of_a_transform_are_taken_by_the_names_of_their_axes(found):
     """A cosine of eight points: half its sum stands in the real part of its line alone."""

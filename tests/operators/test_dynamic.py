@@ -85,16 +85,13 @@ def test_bonded_joint_without_its_law_is_refused(tmp_path):
 
 
 def test_vtk_series_and_csv_file(tmp_path):
-    text = (
-        HOPPER
-        + """
+    text = f"""{HOPPER}
     T1 . 'PAS_SAUVES_VTK' = 100 ; T1 . 'MAILLAGE_VTK' = J ; T1 . 'FICHIER_VTK' = 'hop' ;
     T1 . 'PAS_SAUVES_CSV' = 'TOUS' ; T1 . 'MAILLAGE_CSV' = MANU 'POI1' P ;
     T1 . 'COMPOSANTES_CSV' = MOTS 'UY' ; T1 . 'FICHIER_CSV' = 'hop' ;
     T1 . 'MAILLAGE_SAUVE' = MANU 'POI1' P ;
     T2 = DYNAMIC T1 ; N = DIME (T1 . 'RESULTATS_CSV') ;
     """
-    )
     result = ran(text, tmp_path)
     assert (tmp_path / "hop.pvd").is_file()
     assert len(list(tmp_path.glob("hop.*.vtu"))) == 6

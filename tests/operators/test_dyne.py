@@ -20,8 +20,7 @@ def run(script, tmp_path):
 
 def test_pseudo_mode_completes_a_slow_answer_to_the_static_one(tmp_path):
     root = run(
-        BAR
-        + """
+        f"""{BAR}
         T . 'PSEUDO_MODES' = PSMO K (T . 'MODES') F ;
         C = CHAR F (EVOL 'MANU' (PROG 0. 200. 400.) (PROG 0. 1. 1.)) ;
         TC = TABL 'CHARGEMENT' ; TC . 'BASE_A' = PJBA T C ;
@@ -42,9 +41,7 @@ def test_pseudo_mode_completes_a_slow_answer_to_the_static_one(tmp_path):
     assert root.find("N1") == 41
 
 
-LINKED = (
-    BAR
-    + """
+LINKED = f"""{BAR}
 L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'POINT_PLAN' ; L1 . 'SUPPORT' = B ;
 L1 . 'NORMALE' = 1. 0. ; L1 . 'RAIDEUR' = 1.E3 ; L1 . 'JEU' = 0.1 ;
 L2 = TABL 'LIAISON_ELEMENTAIRE' ; L2 . 'TYPE_LIAISON' = MOT 'POINT_POINT' ;
@@ -58,7 +55,6 @@ TS . 'LIAISON_B' = TABL 'LIAISON_B' ; TS . 'LIAISON_B' . L1 = VRAI ; TS . 'LIAIS
 TI = TABL 'INITIAL' ;
 TI . 'VITESSE' = MANU 'CHPO' (T . 'MODES' . 1 . 'POINT_REPERE') 1 'ALFA' 0.5 ;
 """
-)
 
 
 def test_links_push_by_their_overlap(tmp_path):
@@ -82,8 +78,7 @@ def test_links_push_by_their_overlap(tmp_path):
 
 def test_run_goes_on_from_its_restart_table(tmp_path):
     root = run(
-        LINKED
-        + """
+        f"""{LINKED}
         R = DYNE 'DE_VOGELAERE' T TL TI 600 0.01 ; P = DYNE 'DE_VOGELAERE' T TL TI 400 0.01 ;
         T2 = TABL 'INITIAL' ; T2 . 'REPRISE' = P . 'REPRISE' ;
         S = DYNE 'DE_VOGELAERE' T TL T2 200 0.01 ; X = R . 601 . 'VITESSE' ;
@@ -97,8 +92,7 @@ def test_run_goes_on_from_its_restart_table(tmp_path):
 
 def test_lists_instead_of_fields(tmp_path):
     root = run(
-        LINKED
-        + """
+        f"""{LINKED}
         TS . 'VARIABLE' . 'TYPE_SORTIE' = MOT 'LISTREEL' ; R = DYNE 'FOX_GOODWIN' T TS TI 50 0.01 ;
         Q = DYNE 'FOX_GOODWIN' T TI 50 0.01 ;
         W = R . 'VITESSE' . (T . 'MODES' . 1 . 'POINT_REPERE') ; N = DIME W ; X = EXTR W 51 ;
@@ -152,14 +146,11 @@ TI . 'DEPLACEMENT' = MANU 'CHPO' (T . 'MODES' . 2 . 'POINT_REPERE') 1 'ALFA' -2.
 
 
 def test_turning_disc_laid_on_a_plane_ends_up_rolling(tmp_path):
-    script = (
-        WHEEL
-        + """
+    script = f"""{WHEEL}
     R = DYNE 'DE_VOGELAERE' T TL C TI TS 4000 2.E-4 4000 ;
     X = EXTR (R . 2 . 'VITESSE') 'ALFA' (T . 'MODES' . 1 . 'POINT_REPERE') ;
     W = EXTR (R . 2 . 'VITESSE') 'ALFA' (T . 'MODES' . 3 . 'POINT_REPERE') ;
     """
-    )
     root = run(script, tmp_path)
     # momentum and moment of momentum: a third of the speed of turning stays, and it rolls
     x, w = root.find("X"), root.find("W")
@@ -244,8 +235,7 @@ def test_a_node_strikes_a_line_as_it_strikes_a_plane(line, tmp_path):
 
 def test_a_line_gets_what_it_gives(tmp_path):
     root = run(
-        MASS
-        + """
+        f"""{MASS}
         A = DROI 2 (2. 0.) (-1. 0.) ; PA = 0. 0. ; TM . 3 = TABL 'MODE' ;
         TM . 3 . 'POINT_REPERE' = PA ; TM . 3 . 'FREQUENCE' = 0. ;
         TM . 3 . 'MASSE_GENERALISEE' = 3. ;
@@ -344,8 +334,7 @@ def test_a_point_of_a_body_that_turns_goes_on_its_circle(tmp_path):
 
 def test_a_spring_at_a_body_that_turns_keeps_energy(tmp_path):
     root = run(
-        BODY.format(stiffness="40.")
-        + """
+        f"""{BODY.format(stiffness="40.")}
         V1 = PROG ; V2 = PROG ; V3 = PROG ; REPE B 2001 ; V = R . &B . 'VITESSE' ;
         V1 = V1 ET (PROG (EXTR V PX 'ALFA')) ; V2 = V2 ET (PROG (EXTR V PY 'ALFA')) ;
         V3 = V3 ET (PROG (EXTR V PR 'ALFA')) ; FIN B ; F = R . L1 . 'FORCE_DE_CHOC' ;
@@ -361,8 +350,7 @@ def test_a_spring_at_a_body_that_turns_keeps_energy(tmp_path):
 
 def test_a_circle_that_turns_touches_a_fixed_circle(tmp_path):
     root = run(
-        BODY.format(stiffness="500.").replace("R = DYNE", "* R = DYNE")
-        + """
+        f"""{BODY.format(stiffness="500.").replace("R = DYNE", "* R = DYNE")}
         OUBL TM . 3 'CORPS_RIGIDE' ;
         TM . 3 . 'DEFORMEE_MODALE' = MANU 'CHPO' C 3 'UX' 0. 'UY' 0. 'RZ' 1. ;
         OPTI DIME 3 ; L1 . 'NORMALE' = 0. 0. 1. ; L1 . 'EXCENTRATION' = 0. 0.01 0. ; OPTI DIME 2 ;
@@ -399,8 +387,7 @@ def test_a_circle_that_turns_touches_a_fixed_circle(tmp_path):
 
 def test_a_polynomial_is_a_product_of_powers(tmp_path):
     root = run(
-        MASS
-        + """
+        f"""{MASS}
         L1 = TABL 'LIAISON_ELEMENTAIRE' ; L1 . 'TYPE_LIAISON' = MOT 'POLYNOMIALE' ;
         L1 . 'SUPPORT' = PY ; L1 . 'COEFFICIENT' = -3. ;
         L1 . PX = TABL 'CONTRIBUTION' ; L1 . PX . 'EXPOSANT_DEPLACEMENT' = 2. ;
@@ -553,8 +540,7 @@ def test_links_go_on_from_the_last_results_of_the_table(cut, between, tmp_path):
 def test_links_go_on_with_another_step(tmp_path):
     """The half step before has another length then, which must not pass for a velocity."""
     root = run(
-        STEPPED.format(cut=0.096)
-        + """
+        f"""{STEPPED.format(cut=0.096)}
         S . 'TEMPS_CALCULES' = PROG 0.096 'PAS' 5.E-5 0.15 ; S . 'TEMPS_SAUVES' = PROG 0.15 ;
         PASAPAS S ; E = MAXI ((S . 'VITESSES' . 17) - V) 'ABS' ;
         """,
@@ -564,19 +550,15 @@ def test_links_go_on_with_another_step(tmp_path):
 
 
 def test_links_go_back_to_no_earlier_result(tmp_path):
-    script = (
-        STEPPED.format(cut=0.096)
-        + """
+    script = f"""{STEPPED.format(cut=0.096)}
         S . 'REPRISE' = 0.048 ; S . 'TEMPS_CALCULES' = PROG 0.048 'PAS' 1.E-4 0.15 ; PASAPAS S ;
         """
-    )
     assert "links" in refused(script)
 
 
 def test_steps_of_links_begin_where_the_times_do(tmp_path):
     root = run(
-        STEPPED.format(cut=0.006)
-        + """
+        f"""{STEPPED.format(cut=0.006)}
         S = TABD ; C = CHAR (MANU 'CHPO' PX 1 'FALF' 2.) (EVOL 'MANU' (PROG -1. 1.) (PROG 1. -1.)) ;
         S . 'CHARGEMENT' = C ; S . 'TEMPS_CALCULES' = PROG -1. 'PAS' 1.E-3 -0.9 ; PASAPAS S ;
         X = EXTR (S . 'VITESSES' . 100) 'ALFA' PX ; Y = S . 'TEMPS' . 100 ;

@@ -131,24 +131,6 @@ def test_kinematic_hardening_closes_a_cycle_of_the_moment(found):
     assert my[0] < 0.6 * (2e11 * IY * 0.03)
 
 
-def test_points_are_bars_of_a_section_and_plane_sections_bend_about_z(found):
-    script = (
-        "OPTI DIME 2 ELEM SEG2 ; P = (-0.2 0.) ET (0.2 0.) ; "
-        "MS = MODE (CHAN POI1 P) MECANIQUE ELASTIQUE POJS ; "
-        "AS = MATE MS 'YOUN' 2.E11 'NU' 0. 'SECT' 1.E-3 'ALPY' 1. ; "
-        "C = PROG 1.E-3 ; N = PROG 4.E5 ; MZ E = MOCU C N MS AS 1.E-9 ; "
-        "L = DROI 4 (0. 0.) (1. 0.) ; M = MODE L MECANIQUE ELASTIQUE SECTION TIMO ; "
-        "A = MATE M 'MODS' MS 'MATS' AS ; "
-        "U = RESO ((RIGI M A) ET (BLOQ (POIN 1 L) 'UX' 'UY' 'RZ')) (MOME 'MZ' 8.E4 (POIN 5 L)) ; "
-        "R = EXTR U 'RZ' (POIN 5 L) ; "
-    )
-    mz, e, r = found(script, "MZ", "E", "R")
-    stiffness = 2 * 2e11 * 1e-3 * 0.2**2
-    assert mz.values == pytest.approx([stiffness * 1e-3])
-    assert e.values == pytest.approx([4e5 / (2 * 2e11 * 1e-3)])
-    assert r == pytest.approx(8e4 / stiffness)
-
-
 PUSH = """
 L = DROI 20 (0. 0. 0.) (2. 0. 0.) ;
 M = MODE L MECANIQUE ELASTIQUE SECTION PLASTIQUE SECTION TIMO ;

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import finder, ran
 from together import together
 
 FIELD = """
@@ -27,8 +27,7 @@ E1 = EVOL 'MANU' 'T' (PROG 0. 1. 3.) 'YOUN' (PROG 2. 4. 5.) ; A = MATE M 'YOUN' 
 )
 def test_curves_in_cells_go_with_numbers(said, run, plain, tmp_path):
     script = FIELD + f"B = {said} ; C = EXTR B 'YOUN' 1 2 1 ; X = EXTR B 'NU' 1 1 1 ; "
-    result = ran(script + "Y = EXTR C 'ORDO' ; Z = EXTR C 'ABSC' ;", output_directory=tmp_path)
-    find = result.session.root.find
+    find = finder(script + "Y = EXTR C 'ORDO' ; Z = EXTR C 'ABSC' ;", tmp_path)
     np.testing.assert_allclose(find("Y").values, run(np.array([2.0, 4.0, 5.0])))
     np.testing.assert_allclose(find("Z").values, [0.0, 1.0, 3.0])
     assert find("X") == pytest.approx(plain)
@@ -49,7 +48,7 @@ def test_a_spring_stands_on_a_point_as_on_its_cell(mode, tmp_path):
 
 @together("cells, element", [("TRI3", "DKT"), ("TRI3", "COQ3"), ("QUA4", "COQ4")])
 def test_least_squares_on_shells_keep_means_and_what_is_linear(cells, element, tmp_path):
-    result = ran(
+    find = finder(
         f"""
         OPTI DIME 3 MODE TRID ELEM {cells} ; U = (2. 0. 1.) ; V = (0. 3. 0.) ; O = (0. 0. 0.) ;
         S = (DROI 6 O U) TRAN 6 V ; M = MODE S 'MECANIQUE' 'ELASTIQUE' '{element}' ;
@@ -61,8 +60,7 @@ def test_least_squares_on_shells_keep_means_and_what_is_linear(cells, element, t
         C = CHAN 'CHAM' (X * X) M ; B = PROI 'MINI' N C 4 ;
         I1 = INTG N B ; I2 = INTG M C ;
         """,
-        output_directory=tmp_path,
+        tmp_path,
     )
-    find = result.session.root.find
     assert find("D") < 1e-9
     assert find("I1") == pytest.approx(find("I2"), rel=2e-2)

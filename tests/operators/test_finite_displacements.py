@@ -34,8 +34,7 @@ def energy(u):
 
 def test_released_string_swings_with_the_period_of_its_energy():
     root = run(
-        STRING
-        + """
+        f"""{STRING}
     F = EXTR (T . 'REACTIONS' . 2) P2 'FY' ; N = MAXI (T . 'CONTRAINTES' . 2) ;
     T . 'DYNAMIQUE' = VRAI ; T . 'MASSE_CONSTANTE' = MASS 'UY' 3. P2 ;
     T . 'BLOCAGES_MECANIQUES' = C ;
@@ -107,16 +106,15 @@ YIELDING = (
 
 @pytest.mark.parametrize("word", ["TOTAL", "FIN_PAS", "MI_PAS"])
 def test_a_yielded_body_that_turns_by_a_right_angle_takes_its_stresses_along(tmp_path, word):
-    result = ran(
+    find = finder(
         YIELDING + f"T . 'LAGRANGIEN' = '{word}' ; "
         "PASAPAS T ; TS = T . 'CONTRAINTES' ; TV = T . 'VARIABLES_INTERNES' ; "
         "X1 = MAXI (EXCO 'SMXX' (TS . 1)) ; Y1 = MAXI (EXCO 'SMYY' (TS . 1)) ; "
         "X7 = MAXI (EXCO 'SMXX' (TS . 7)) ; Y7 = MAXI (EXCO 'SMYY' (TS . 7)) ; "
         "Z7 = MAXI (ABS (EXCO 'SMXY' (TS . 7))) ; Z1 = MAXI (EXCO 'SMZZ' (TS . 1)) ; "
         "P1 = MAXI (EXCO 'EPSE' (TV . 1)) ; P7 = MINI (EXCO 'EPSE' (TV . 7)) ;",
-        output_directory=tmp_path,
+        tmp_path,
     )
-    find = result.session.root.find
     x, y, z = find("X1"), find("Y1"), find("Z1")
     home, strain = np.array([x, y, z]), np.log(1.004)
     if word == "TOTAL":

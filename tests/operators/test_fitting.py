@@ -61,13 +61,3 @@ def test_gane_solves_the_normal_equations(found, damping):
     step = np.linalg.solve(J.T @ J + damping * np.eye(2), -J.T @ Y)
     assert [found(script, "A"), found(script, "B")] == pytest.approx(step)
     assert found(script, "S")
-
-
-def test_gane_takes_fields_and_numbers(found):
-    line = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0. 0.) (2. 0.) ; C = MANU 'CHPO' L 1 'SCAL' 1. ; "
-    script = line + (
-        "T = TABL 'VECTEUR' ; T . 0 = COOR 1 L ; T . 1 = C ; H = GANE T ; A = H . 1 ; "
-        "T = TABL 'VECTEUR' ; T . 0 = 6. ; T . 1 = 2. ; H = GANE T ; B = H . 1 ;"
-    )
-    assert found(script, "A") == pytest.approx(-1.0)
-    assert found(script, "B") == pytest.approx(-3.0)

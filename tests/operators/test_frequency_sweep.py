@@ -179,37 +179,3 @@ def test_impedances_on_one_point_keep_their_own_parameters(found, first, second)
     """Told apart by their unknowns, or by the constituents that a script names."""
     x, y = found(TWO.format(first=first, second=second), "X", "Y")
     assert (x, y) == pytest.approx((1.0 / 3.0, 1.0 / 7.0))
-
-
-IN_TIME = """
-OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; PA = 0. 0. ; PB = 0. 2. ; LIG = DROI 2 PA PB ;
-MB = MODE LIG MECANIQUE ELASTIQUE POUT ; AB = MATE MB YOUN 1.E9 NU 0.2 RHO 0. SECT 1. INRZ 1.E-2 ;
-MS = MODE (MANU POI1 PA) MECANIQUE ELASTIQUE IMPEDANCE ; AS = MATE MS RAID 1.E5 CPLE 4.E6 ;
-T = TABL ; T . 'MODELE' = MB ET MS ; T . 'CARACTERISTIQUES' = AB ET AS ;
-T . 'CHARGEMENT' = CHAR MECA (FORC FX 10. PB) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 1) UX PB ;
-"""
-
-
-def test_springs_of_a_foot_work_in_load_steps(found):
-    flexibility = 1.0 / 1e5 + 4.0 / 4e6 + 8.0 / 3.0 / 1e7
-    assert found(IN_TIME, "U") == pytest.approx(10.0 * flexibility, rel=1e-9)
-
-
-def test_a_mode_oscillates_in_load_steps(found):
-    """A zone MODAL in time: 2 Hz under a steady force moves as 1 - cos."""
-    q = found(
-        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; K1 = APPU 'UX' 400. P1 ;"
-        "V = VIBR 'SIMU' 1. 1 K1 (MASS 'UX' 4. P1) ; E = V . 'MODES' . 1 ;"
-        "Q1 = E . 'POINT_REPERE' ;"
-        "MO = MODE (MANU POI1 Q1) MECANIQUE ELASTIQUE MODAL ;"
-        "CA = MATE MO FREQ (E . 'FREQUENCE') MASS (E . 'MASSE_GENERALISEE')"
-        " DEFO (E . 'DEFORMEE_MODALE') ;"
-        "T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = CA ; T . 'DYNAMIQUE' = VRAI ;"
-        "T . 'CHARGEMENT' = CHAR MECA (PJBA (FORC FX 8. P1) MO CA)"
-        " (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;"
-        "T . 'TEMPS_CALCULES' = PROG 0. PAS 0.001 0.2 ; PASAPAS T ;"
-        "X = EXTR (RECO MO CA (T . 'DEPLACEMENTS' . 200)) UX P1 ;",
-        "X",
-    )
-    assert q == pytest.approx(8.0 / 400.0 * (1.0 - np.cos(10.0 * 0.2)), rel=1e-4)

@@ -241,9 +241,8 @@ def test_a_parquet_file_holds_the_lists_with_their_units(tmp_path):
     text = "OPTI 'UNIT' 'KN-M' ; " + BLOCK.format(step="")
     for name in ("corner.parquet", "corner"):
         text += more.format(name=name)
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    lists = result.session.root.find("T").get("RESULTATS_CSV")
+    find = finder(text, tmp_path)
+    lists = find("T").get("RESULTATS_CSV")
     table = pq.read_table(tmp_path / "corner.parquet")
     assert table.column_names == [str(i).rstrip() for i, _ in lists.items()]
     units = [field.metadata[b"unit"].decode() for field in table.schema]

@@ -189,17 +189,6 @@ def test_an_operator_that_fails_over_a_matrix_names_it(tmp_path):
     assert result.errors[0].span.text.startswith("(PJBA B (AMOR 'UX' X ")
 
 
-def test_arrays_that_no_memory_holds_are_told(tmp_path):
-    text = (
-        "OPTI DIME 2 ELEM SEG2 MODE PLAN ; P1 = 0. 0. ; T = TABL ; T . 'N_HARMONIQUE' = 10 ** 9 ;"
-        "T . 'RIGIDITE_CONSTANTE' = MANU 'RIGI' P1 (MOTS 'UX' 'UY') (PROG 2. 0. 0. 3.) ;"
-        "T . 'AMORTISSEMENT_CONSTANT' = MANU 'RIGI' P1 (MOTS 'UX' 'UY') (PROG 0.1 0. 0. 0.1) ;"
-        "T . 'MASSE_CONSTANTE' = (MASS 'UX' 1. P1) ET (MASS 'UY' 1. P1) ; HBM T ;"
-    )
-    result = run_text(text, tmp_path)
-    assert [e.code for e in result.errors] == ["memory"]
-
-
 def test_stresses_of_a_shell_without_thickness_have_no_principal_values(tmp_path):
     text = (
         "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (3. 0.) (3. 1.) ;"

@@ -27,12 +27,6 @@ def test_aide_finds_operators_by_a_text_of_their_help(tmp_path):
     assert len(ran("L1 = AIDE 'no such text' ;", tmp_path).session.root.find("L1")) == 0
 
 
-def test_souc_only_grows_until_it_is_lowered(tmp_path):
-    text = "A = SOUC ; SOUC 3 ; SOUC 1 ; B = SOUC ; SOUC 0 ; C1 = SOUC ;"
-    root = ran(text, tmp_path).session.root
-    assert (root.find("A"), root.find("B"), root.find("C1")) == (False, True, False)
-
-
 def test_factorie(tmp_path):
     root = ran("A = FACTORIE 0 ; B = FACTORIE 6 ;", tmp_path).session.root
     assert (root.find("A"), root.find("B")) == (1, 720)
@@ -57,17 +51,6 @@ def test_calls_of_operators_are_counted_from_zero_on(tmp_path):
     counts = [line.split() for line in result.output.splitlines()]
     assert counts == [["PROG", "1"], ["TEMP", "2"], ["LECT", "3"]]
     assert result.session.root.find("X") >= 0
-
-
-def test_empty_objects_of_pictures_and_clouds(tmp_path):
-    text = (
-        "D V N A = VIDE 'DEFORME' 'VECTEUR' 'NUAGE' 'ANNOTATI' ; "
-        "L = (VIDE D) ET (VIDE V) ET (VIDE N) ET (VIDE A) ; "
-        "M = VIDE (A ET (ANNO 'ETIQ' (POIN 0.) 'x')) ;"
-    )
-    root = ran("OPTI DIME 1 ; " + text, tmp_path).session.root
-    assert root.find("L") is True
-    assert root.find("M") is False
 
 
 def test_assi_runs_the_phrase_that_follows(tmp_path):
@@ -96,10 +79,3 @@ def test_assi_runs_a_phrase_for_all_objects_of_a_table(phrase, values, tmp_path)
     found = result.session.root.find("X")
     assert found.subtype == "ESCLAVE"
     assert {i: v for i, v in found.items() if i != "SOUSTYPE"} == values
-
-
-def test_assi_takes_the_objects_of_two_tables_at_the_same_index(tmp_path):
-    text = SLAVES + "U . 1 = PROG 1. 2. ; X = ASSI 'TOUS' ET T U ; A = X . 1 ; B = X . 3 ;"
-    root = ran(text, tmp_path).session.root
-    assert list(root.find("A").values) == [3.0, -4.0, 1.0, 2.0]
-    assert list(root.find("B").values) == [5.0, 7.0]

@@ -31,36 +31,6 @@ def test_coordinates_of_the_points_of_joints(found, statement):
     assert _at_points(found(JOINT + statement + " ;", "C")) == pytest.approx(GAUSS, abs=1e-14)
 
 
-def test_sides_that_differ_give_their_mean(found):
-    mean, low = found(
-        JOINT + "F = (MANU 'CHPO' L1 1 'SCAL' 2.) ET (MANU 'CHPO' L2 1 'SCAL' 5.) ; "
-        "C = CHAN 'CHAM' F M 'STRESSES' ; N = CHAN 'CHAM' F M ; X = MAXI C ; Y = MINI N ;",
-        "X", "Y",
-    )  # fmt: skip
-    assert mean == pytest.approx(3.5)
-    assert low == 2.0
-
-
-def test_field_of_joints_at_nodes_stands_on_both_sides(found):
-    points, low, gap = found(
-        JOINT + "E = EPSI M (MANU 'CHPO' L2 1 'UY' 0.25) ; C = CHAN 'CHPO' M E ; "
-        "N = NBNO (EXTR C 'MAIL') ; X = MINI (EXCO 'DRN' C) ; "
-        "G = MAXI 'ABS' ((CHAN 'CHPO' M (COOR 1 M)) - (COOR 1 J)) ;",
-        "N", "X", "G",
-    )  # fmt: skip
-    assert (points, low, gap) == (8, pytest.approx(0.25), 0.0)
-
-
-def test_coordinates_of_joints_of_two_points(found):
-    script = (
-        "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; PA = 0. 1. ; PB = 0. 3. ; B = MANU 'SEG2' PA PB ; "
-        "M = MODE B MECANIQUE ELASTIQUE JOI1 ; X = MAXI (CHAN 'STRESSES' (COOR 2 M) M) ; "
-        "Y = MAXI (CHAN 'CHAM' (COOR 2 B) M 'STRESSES') ; "
-        "Z = MAXI (COOR 2 (CHAN 'STRESSES' (COOR 2 M) M)) ;"
-    )
-    assert found(script, "X", "Y", "Z") == (2.0, 2.0, 2.0)
-
-
 def test_open_points_are_found(found):
     """The upper side turned about (0, 0) by 0.1 and pushed down by 0.15: open where x > 1.5."""
     points, x, gap, cells, direct = found(

@@ -75,17 +75,3 @@ def test_lists_and_words_that_would_fill_the_memory_are_refused(refused, monkeyp
     before += "U = MANU CHPO (0. 0.) 1 UX 1. ; "
     monkeypatch.setattr(progressions, "LONGEST", 5)
     assert "too long, the limit is 5" in refused(f"OPTI DIME 2 ; {before}Z = {phrase} ;")
-
-
-def test_values_of_fields_on_one_point_need_no_point(found, refused):
-    script = (
-        "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ; C = MANU 'CHPO' P 'T' 3. 'Q' 1. ; "
-        "L = SUIT C (2. * C) ; "
-    )
-    both, one = found(script + "A = EXTR L 'VALE' ; B = EXTR L 'VALE' 'Q' ;", "A", "B")
-    assert both.values.tolist() == [3.0, 6.0, 1.0, 2.0]
-    assert one.values.tolist() == [1.0, 2.0]
-    two = script + "D = MANU 'CHPO' Q 'T' 3. 'Q' 1. ; A = EXTR «(SUIT C D)» 'VALE' ;"
-    assert "stand on 2 points" in refused(two)
-    assert found(script + "A = EXTR L 'VALE' 'T' Q ;", "A").values.tolist() == [0.0, 0.0]
-    assert "no component" in refused(script + "A = EXTR L 'VALE' 'X' Q ;")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import finder
 from together import together
 
 PLANE = "OPTI DIME 2 MODE PLAN DEFO ELEM {cell} ; A = 0. 0. ; B = 3. 0. ; "
@@ -40,8 +40,7 @@ def test_lumping_keeps_the_mass(name):
             f"E{u} = MANU 'CHPO' (EXTR MO 'MAIL') 1 '{u}' 1. ; S{u} = XTMX E{u} ML ; "
             f"T{u} = XTMX E{u} (MASS MO MA) ; "
         )
-    result = ran(body + "ML = LUMP MO MA ; " + sums)
-    found = result.session.root.find
+    found = finder(body + "ML = LUMP MO MA ; " + sums)
     whole = 5.0 * (2.0 * 3.0 if "SECT" in body else 6.0)
     for u in axes:
         assert found(f"S{u}") == pytest.approx(whole, rel=1e-12)

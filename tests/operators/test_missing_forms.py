@@ -51,20 +51,6 @@ def test_curves_in_cells_through_fields(found, refused):
     assert "one component" in said
 
 
-def test_table_of_fields_is_reduced_to_a_model(found, refused):
-    start = (
-        "OPTI DIME 2 ELEM QUA4 ; S = (DROI 4 (0. 0.) (4. 0.)) TRAN 1 (0. 1.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE ; A = MATE M 'YOUN' 1. 'NU' 0.25 ; T = TABL 'ESCLAVE' ; "
-    )
-    total = found(
-        start + "T . 1 = REDU A (S ELEM (LECT 1 2)) ; T . 2 = REDU A (S ELEM (LECT 3 4)) ; "
-        "N = MODE (S ELEM (LECT 2 3)) MECANIQUE ELASTIQUE ; X = INTG N (REDU T N) 'NU' ;",
-        "X",
-    )
-    assert total == pytest.approx(0.5)
-    assert "no fields in cells" in refused(start + "X = REDU «T» M ;")
-
-
 # --- lists and loadings by lists ----------------------------------------------------------------
 
 
@@ -79,8 +65,3 @@ def test_whether_an_object_is_of_a_type_and_a_file_there(found, tmp_path):
         "D = EXIS 'there.csv' * 'FICHIER' ; E = EXIS 'gone.csv' * FICHIER ;"
     )
     assert found(script, *"ABCDE") == (True, False, True, True, False)
-
-
-def test_the_worst_error_passed_over_is_told(found):
-    script = "A = VALE 'ERMA' ; OPTI ERRE IGNORE ; ERRE 21 ; ERRE 5 ; B = VALE 'ERMA' ;"
-    assert found(script, "A", "B") == (0, 21)

@@ -33,20 +33,6 @@ def test_single_value_stands_where_it_is_put(found, refused):
     assert "4 cells" in refused(MODELS + "C = «MANU» 'CHAM' MO 'V' 9 1 7. ;")
 
 
-def test_a_model_on_an_empty_mesh_is_empty_and_its_integral_zero(found, refused):
-    """Where the mesh has cells, none of which is the model's, something is wrong: refused."""
-    field = "C = MANU 'CHML' MO 'V' 3. ; E = REDU MO (VIDE 'MAILLAGE') ; "
-    script = (
-        f"{MODELS}{field}I = INTG MO C ; J = INTG E C ; K = NBEL (EXTR (INTG E C 'ELEM') 'MAIL') ; "
-        "N = NBEL (EXTR (E ET (REDU MO L)) 'MAIL') ; O = NBEL (EXTR E 'MAIL') ; "
-    )
-    assert found(script, "I", "J", "K", "N", "O") == (21.0, 0.0, 0, 4, 0)
-    assert "no cell" in refused(MODELS + "E = REDU M1 K ;")
-    table = "T = TABL ; T . 'MODELE' = E ; T . 'CARACTERISTIQUES' = C ; "
-    times = "T . 'TEMPS_CALCULES' = PROG 1. ; PASAPAS T ;"
-    assert "no mechanical zone" in refused(MODELS + field + table + times)
-
-
 def test_an_elastic_body_has_none_of_the_internal_variables(found, refused):
     """REDU gives what is there of them, nothing, and ET counts on; other fields are refused."""
     script = (

@@ -11,8 +11,6 @@ from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.mesh.nodes import NodeTable
 
-POINT = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; C = MANU 'CHPO' (P ET Q) 'UX' 3. 'UY' 4. ; "
-
 
 def table(n):
     made = NodeTable()
@@ -65,31 +63,6 @@ def test_restriction_keeps_values_on_the_nodes_asked_for(a, nodes):
         np.testing.assert_array_equal(made.values_at(name, kept), a.values_at(name, kept))
 
 
-def test_union_adds_discrete_values_and_wants_diffuse_ones_to_agree(found, refused):
-    natures = POINT + (
-        "D = CHAN 'ATTRIBUT' C 'NATURE' 'DISCRET' ; E = CHAN 'ATTRIBUT' C 'NATURE' 'DIFFUS' ; "
-    )
-    a, b, c = found(
-        natures + "A = EXTR (D ET D) 'UX' P ; B = EXTR (E ET E) 'UX' P ; "
-        "F = E ET (E * 2.) 'NOER' ; C = EXTR F 'UX' P ;",
-        "A", "B", "C",
-    )  # fmt: skip
-    assert (a, b, c) == (6.0, 3.0, 3.0)
-    assert "3 in one field and 6 in the other" in refused(natures + "F = E «ET» (E * 2.) ;")
-    assert "natures" in refused(natures + "F = E «ET» D ;")
-
-
-def test_forces_are_zero_where_none_acts(found, refused):
-    start = POINT + "R = 5. 5. ; F = FORC (3. 4.) P ; "
-    values = found(
-        start + "X1 = EXTR F 'FX' R ; X2 = EXTR F 'FX' P ; "
-        "X3 = EXTR (EXTR C 'VALE' 'UX' R 'NOID') 1 ; X4 = EXTR (EXTR C 'VALE' 'UY' (P ET R)) 2 ;",
-        "X1", "X2", "X3", "X4",
-    )  # fmt: skip
-    assert values == (0.0, 3.0, 0.0, 0.0)
-    assert "RZ" in refused(start + "X = «EXTR» C 'RZ' R ;")
-
-
 @together("power, wanted", [("0.5", [0.0, 0.0, 2.0]), ("-1.", [-1.0, 0.0, 0.25])])
 def test_values_without_a_power_become_zero_and_are_told(power, wanted):
     text = "OPTI DIME 2 ELEM QUA4 ; L = DROI 2 (0. 0.) (2. 0.) ; "
@@ -101,10 +74,3 @@ def test_values_without_a_power_become_zero_and_are_told(power, wanted):
     assert find("Y") == pytest.approx(wanted[0])
     told = [w for w in result.session.warnings if w.code == "operators.fields.power-put-to-zero"]
     assert len(told) == (2 if power == "0.5" else 1)
-
-
-@pytest.mark.parametrize("phrase", ["A ET B 'NOER'", "A ET 'NOER' B", "ET 'NOER' A B"])
-def test_diffuse_fields_that_differ_are_joined_where_it_is_said(found, refused, phrase):
-    fields = "OPTI DIME 2 ; P = 0. 0. ; A = MANU 'CHPO' P 'T' 3. 'NATU' 'DIFFUS' ; B = A + 1. ; "
-    assert found(fields + f"X = EXTR ({phrase}) 'T' P ;", "X") == 3.0
-    assert "T" in refused(fields + "X = A «ET» B ;")

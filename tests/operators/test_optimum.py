@@ -36,26 +36,3 @@ def test_moving_asymptotes_begin_at_those_of_t0(found):
         script.replace("T . 'VXMIN' = TABL", "T . 'T0' = 2. / 3. ; T . 'VXMIN' = TABL"), "L1"
     ).values
     assert sizes == pytest.approx([6.016, 5.309, 4.494, 3.502, 2.153], abs=2e-3)
-
-
-LINE = (
-    "T = TABL ; T . 'VX0' = TABL ; T . 'VX0' . 1 = {x} ; T . 'VF' = TABL ; T . 'VF' . 0 = 1. ; "
-    "T . 'VF' . 1 = {slope} ; T . 'VXMIN' = TABL ; T . 'VXMIN' . 1 = -3. ; T . 'VXMAX' = TABL ; "
-    "T . 'VXMAX' . 1 = 5. ; "
-)
-
-
-@pytest.mark.parametrize("slope", [2.0, -2.0])
-def test_without_conditions_a_variable_of_any_sign_goes_down_to_its_bound(found, slope):
-    script = LINE.format(x=0.5, slope=slope) + "REPE B 9 ; T = EXCE T ; FIN B ; X = T . 'VX0' . 1 ;"
-    assert found(script, "X") == pytest.approx(-3.0 if slope > 0.0 else 5.0)
-
-
-def test_tangents_give_up_what_cannot_be_met(found):
-    script = LINE.format(x=1.0, slope=1.0) + (
-        "T . 'METHODE' = 'LIN' ; T . 'MC' = TABL ; T . 'MC' . 1 = TABL ; T . 'MC' . 1 . 0 = 0. ;"
-        "T . 'MC' . 1 . 1 = -1. ; T . 'VCMAX' = TABL ; T . 'VCMAX' . 1 = {bound} ; T = EXCE T ;"
-        "X = T . 'VX0' . 1 ;"
-    )
-    assert found(script.format(bound=2.0), "X") == pytest.approx(-1.0)  # 1 - x <= 2
-    assert found(script.format(bound=-6.0), "X") == pytest.approx(5.0)  # 7 is out of bounds

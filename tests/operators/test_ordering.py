@@ -9,20 +9,6 @@ from together import together
 LISTS = "L = PROG 3. -1. 2. ; E = LECT 30 10 20 ; C = PROG 5. 1. 2. 1. 5. 3. 2. 2. 9. ; "
 
 
-@together(
-    "phrase, values",
-    [
-        ("'DECR' L", [3, 2, -1]),
-        ("'ABSO' 'DECR' L", [3, 2, -1]),
-        ("L 'ABSO'", [-1, 2, 3]),
-        ("'UNIQ' 0.5 (L ET 2.2)", [-1, 2, 3]),
-        ("'CROI' E", [10, 20, 30]),
-    ],
-)
-def test_keywords_stand_before_the_lists_or_behind(phrase, values):
-    assert list(found(f"{LISTS} X = ORDO {phrase} ;", "X").values) == values
-
-
 @together("phrase", ["'COUT' C L E", "L E 'COUT' C", "'COUT' C 'HONG' L E", "L 'COUT' C 'COMP' E"])
 def test_the_least_cost_is_that_of_all_permutations(phrase):
     text = f"{LISTS} X A B = ORDO {phrase} ;"
@@ -58,12 +44,3 @@ def test_each_cell_of_an_ordered_surface_has_a_neighbour_before_it(kind, size):
     for cell in block.raw[1:].tolist():
         assert len(seen & {*cell}) >= 2
         seen |= {*cell}
-
-
-def test_parts_of_a_surface_follow_each_other():
-    text = (
-        "OPTI DIME 2 ELEM QUA4 ; A = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "
-        "B = A PLUS (9. 0.) ; M = (A ELEM 1) ET (B ELEM 1) ET (A ELEM 2) ET (B ELEM 2) ; "
-        "X = ORDO M ; Y = MAXI (COOR 1 ((X ELEM 1) ET (X ELEM 2))) ;"
-    )
-    assert found(text, "Y") == 2.0

@@ -40,16 +40,13 @@ def test_saved_times(tmp_path):
 
 
 def test_second_call_goes_on_and_reprise_goes_back(tmp_path):
-    text = (
-        BAR
-        + """
+    text = f"""{BAR}
     PASAPAS T ; T . 'TEMPS_CALCULES' = PROG 0.5 'PAS' 0.5 2. ;
     T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
     PASAPAS T ; N1 = DIME (T . 'TEMPS') ; U1 = EXTR (T . 'DEPLACEMENTS' . 6) 'UX' P2 ;
     T . 'REPRISE' = 0.5 ; PASAPAS T ; N2 = DIME (T . 'TEMPS') ;
     U2 = EXTR (T . 'DEPLACEMENTS' . 5) 'UX' P2 ;
     """
-    )
     find = finder(text, tmp_path)
     assert (find("N1"), find("N2")) == (7, 6)
     assert find("U1") == pytest.approx(4e-3)
@@ -57,12 +54,9 @@ def test_second_call_goes_on_and_reprise_goes_back(tmp_path):
 
 
 def test_restrained_expansion_presses(tmp_path):
-    text = (
-        BAR.replace("(BLOQ 'UX' G)", "(BLOQ 'UX' (G ET R))")
-        + """
+    text = f"""{BAR.replace("(BLOQ 'UX' G)", "(BLOQ 'UX' (G ET R))")}
     T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' S 1 'T' 10.) EV ; PASAPAS T ;
     """
-    )
     T = finder(text, tmp_path)("T")
     stress = T.get("CONTRAINTES").get(2).blocks[0].components["SMXX"]
     assert stress == pytest.approx(-1e6 * 1e-5 * 5.0, rel=1e-10)
@@ -124,14 +118,11 @@ def test_a_warm_elastic_joint_opens(rate, parts, before, moved):
 
 
 def test_initial_stress_is_balanced_by_the_first_load(tmp_path):
-    text = (
-        BAR
-        + """
+    text = f"""{BAR}
     T . 'CONTRAINTES' = TABL ; T . 'CONTRAINTES' . 0 = MANU 'CHML' MO 'SMXX' 250. 'SMYY' 0.
       'SMZZ' 0. 'SMXY' 0. 'TYPE' 'CONTRAINTES' 'STRESSES' ;
     PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 1) 'UX' P2 ;
     """
-    )
     find = finder(text, tmp_path)
     assert find("U") == pytest.approx(0.0, abs=1e-15)
     stress = find("T").get("CONTRAINTES").get(4).blocks[0].components["SMXX"]
@@ -152,16 +143,13 @@ def test_user_procedure_runs_after_each_time_and_may_stop(tmp_path):
 
 
 def test_dynamic_steps_follow_a_mode(tmp_path):
-    text = (
-        BAR
-        + """
+    text = f"""{BAR}
     OUBL T 'CHARGEMENT' ; T . 'DYNAMIQUE' = VRAI ;
     X = COOR 1 S ; T . 'DEPLACEMENTS' = TABL ; T . 'VITESSES' = TABL ;
     T . 'VITESSES' . 0 = NOMC 'UX' (SIN (45. * X)) ;
     T . 'TEMPS_CALCULES' = PROG 2.E-3 'PAS' 2.E-3 0.1 ; PASAPAS T ;
     U = EXTR (T . 'DEPLACEMENTS' . 31) 'UX' P2 ;
     """
-    )
     w = np.pi / 4 * np.sqrt(1e6 / 1000.0)  # first axial mode of a bar of 2 m
     assert finder(text, tmp_path)("U") == pytest.approx(np.sin(w * 0.062) / w, rel=1e-2)
 

@@ -35,16 +35,13 @@ def stress(table, number):
 
 @together("law", [ELASTIC, PLASTIC])
 def test_a_layer_built_on_a_loaded_one_comes_without_stress(law, tmp_path):
-    text = (
-        LAYERS
-        + """
+    text = f"""{LAYERS}
     TM . 0 = M1 ; TM . 1 = M1 ET M2 ;
     T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET (CHAR 'MODE' TT TM) ;
     PASAPAS T ; U1 = PROG ; U2 = PROG ;
     REPE B 5 ; U1 = U1 ET (EXTR (T . 'DEPLACEMENTS' . &B) 'UY' P1) ; FIN B ;
     REPE B 3 ; U2 = U2 ET (EXTR (T . 'DEPLACEMENTS' . (&B + 2)) 'UY' P2) ; FIN B ;
     """
-    )
     find = run(text, tmp_path, law)
     table = find("T")
     assert [v for _, v in table.get("TEMPS").items()] == [0.0, 1.0, 1.5, 2.0, 2.5, 3.0]
@@ -58,14 +55,11 @@ def test_a_layer_built_on_a_loaded_one_comes_without_stress(law, tmp_path):
 
 
 def test_a_layer_dug_away_takes_its_load_path_with_it(tmp_path):
-    text = (
-        LAYERS
-        + """
+    text = f"""{LAYERS}
     TM . 0 = M1 ET M2 ; TM . 1 = M1 ; BH = BLOQ 'UY' L2 ;
     T . 'BLOCAGES_MECANIQUES' = (T . 'BLOCAGES_MECANIQUES') ET BH ;
     T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MODE' TT TM) ; PASAPAS T ;
     """
-    )
     table = run(text, tmp_path)("T")
     assert stress(table, 2) == pytest.approx([-500.0, 500.0])
     assert stress(table, 3) == pytest.approx([-1000.0])
@@ -73,13 +67,10 @@ def test_a_layer_dug_away_takes_its_load_path_with_it(tmp_path):
 
 def test_cells_that_come_within_one_zone_have_no_stress(tmp_path):
     layers = LAYERS.replace("M1 = MODE S1", "MT = MODE S").replace("M1 ET M2", "MT")
-    text = (
-        layers.replace("M2 = MODE S2 'MECANIQUE' {law} ;", "")
-        + """
+    text = f"""{layers.replace("M2 = MODE S2 'MECANIQUE' {law} ;", "")}
     TM . 0 = REDU MT S1 ; TM . 1 = MT ;
     T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MODE' TT TM) ; PASAPAS T ;
     """
-    )
     table = run(text, tmp_path)("T")
     assert stress(table, 2) == pytest.approx([-1000.0])
     assert np.sort(table.get("CONTRAINTES").get(5).blocks[0].components["SMYY"].mean(axis=1)) == (
@@ -88,24 +79,19 @@ def test_cells_that_come_within_one_zone_have_no_stress(tmp_path):
 
 
 def test_supports_that_come_hold_what_has_moved(tmp_path):
-    text = (
-        LAYERS
-        + """
+    text = f"""{LAYERS}
     TM . 0 = BLOQ 'UX' P1 ; TM . 1 = BLOQ 'UY' L1 ; HELD = CHAR 'BLOM' (BLOQ 'UX' P1) ;
     T . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MECA' F2 E2) ET
       (CHAR 'DIMP' (DEPI (TM . 1) -1.E-3) (EVOL 'MANU' (PROG 0. 9.) (PROG 1. 1.))) ET
       (CHAR 'BLOM' TT TM) ET HELD ; PASAPAS T ;
     """
-    )
     table = run(text, tmp_path)("T")
     assert stress(table, 5) == pytest.approx([-1000.0, -1000.0], rel=1e-9)
 
 
 def test_stiffer_layers_keep_the_strains_with_which_they_were_built(tmp_path):
     """The upper one came unstrained on a lower one that had gone down."""
-    text = (
-        LAYERS.replace("NU' 0.", "NU' 0.2")
-        + """
+    text = f"""{LAYERS.replace("NU' 0.", "NU' 0.2")}
     TM . 0 = M1 ; TM . 1 = M1 ET M2 ; TN = TABL ; TN . 0 = MA ; TN . 1 = MA ;
     TN . 2 = MATE (M1 ET M2) 'YOUN' 3.E6 'NU' 0.3 ; TN . 3 = TN . 2 ; OUBL T 'CARACTERISTIQUES' ;
     TI = TABL ; TI . 0 = 0. ; TI . 1 = 2.4 ; TI . 2 = 2.45 ; TI . 3 = 9. ;
@@ -113,7 +99,6 @@ def test_stiffer_layers_keep_the_strains_with_which_they_were_built(tmp_path):
       ET (CHAR 'MATE' TI TN) ; PASAPAS T ; U = T . 'DEPLACEMENTS' . 5 ;
     U1 = EXTR U 'UY' P1 ; U2 = EXTR U 'UY' P2 ;
     """
-    )
     find = run(text, tmp_path)
     held = [(1.0 - nu**2) / young for young, nu in ((1e6, 0.2), (3e6, 0.3))]
     assert stress(find("T"), 5) == pytest.approx([-2000.0, -1000.0], rel=1e-9)

@@ -172,14 +172,11 @@ def three_bars(v):
 
 
 def test_three_plastic_bars_are_pulled_to_collapse_by_their_greatest_strain(tmp_path):
-    text = (
-        BARS
-        + """
+    text = f"""{BARS}
     T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 12. ; T . 'PILOTAGE_INDIRECT' = VRAI ;
     T . 'FORCES_PILOTEES' = F1 ;
     T . 'PARAMETRE_DE_PILOTAGE' = EVOL 'MANU' (PROG 0. 12.) (PROG 0. 3.E-3) ; PASAPAS T ;
     """
-    )
     find = ran(text, tmp_path).session.root.find
     v = -moved(find("T"), "UY", find("P0").node)
     np.testing.assert_allclose(v, 2.5e-4 * np.arange(13), atol=1e-14)
@@ -204,14 +201,11 @@ def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
 
 
 def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):
-    text = (
-        BARS
-        + """
+    text = f"""{BARS}
     T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 4. ; T . 'PILOTAGE_INDIRECT' = VRAI ;
     T . 'FORCES_PILOTEES' = F1 ; T . 'ZONE_DE_PILOTAGE' = L2 ;
     T . 'PARAMETRE_DE_PILOTAGE' = EVOL 'MANU' (PROG 0. 4.) (PROG 0. 1.E-3) ; PASAPAS T ;
     """
-    )
     find = ran(text, tmp_path).session.root.find
     v = -moved(find("T"), "UY", find("P0").node)
     np.testing.assert_allclose(v, 5e-4 * np.arange(5), atol=1e-13)  # its strain is v/2
@@ -238,14 +232,11 @@ def test_every_zone_with_strains_is_looked_at_whatever_stands_before_it(tmp_path
 
 
 def test_collapse_load_is_where_automatic_steps_end(tmp_path):
-    text = (
-        BARS
-        + """
+    text = f"""{BARS}
     T . 'CHARGEMENT' = CHAR 'MECA' F1 (EVOL 'MANU' (PROG 0. 1.E3) (PROG 0. 1.E3)) ;
     T . 'TEMPS_CALCULES' = PROG 0. 600. ; T . 'AUTOMATIQUE' = VRAI ; T . 'AUTOPAS' = 12 ;
     T . 'AUTOCRIT' = 4.E-4 ; PASAPAS T ;
     """
-    )
     find = ran(text, tmp_path).session.root.find
     table = find("T")
     v, factors = -moved(table, "UY", find("P0").node), np.array(values(table, "TEMPS"))
@@ -256,14 +247,11 @@ def test_collapse_load_is_where_automatic_steps_end(tmp_path):
 
 
 def test_piloindi_gives_the_factor_by_itself(tmp_path):
-    text = (
-        BARS
-        + """
+    text = f"""{BARS}
     U1 = MANU 'CHPO' P0 2 'UX' 0. 'UY' -1. ; U0 = 0. * U1 ;
     X1 = PILOINDI T U0 U0 U0 U1 0.25 ; X2 = PILOINDI T U1 U0 U0 (-1. * U1) 0.25 ;
     X3 = AUTOPILO U1 U0 MO (T . 'CARACTERISTIQUES') T ;
     """
-    )
     find = ran(text, tmp_path).session.root.find
     assert (find("X1"), find("X2"), find("X3")) == pytest.approx((0.25, -0.25, 1.0))
 

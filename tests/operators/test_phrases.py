@@ -1,9 +1,9 @@
 """What a phrase gives is the value beside it (`test_phrases.toml`), reckoned without the package.
 
-A group is said behind its `before` in one session, without it each phrase in one of its own. What
-stands before the last `;` of a phrase is said first, what stands behind it gives the value:
-numbers, words and lists as they are, a point by
-its coordinates, curves as [abscissas, ordinates], a mesh as [kind, cells of points] by its blocks,
+A group is said behind its `before` in one session, else each phrase in one of its own, behind its
+`start` if it has one. What stands before the last `;` of a phrase is said first, what stands behind
+it gives the value, or several names with & between: numbers, words and lists as they are, points by
+their coordinates, curves as [abscissas, ordinates], meshes as [kind, cells of points] by block,
 tables by what they hold, fields by functions of x, y and z for each component.
 """
 
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy import signal, special
-from script_runs import session_after
+from script_runs import assert_field, session_after
 from together import together
 from unchanged import operands_stay  # noqa: F401
 
@@ -40,7 +40,7 @@ def oscillator(frequency, damping, values, times, start=(0.0, 0.0)):
 KNOWN = {"np": np, "math": math, "pi": math.pi, "special": special, "approx": pytest.approx}
 KNOWN |= {"sig": signal, "osc": oscillator, "T8": np.arange(8) / 2}
 KNOWN |= {"G8": np.array([0, 2, -1, 3, 0.5, -4, 1, 2])}
-ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p != "before"]
+ROWS = [(g, p) for g, group in GROUPS.items() for p in group if p not in ("before", "start")]
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def sessions(tmp_path_factory):
 
     def of(group):
         if group not in made or "before" not in GROUPS[group]:
-            before = GROUPS[group].get("before", "")
+            before = GROUPS[group].get("before") or GROUPS[group].get("start", "")
             made[group] = session_after(before, tmp_path_factory.mktemp(group))
         return made[group]
 
@@ -81,6 +81,8 @@ def plain(value, dimension=2):
 def assert_plain(found, wanted):
     if type(wanted).__name__.startswith("Approx"):
         assert found == wanted
+    elif callable(wanted):
+        assert wanted(found), found
     elif isinstance(wanted, dict):
         assert set(found) == set(wanted)
         for key, item in wanted.items():
@@ -95,28 +97,18 @@ def assert_plain(found, wanted):
         assert found == wanted
 
 
-def assert_field(field, wanted):
-    """Every component is its function of the place, in all nodes or points."""
-    if isinstance(field, NodeField):
-        at = field.table.coordinates
-        parts = [(n, at[p.nodes], p.values) for n, p in field.components.items()]
-    else:
-        parts = [(n, b.cells.coordinates, v) for b in field.blocks for n, v in b.components.items()]
-    assert {n for n, *_ in parts} == set(wanted)
-    for name, place, values in parts:
-        if values.shape[1:] != place.shape[1:-1]:
-            place = place.mean(axis=1, keepdims=True)
-        exact = wanted[name](*np.moveaxis(place, -1, 0))
-        np.testing.assert_allclose(values, np.broadcast_to(exact, values.shape), 1e-9, 1e-12)
-
-
 @pytest.mark.usefixtures("operands_stay")
 @together("group, phrase", ROWS, by=lambda row: row[0])
 def test_a_phrase_gives_its_value(sessions, group, phrase):
     session = sessions(group)
     said, _, asked = phrase.rpartition(";")
-    execute(session, Source("phrase", f"{said + ' ; ' if said else ''}ZZ = {asked} ;"))
-    found = session.root.find("ZZ")
+    names = asked.split(" & ")
+    said += " ;" if said else ""
+    if len(names) == 1:
+        said, names = f"{said} ZZ = {asked} ;", ["ZZ"]
+    execute(session, Source("phrase", said))
+    found = [session.root.find(name.strip()) for name in names]
+    found = found if len(names) > 1 else found[0]
     wanted = eval(GROUPS[group][phrase], KNOWN)
     if isinstance(found, NodeField | CellField):
         assert_field(found, wanted)

@@ -37,14 +37,3 @@ def test_with_a_direction_forces_point_along_the_normal(found):
     K = 7.0 * AREA * np.outer(NORMAL, v)
     assert values[:3] == pytest.approx(K @ u, abs=1e-12)
     assert values[3:] == pytest.approx((K + K.T) / 2 @ u, abs=1e-12)
-
-
-def test_springs_of_a_ring_and_of_a_line(found):
-    ring, line = found(
-        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 3 (2. 0.) (2. 1.5) ; M = MODE L MECANIQUE COQ2 "
-        "; X = XTMX (MANU 'CHPO' L 1 'UR' 1.) (KP M 5.) ; OPTI MODE PLAN CONT ; "
-        "N = MODE L MECANIQUE COQ2 ; Y = XTMX (MANU 'CHPO' L 1 'UX' 1.) (KP N 5.) ;",
-        "X", "Y",
-    )  # fmt: skip
-    assert ring == pytest.approx(5.0 * 2 * np.pi * 2.0 * 1.5)
-    assert line == pytest.approx(5.0 * 1.5)

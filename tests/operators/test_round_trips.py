@@ -228,9 +228,7 @@ def test_lines_of_unequal_lengths_come_back_as_they_are(lengths, tmp_path):
 
 
 # objects of every type on cells of two kinds in two zones, on points in no order
-MADE = (
-    PLANE["mixed"].replace("OPTI DIME 2", "OPTI DIME 2 MODE PLAN CONT")
-    + """
+MADE = f"""{PLANE["mixed"].replace("OPTI DIME 2", "OPTI DIME 2 MODE PLAN CONT")}
 S1 = (MANU 'QUA4' P1 P5 P2 P7) ET (MANU 'QUA4' P4 P9 P2 P3) ;
 S2 = (MANU 'TRI3' P5 P3 P2) COUL ROUG ; LN = MANU 'SEG2' P7 P1 ;
 M1 = MODE S1 'MECANIQUE' 'CONS' 'A' ;
@@ -247,7 +245,6 @@ N = NUAG 'COMP' 'Z' 3. 1. 'COMP' 'A' 5. 6. ; LC = SUIT F (2. * F) ; LO = ENUM P9
 W = MASS 'UX' 4. P9 ; B = VIBR 'SIMU' 1. 1 (APPU 'UX' 400. P9) W ; X = DEFO U S1 2. 'VERT' ;
 DEBP PR V*ENTIER ; FINP (2 * V) ; T = TABL 'KIND' ; T . P9 = E ; T . 2 = TABL ; T . 2 . 'A' = S2 ;
 """
-)
 OBJECTS = ("S", "S2", "P9", "M", "A", "U", "F", "SG", "K", "R", "D", "E", "G", "N", "LC", "LO", "W",
            "B", "X", "T")  # fmt: skip
 

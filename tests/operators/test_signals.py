@@ -17,19 +17,6 @@ def test_transform_of_a_gaussian_is_a_gaussian():
     np.testing.assert_allclose(values, np.exp(-np.pi * f**2 - 10j * np.pi * f), atol=1e-12)
 
 
-def test_power_of_the_circular_frequency_differentiates(found):
-    """Transform times i omega, back: the derivative of a periodic signal."""
-    error = found(
-        "N = 64 ; T = PROG 0. PAS 0.1 NPAS 63 ; "
-        "S = EVOL 'MANU' 'T' T 'A' (SIN (T * (360. / 6.4 * 3.))) ; "
-        "D = TFRI ((TFR 6 S 'REIM') * (FILT 6 'TYPE' 'OMEG' 1 'SORT' 'REIM' 'DFRQ' (1. / 6.4))) ; "
-        "W = 2. * PI * 3. / 6.4 ; "
-        "X = MAXI ((EXTR D 'ORDO') - (W * (COS (T * (360. / 6.4 * 3.))))) 'ABS' ;",
-        "X",
-    )
-    assert error < 1e-12
-
-
 def test_inverse_needs_two_frequencies():
     code = "kernel.records.signal-needs-two-points"
     with pytest.raises(FieldError, check=lambda e: e.code == code):

@@ -17,8 +17,7 @@ def run(script, tmp_path):
 
 def test_a_solution_of_vibr_is_the_table_of_vibr(tmp_path):
     root = run(
-        MODES
-        + """
+        f"""{MODES}
         MA = MASS M A ; K = K ET (BLOQ 'UY' L) ; B = VIBR 'SIMU' 0.1 2 K MA ;
         T = TRADUIRE (SIGS M A (VIBR 'SIMU' 0.1 2 K MA 'SOLU')) ;
         F1 = T . 1 . 'FREQUENCE' ; F2 = B . 'MODES' . 1 . 'FREQUENCE' ;

@@ -116,17 +116,6 @@ def test_condensed_mass_where_a_relation_ties_two_parts(nomu):
     assert x == pytest.approx(6 * (9 / 11) ** 2, rel=1e-12)
 
 
-def test_mass_of_masters_that_a_kept_condition_holds_is_refused():
-    """PB and PC are masters through the relations; the second one fixes PD."""
-    two = CHAIN + (
-        "H = (BLOQ 'UX' PC) ET (RELA 'UX' PD - 'UX' PC) ; "
-        "SU = SUPE 'RIGI' (K1 ET K2 ET G ET T ET H) PD ; "
-    )
-    assert "hold the master unknown UX" in refused(two + "X = SUPE 'MASS' SU M ;")
-    loose = CHAIN + "W = RELA 'UX' PB - 'UX' PA ; SU = SUPE 'RIGI' (K1 ET K2 ET W) PD ; "
-    assert "move freely" in refused(loose + "X = SUPE 'MASS' SU M ;")
-
-
 def test_condensed_stiffness_of_a_series_of_springs():
     """Two springs in series, the middle condensed: k1 k2 / (k1 + k2)."""
     script = (
@@ -141,12 +130,6 @@ def test_condensed_stiffness_of_a_series_of_springs():
     x, y, kind = found(script, "X", "Y", "T")
     assert (x, y) == pytest.approx((1.2, -1.2), rel=1e-12)
     assert str(kind).strip() == "SUPERELE"
-
-
-def test_bad_masters_are_named():
-    assert "hold the master unknown UX" in refused("SU = SUPE 'RIGI' 'NOMU' R1 (COTE 4 S1) ;")
-    assert "none of the master unknowns" in refused("SU = SUPE 'RIGI' R1 (10. 10.) ;")
-    assert "FZ" in refused("SU = SUPE 'RIGI' R2 L ; F = SUPE 'CHAR' SU (FORC 'FZ' 1. P3) ;")
 
 
 def test_inner_mechanisms_are_refused():

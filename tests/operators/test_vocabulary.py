@@ -270,25 +270,6 @@ def test_mate_takes_numbers_in_their_range(given, tmp_path):
     ran(_BAR.format(given), output_directory=tmp_path)
 
 
-def test_mode_says_what_stands_on_the_cells(tmp_path):
-    text = "OPTI DIME 2 ELEM SEG2 ; L = DROI 4 (0 0) (1 0) ; M = MODE L MECANIQUE ELASTIQUE TIOM ;"
-    said = run_text(text, output_directory=tmp_path).message
-    assert "did you mean TIMO?" in said
-    assert "SEG2 cells take BARR POUT TIMO" in said
-
-
-def test_mate_says_what_parameters_mean(tmp_path):
-    said = run_text(_BAR.format("'YOUM' 1."), output_directory=tmp_path).message
-    assert "did you mean YOUN?" in said
-    assert "YOUN: Young's modulus (Pa)" in said
-
-
-def test_opti_says_what_values_mean(tmp_path):
-    said = run_text("OPTI DIME 2 MODE PALN ;", output_directory=tmp_path).message
-    assert "did you mean PLAN?" in said
-    assert "AXIS: Bodies of revolution" in said
-
-
 def test_info_searches_too(tmp_path):
     done = run_text("INFO 'uplift' ;", output_directory=tmp_path)
     assert "JOINT_SDM" in done.output

@@ -50,11 +50,6 @@ def test_wrong_format_is_explained(form):
         formatted(form, 1.0)
 
 
-def test_length_of_a_word_and_characters_outside(found, refused):
-    assert found("N = DIME 'abc' ;", "N") == 3
-    assert "3 characters" in refused("X = EXTR 'abc' «2» 5 ;")
-
-
 def test_message_prints_one_line_and_an_empty_one(printed):
     assert printed("MESS 'n = ' 3 (-2) ; MESS ; SAUT 2 'LIGN' ; MESS 'end' ;") == [
         "n = 3 -2", "", "", "", "end"

@@ -49,14 +49,11 @@ T = TABL ; T . 'SIGNAUX' = TABL ; T . 'PERIODES' = PROG 0.15 2. ;
 
 
 def test_multiples_of_one_record_get_the_factors_that_undo_them():
-    text = (
-        SUITE
-        + """
+    text = f"""{SUITE}
     T . 'CIBLE' = SPO A 'AMOR' 0.05 'FREQ' (PROG 0.5 PAS 0.001 7.) 'ACCE' ;
     T . 'SIGNAUX' . 1 = 4. * A ; T . 'SIGNAUX' . 2 = 0.5 * A ; S = @ACCORD T ;
     T . 'PLANCHER' = 1.5 ; U = @ACCORD T ; T . 'CIBLE' = 100. * (T . 'CIBLE') ; V = @ACCORD T ;
     """
-    )
     table, higher, _, warnings = found(text, "S", "U", "V")
     np.testing.assert_allclose(table.get("FACTEURS").values, [0.25, 2.0], rtol=1e-4)
     assert np.abs(table.get("RAPPORT").parts[0].ordinates - 1.0).max() < 2e-3
@@ -66,14 +63,11 @@ def test_multiples_of_one_record_get_the_factors_that_undo_them():
 
 
 def test_a_suite_matched_by_wavelets_has_the_target_and_its_mean_stays_above_the_floor():
-    text = (
-        SUITE
-        + """
+    text = f"""{SUITE}
     T . 'CIBLE' = EVOL 'MANU' 'FREQ' (PROG 0.3 2. 10.) 'ACCE' (PROG 1. 5. 5.) ;
     T . 'SIGNAUX' . 1 = A ; T . 'SIGNAUX' . 2 = C ; T . 'METHODE' = 'ONDELETTES' ;
     T . 'PLANCHER' = 0.95 ; T . 'TOLERANCE' = 0.12 ; S = @ACCORD T ;
     """
-    )
     table, warnings = found(text, "S")
     assert warnings == []
     f = np.geomspace(0.5, 1 / 0.15, 60)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import found
 
 from ssilang.cli.run import run_text
 
@@ -17,8 +17,7 @@ DISC = (
 
 
 def rows(script):
-    result = ran(script)
-    table = result.session.root.find("T")
+    table = found(script, "T")
     return [table.get(i) for i in (1, 2, 3, 4)]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from script_runs import found, refused
+from script_runs import found
 from together import together
 
 _HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0. 0. ; "
@@ -39,15 +39,6 @@ def test_inside_of_a_folded_contour_agrees_with_its_formula(x, y):
         "R",
     )
     assert bool(answer) == inside
-
-
-def test_mean_of_a_curve_cuts_its_ends():
-    """A hat of height 2 on [0, 2]: over [0.5, 1.5] its mean is 1.5."""
-    mean = found("E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2. 0.) ; X = MOYESPEC E 0.5 1.5 ;", "X")
-    assert mean == pytest.approx(1.5, rel=1e-12)
-    assert "must exceed" in refused(
-        "E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 2.) ; MOYESPEC E 1. 1. ;"
-    )
 
 
 def test_circle_and_sphere_are_as_far_from_all_corners():

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import failed, finder, ran
 from together import together
 
 G, VS, B = 2.0e7, 100.0, 2.0  # density 2000 kg/m3
@@ -145,11 +145,10 @@ def test_the_model_at_the_foot_holds_what_the_table_says():
         0.3, FORME="'DISQUE'", RAYON=B, FREQUENCE=3.0, AMORTISSEMENT=0.05, FORMULE="'CONES'",
         POINT="(0. 0. 0.)",
     )  # fmt: skip
-    result = ran(
+    find = finder(
         text + "X = R . 'MODELE' ; Y = R . 'CARACTERISTIQUES' ; U = MANU 'CHPO' (T . 'POINT') 1"
         " 'RX' 1. ; F = MAXI (EXCO 'MX' ((RIGI X Y) * U)) ; C = MAXI (EXCO 'MX' ((AMOR X Y) * U)) ;"
     )
-    find = result.session.root.find
     # a cone by hand (Wolf 1994, table 2-3A)
     vp = VS * np.sqrt(2 * 0.7 / 0.4)
     height = 9 * np.pi / 32 * 0.7 * (vp / VS) ** 2 * B

@@ -1,7 +1,7 @@
 """ISSLEQ: equivalent-linear soil against a column of layers solved by Fourier transform."""
 
 import numpy as np
-from script_runs import ran
+from script_runs import finder, ran
 from together import together
 
 from ssilang.cli.run import run_text
@@ -86,8 +86,7 @@ def equivalent_linear(n_layers):
 
 
 def test_column_agrees_with_the_transfer_of_layers():
-    result = ran(soil(5))
-    find = result.session.root.find
+    find = finder(soil(5))
     shares, dampings, strains = equivalent_linear(5)
     assert shares[-1] < 0.8, "the case is not linear"
     np.testing.assert_allclose(find("D").values, strains, rtol=0.02)
@@ -102,13 +101,12 @@ def test_constant_layers_keep_their_modulus():
         "J . 1 = I . 1 ; T . 'SOL' . 'ITERATION' = J ; I = J ;"
         "P . 'TYPE_CALCUL' = 'ISS_COMP_SIMP' ;"
     )
-    result = ran(
+    find = finder(
         soil(2, constant)
         + "A = MINI (U . 'CONSTANTE' . 'O_GGO') ; B = MAXI (U . 'CONSTANTE' . 'O_KSI') ;"
         "C = NBEL (U . 'TOTALE' . 'O_SOL') ; D = EXIS T 'RES_DYN_X' ;"
         "E = MINI (U . 'ITERATION' . 'O_GGO') ;"
     )
-    find = result.session.root.find
     assert (find("A"), find("B"), find("C"), find("D")) == (1.0, 0.05, 2, True)
     assert find("E") < 1
 

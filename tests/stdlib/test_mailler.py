@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import found, ran
 from together import together
 
 from ssilang.cli.run import run_text
@@ -14,8 +14,7 @@ BOX = "'SOL' 24. 8. 'SEMELLE' 4. 1. 'STRUCTURE' 2. 6. 'TAILLE' 0.5 2."
 
 def mailler(call: str, options: str = "OPTI DIME 2 ELEM QUA4 ;") -> Table:
     """The table of a call of MAILLER."""
-    result = ran(f"{options} {call if 'T1 =' in call else 'T1 = MAILLER ' + call + ' ;'}")
-    return result.session.root.find("T1")
+    return found(f"{options} {call if 'T1 =' in call else 'T1 = MAILLER ' + call + ' ;'}", "T1")
 
 
 def part(table: Table, name: str) -> Mesh:

@@ -1,11 +1,8 @@
 """@STAT FZERO QUADRATU against closed forms."""
 
-import math
-
 import numpy as np
 import pytest
 from script_runs import found
-from together import together
 
 
 def test_regression_line_is_that_of_least_squares():
@@ -18,15 +15,3 @@ def test_regression_line_is_that_of_least_squares():
     slope, level = np.polyfit(x, y, 1)
     expected = (x.mean(), x.std(), y.mean(), y.std(), slope, level, np.corrcoef(x, y)[0, 1])
     assert values == pytest.approx(expected, rel=1e-10)
-
-
-@together("law, moment", [("NORM", 945.0), ("UNIF", 3**5 / 11), ("EXPO", math.factorial(10))])
-def test_quadrature_is_exact_up_to_twice_its_points(law, moment):
-    """Tenth moment of the centred normal, uniform and exponential (from zero) laws, 6 points."""
-    mean = 1 if law == "EXPO" else 0
-    value = found(
-        f"T = QUADRATU '{law}' {mean}. 1. 6 ; S = 0. ; "
-        "REPE B 6 ; S = S + ((T . &B . 'POIDS') * ((T . &B . 'POINT') ** 10)) ; FIN B ;",
-        "S",
-    )
-    assert value == pytest.approx(moment, rel=1e-8)

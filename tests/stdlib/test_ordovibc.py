@@ -1,7 +1,7 @@
 """ORDOVIBC: complex modes in order, and followed from one basis to the next."""
 
 import numpy as np
-from script_runs import ran
+from script_runs import finder, ran
 
 SCRIPT = (
     "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; K1 = APPU 'UX' 4. P1 ; K2 = APPU 'UX' 9. P2 ; "
@@ -15,8 +15,7 @@ SCRIPT = (
 
 
 def test_modes_increase_then_keep_their_shape():
-    result = ran(SCRIPT)
-    find = result.session.root.find
+    find = finder(SCRIPT)
     w = np.sqrt(np.array([4.0, 9.0]) - 0.05**2) / (2 * np.pi)
     np.testing.assert_allclose(find("L1").values, [-w[1], -w[0], w[0], w[1]], rtol=1e-9)
     np.testing.assert_allclose(find("I1").values, 0.05 / (2 * np.pi), rtol=1e-9)
@@ -38,8 +37,7 @@ def test_modes_of_a_projected_problem_stand_on_the_body():
         "N1 = NBNO (T . 'MODES' . 'MAILLAGE') ; C = EXTR (A1 . 'DEFORMEE_MODALE_REELLE_P') 'COMP' ;"
         "RECOVIBC T B ; X2 = XTX (T . 'MODES' . 1 . 'DEFORMEE_MODALE_REELLE') ;"
     )
-    result = ran(script)
-    find = result.session.root.find
+    find = finder(script)
     assert find("E") <= 1e-12
     assert find("X") > 0.1
     assert find("X2") == find("X")  # again: nothing changes

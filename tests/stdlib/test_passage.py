@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import ran
 from together import together
 
 from ssilang.language.say.diagnostics import sentence
@@ -77,32 +77,3 @@ def test_a_wave_at_the_edge_before_the_record_begins_is_told(zeros, early):
 def test_what_is_doubtful_is_told(more, words):
     result = ran(BASE + more + "R = @PASSAGE T ;")
     assert [words in text for text in told(result)] == [True]
-
-
-@together(
-    "more, words",
-    [
-        ("T . 'INCOHERENCE' = 0.2 ;", "FREQUENCES for factors is missing, or ACCELERATION"),
-        ("T . 'FORME' = 'BANDE' ; T . 'FREQUENCES' = PROG 1. ;", "BANDE needs DEMI_LARGEUR"),
-        (
-            "T . 'FREQUENCES' = PROG 1. -2. ; T . 'INCOHERENCE' = 0.2 ;",
-            "'FREQUENCES' is -2, where FREQUENCES >= 0",
-        ),
-        (
-            "T . 'FREQUENCES' = PROG 1. ; T . 'VITESSE_APPARENTE' = 0. ;",
-            "where VITESSE_APPARENTE > 0",
-        ),
-        (
-            "T . 'POISSON' = 0.5 ; T . 'FREQUENCES' = PROG 1. ;",
-            "'POISSON' is 0.5, where -1 < POISSON < 0.5",
-        ),
-        (
-            "T . 'ACCELERATION' = EVOL 'MANU' (PROG 0. 1. 3.) (PROG 0. 1. 0.) ; "
-            "T . 'INCOHERENCE' = 0.2 ;",
-            "equal steps",
-        ),
-    ],
-)
-def test_refusals(more, words):
-    result = failed(BASE + more + "R = @PASSAGE T ;")
-    assert words in " ".join(result.message.split())

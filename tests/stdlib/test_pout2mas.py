@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, refused
-from together import together
+from script_runs import found
 
 BEAM = (
     "OPTI DIME 3 ELEM SEG2 ; L = DROI 4 (1. 0. 0.) (1. 2. 0.) ; "
@@ -123,20 +122,3 @@ def test_fibres_carry_their_stresses_to_the_sections():
     stress = -2e10 * (5e3 * 0.25) / ei * (0.1 - es / ea)
     assert w.values_at("SMXX", np.array([top]))[0] == pytest.approx(stress, rel=1e-6)
     assert np.isfinite(u.values_at("UZ", ids)).all()
-
-
-def test_fibres_and_points_become_bricks_and_lines():
-    script = "V = POUT2MAS M A 'MASSIF' ; X = MESU (ELEM V 'CUB8') ; N = NBEL (ELEM V 'SEG2') ; "
-    x, n = found(FIBRES + script, "X", "N")
-    assert x == pytest.approx(0.02 * 2.0)
-    assert n == 4
-
-
-@together("call, said", [
-        ("V = POUT2MAS M A 'AUTRE' ; ", "GAUSS or MASSIF"),
-        ("T . 'VONS' = TABL ; V = POUT2MAS M A 'MASSIF' T ; ", "goes with GAUSS"),
-        ("OPTI ELEM QUA4 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
-         "M = MODE S MECANIQUE ELASTIQUE COQ4 ; V = POUT2MAS M A ; ", "other elements than beams"),
-    ])  # fmt: skip
-def test_what_cannot_be_drawn_is_refused(call, said):
-    assert said in refused(BEAM.format("POUT", RECTANGLE) + call)

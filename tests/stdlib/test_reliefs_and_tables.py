@@ -87,53 +87,6 @@ def test_curves_become_a_field_in_time_and_place(words, width, height, slope):
     assert kept is True
 
 
-def test_curves_of_other_abscissas_are_interpolated():
-    script = _CURVES + (
-        "T . 2 = EVOL 'MANU' (PROG 0. 2.) (PROG 1. 7.) ; M C = @AFEVOZT T ; "
-        "D = MAXI (ABS (C - (2. * (COOR 1 M)) - (3. * (COOR 2 M)))) ;"
-    )
-    assert found(script, "D") == pytest.approx(0.0, abs=1e-12)
-    assert "no curve 4" in refused(_CURVES + "T . 'TEMPS' = PROG 0. 1. 2. 3. ; M C = @AFEVOZT T ;")
-
-
-def test_low_pass_gives_back_as_many_points_as_it_got():
-    script = (
-        "T = PROG 0. 'PAS' 0.01 'NPAS' 99 ; E = FILC (EVOL 'MANU' T ((0. * T) + 2.)) 45. 2. ; "
-        "N = DIME (EXTR E 'ABSC') ; X = EXTR (EXTR E 'ORDO') 50 ;"
-    )
-    count, value = found(script, "N", "X")
-    assert count == 100
-    assert value == pytest.approx(2.0, abs=0.05)
-    assert "does not fit" in refused("E = FILC (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) 1. 4. ;")
-
-
-def test_field_is_carried_by_the_elements_of_its_mesh():
-    """A bilinear field is exact on QUA4 at any point inside."""
-    script = (
-        "OPTI DIME 2 ELEM QUA4 ; S = ((0. 0.) DROI 2 (2. 0.)) TRAN 2 (0. 1.) ; OPTI ELEM SEG2 ; "
-        "L = (0.3 0.2) DROI 7 (1.5 0.8) ; F = NOMC 'T' ((COOR 1 S) * (COOR 2 S)) ; "
-        "G = INT_COMP S F L ; D = MAXI (ABS (G - (NOMC 'T' ((COOR 1 L) * (COOR 2 L))))) ; "
-        "N = EXTR (EXTR G 'COMP') 1 ;"
-    )
-    error, name = found(script, "D", "N")
-    assert error == pytest.approx(0.0, abs=1e-9)
-    assert str(name).strip() == "T"
-
-
-def test_steps_are_those_of_pasapas():
-    script = (
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 1 (1. 0.)) TRAN 1 (0. 1.) ; "
-        "MO = MODE S MECANIQUE ELASTIQUE ; T = TABL ; F = FORC (0. 1.) (COTE 3 S) ; "
-        "T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MATE MO YOUN 10. NU 0. ; "
-        "T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' (COTE 1 S) ; T . 'TEMPS_CALCULES' = PROG 0. 1. "
-        "2. ; "
-        "T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ; @SOLVMEC T ; "
-        "X = MAXI (EXCO 'UY' (T . 'DEPLACEMENTS' . 2)) ;"
-    )
-    assert found(script, "X") == pytest.approx(0.2, rel=1e-9)
-    assert "has no MODELE" in refused("T = TABL ; @SOLVMEC T ;")
-
-
 def test_solvmec_follows_large_displacements():
     """A bar pulled to 1.5 times its length, NU 0: S = E (1.5^2 - 1) / 2 and F = 1.5 S A."""
     text = (

@@ -9,7 +9,6 @@ from ssilang.cli.run import run_text
 
 STIFFNESS = np.array([[900.0, -400, 0], [-400, 700, -300], [0, -300, 330]])
 MASS = np.diag([1.0, 1.2, 0.8])
-DAMPING = np.array([0.03, 0.05, 0.08])
 FREQUENCIES = [0.1, 1.0, 2.0, 4.0, 6.0, 10.0, 40.0]
 SPECTRA = {0.02: [1, 4, 9, 8, 6, 3, 1.5], 0.1: [1, 2, 5, 4, 3, 2, 1.5]}
 DIRECTIONS = {"X": 1.0, "Y": 0.7}

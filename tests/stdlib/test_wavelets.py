@@ -96,13 +96,3 @@ def test_daubechies_wavelet_keeps_the_energy_and_comes_back(levels):
     if levels == 2:
         energy += 2.0 * np.sum(high.values**2)
     assert energy == pytest.approx(np.sum(values**2))
-
-
-def test_stepped_spectrum_has_the_power_of_its_bands():
-    """Bands 0-12.5, 12.5-25, 25-50 Hz: the area under the steps, but for slits of 1e-4 Hz."""
-    power, top = found(
-        "E = COURSPEC (PROG 1. 4. 2.) 0.01 ; P = INTG E ; T = MAXI (EXTR E 'ABSC') ;",
-        "P", "T",
-    )  # fmt: skip
-    assert top == pytest.approx(50.0)
-    assert power == pytest.approx(12.5 + 4 * 12.5 + 2 * 25.0, rel=2e-4)

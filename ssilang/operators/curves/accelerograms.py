@@ -100,11 +100,10 @@ def chsp(
     arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
     RECORD,
     *LIMITS,
-    COLOUR,
     family="signals",
 )
 def dspr(
-    call: Call, power: int, curve: Curve, lowest: float, highest: float, colour: str | None
+    call: Call, power: int, curve: Curve, lowest: float, highest: float, colour: str | None = COLOUR
 ) -> Curve:
     """Power density."""
     if not 1 <= power <= 26:

@@ -121,40 +121,30 @@ def pert(
     )
 
 
-@operator(
-    "PRNS",
-    arg("curve", "EVOLUTIO", en="power density per hertz", over="Hz"),
-    arg("modulation", "EVOLUTIO", en="a curve for each band"),
-    arg("bands", "LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
-    PERIODS,
-    opt(
-        "damping",
+@operator("PRNS", family="signals")
+def prns(
+    call: Call,
+    curve: Curve = Arg("EVOLUTIO", en="power density per hertz", over="Hz"),
+    modulation: Curve = Arg("EVOLUTIO", en="a curve for each band"),
+    bands: ListReel = Arg("LISTREEL", range=RISING, en="limits of the bands", unit="Hz"),
+    periods: ListReel | None = PERIODS,
+    damping: float = Opt(
         "FLOTTANT",
         range=NOT_NEGATIVE,
         usual=BELOW_CRITICAL,
         default=0.05,
         en="damping, 0.05 without it",
     ),
-    KIND,
-    ABSCISSA,
-    COLOUR,
-    key(
-        "n_processes",
-        "NBPR",
-        "ENTIER",
-        range=POSITIVE,
-        en="number of processes, of about 2 s without it",
+    kind: str = KIND,
+    abscissa: str = ABSCISSA,
+    colour: str | None = COLOUR,
+    n_processes: int | None = Key(
+        "NBPR", "ENTIER", range=POSITIVE, en="number of processes, of about 2 s without it"
     ),
-    key(
-        "n_instants",
-        "NBIN",
-        "ENTIER",
-        range=POSITIVE,
-        default=10,
-        en="instants of each, 10 without it",
+    n_instants: int = Key(
+        "NBIN", "ENTIER", range=POSITIVE, default=10, en="instants of each, 10 without it"
     ),
-    key(
-        "rest",
+    rest: float = Key(
         "TPLU",
         "FLOTTANT",
         range=NOT_NEGATIVE,
@@ -162,36 +152,17 @@ def pert(
         default=20.0,
         en="time behind the end, 20 without it",
     ),
-    key(
-        "precision",
+    precision: float = Key(
         "PREC",
         "FLOTTANT",
         range=POSITIVE,
         default=1e-3,
         en="precision of the levels, 1.E-3 without it",
     ),
-    flag("defaults", "NBDE", en="the defaults"),
-    flag("root_1", "NEG1", en="accepted, changes nothing"),
-    flag("root_2", "NEG2", en="accepted, changes nothing"),
-    flag("wavelets", "ONDE", en="not available"),
-    family="signals",
-)
-def prns(
-    call: Call,
-    curve: Curve,
-    modulation: Curve,
-    bands: ListReel,
-    periods: ListReel | None,
-    damping: float,
-    kind: str,
-    abscissa: str,
-    colour: str | None,
-    n_processes: int | None,
-    n_instants: int,
-    rest: float,
-    precision: float,
-    wavelets: bool,
-    **_: bool,
+    defaults: bool = Flag("NBDE", en="the defaults"),
+    root_1: bool = Flag("NEG1", en="accepted, changes nothing"),
+    root_2: bool = Flag("NEG2", en="accepted, changes nothing"),
+    wavelets: bool = Flag("ONDE", en="not available"),
 ) -> Curve:
     """Response spectrum of a modulated power spectrum."""
     if wavelets:

@@ -36,8 +36,6 @@ _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
     arg("signal", "EVOLUTIO", en="signal at constant step", over="s"),
     _FORM,
     *LIMITS,
-    COLOUR,
-    choice("second_colour", NAMES, en="colour of the second curve"),
     family="signals",
 )
 def tfr(
@@ -47,8 +45,8 @@ def tfr(
     form: str,
     lowest: float,
     highest: float,
-    colour: str | None,
-    second_colour: str | None,
+    colour: str | None = COLOUR,
+    second_colour: str | None = Choice(NAMES, en="colour of the second curve"),
 ) -> Curve:
     """Transform signals."""
     _check_power(call, power)
@@ -125,12 +123,12 @@ def tfri(call: Call, curve: Curve = Arg("EVOLUTIO", en="complex curve")) -> Curv
 _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
 
 
-@operator(
-    "FILT",
-    _POWER,
-    flag("type", "TYPE", en="its type follows"),
-    select(
-        "kind",
+@operator("FILT", family="signals", full_name="FILTRE")
+def filt(
+    call: Call,
+    power: int = _POWER,
+    type: bool = Flag("TYPE", en="its type follows"),
+    kind: Chosen | None = Cases(
         {
             "PHAU": [_CUT],
             "PBAS": [_CUT],
@@ -138,22 +136,11 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
         },
         en="high-pass, low-pass, or power of the circular frequency",
     ),
-    flag("shown", "SORT", en="the parts wanted follow"),
-    choice("form", ("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
-    key(
-        "spacing",
-        "DFRQ",
-        "FLOTTANT",
-        range=POSITIVE,
-        unit="Hz",
-        default=0.0,
-        en="step of frequency",
+    shown: bool = Flag("SORT", en="the parts wanted follow"),
+    form: str = Choice(("REIM", "MOPH"), default="MOPH", en=_REIM + ", the default"),
+    spacing: float = Key(
+        "DFRQ", "FLOTTANT", range=POSITIVE, unit="Hz", default=0.0, en="step of frequency"
     ),
-    family="signals",
-    full_name="FILTRE",
-)
-def filt(
-    call: Call, power: int, type: bool, kind: Chosen | None, shown: bool, form: str, spacing: float
 ) -> Curve:
     """Make a filter."""
     if kind is None or spacing <= 0 or not 1 <= power <= 26:

@@ -24,14 +24,14 @@ _TITLE = key("title", "TITRE", "MOT", en="title of the field")
 _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries the field")
 
 
-@MANU.form(
-    said("CHPO"),
-    _TITLE,
-    NATURE,
-    opt("count", "ENTIER", en="number of pairs", range=POSITIVE),
-    _ON_NODES,
-    each(
-        "pairs",
+@MANU.form(said("CHPO"))
+def node_field(
+    call: Call,
+    title: str | None = _TITLE,
+    nature: str | None = NATURE,
+    count: int | None = Opt("ENTIER", en="number of pairs", range=POSITIVE),
+    support: Point | Mesh = _ON_NODES,
+    pairs: list[tuple[str, Any]] = Each(
         arg("component", "MOT", en="name of a component", distinct=True),
         arg(
             "value", "FLOTTANT", "LISTREEL", en="its value, or one value a point", range=ANY_NUMBER
@@ -39,14 +39,6 @@ _ON_NODES = arg("support", "MAILLAGE", "POINT", en="mesh or point that carries t
         at_least=1,
         times="count",
     ),
-)
-def node_field(
-    call: Call,
-    title: str | None,
-    nature: str | None,
-    count: int | None,
-    support: Point | Mesh,
-    pairs: list[tuple[str, Any]],
 ) -> NodeField:
     """Field at nodes from pairs of a component and its value."""
     named = [(name.rstrip()[:8], value) for name, value in pairs]
@@ -111,17 +103,16 @@ _CURVES = (
 )
 
 
-@MANU.form(
-    *_CURVES,
-    each(
-        "pairs",
+@MANU.form(*_CURVES)
+def curves_in_cells(
+    call: Call,
+    curves: str,
+    name: str,
+    pairs: list[tuple[float, CellField]] = Each(
         arg("abscissa", "FLOTTANT", en="abscissa", range=ANY_NUMBER),
         arg("field", "MCHAML", en="values there"),
         at_least=1,
     ),
-)
-def curves_in_cells(
-    call: Call, curves: str, name: str, pairs: list[tuple[float, CellField]]
 ) -> CellField:
     """Curves from fields in cells."""
     return through(name.rstrip(), [x for x, _ in pairs], [f for _, f in pairs])
@@ -140,40 +131,31 @@ def curves_of_table(call: Call, curves: str, name: str, table: Table) -> CellFie
     return through(name.rstrip(), [x for x, _ in rows], [f for _, f in rows])
 
 
-@MANU.form(
-    said("CHML", "CHAM"),
-    arg("support", "MAILLAGE", "MMODEL", en="mesh or model that carries the field"),
-    key("title", "TYPE", "MOT", en="sub-type of the field"),
-    key("constituent", "CONS", "MOT", en="constituent"),
-    key("position", "POSI", "MOT", en="points: NOEUD ..."),
-    flag("deal", "REPA", en="the values of a list are dealt out, one a cell"),
-    choice("points", ("NOEUD", "GRAVITE", "STRESSES"), en="points that carry the values"),
-    choice("integration", ("RIGIDITE", "MASSE"), length=8, en="points that carry the values"),
-    each(
-        "pairs",
+@MANU.form(said("CHML", "CHAM"))
+def cell_field(
+    call: Call,
+    support: Mesh | Model = Arg("MAILLAGE", "MMODEL", en="mesh or model that carries the field"),
+    title: str | None = Key("TYPE", "MOT", en="sub-type of the field"),
+    constituent: str | None = Key("CONS", "MOT", en="constituent"),
+    position: str | None = Key("POSI", "MOT", en="points: NOEUD ..."),
+    deal: bool = Flag("REPA", en="the values of a list are dealt out, one a cell"),
+    points: str | None = Choice(
+        ("NOEUD", "GRAVITE", "STRESSES"), en="points that carry the values"
+    ),
+    integration: str | None = Choice(
+        ("RIGIDITE", "MASSE"), length=8, en="points that carry the values"
+    ),
+    pairs: list[tuple[str, Any]] = Each(
         arg("component", "MOT", en="name of a component", distinct=True),
         arg("value", en="its value or object"),
         at_least=1,
     ),
-    many(
-        "place",
+    place: tuple[float, ...] = Many(
         "FLOTTANT",
         en="of a field that is zero but at one point, whose cell was the value: number of the "
         "point, of the zone if not 1, then the value",
         range=ANY_NUMBER,
     ),
-)
-def cell_field(
-    call: Call,
-    support: Mesh | Model,
-    title: str | None,
-    constituent: str | None,
-    position: str | None,
-    deal: bool,
-    points: str | None,
-    integration: str | None,
-    pairs: list[tuple[str, Any]],
-    place: tuple[float, ...],
 ) -> CellField:
     """Field in cells from pairs of a component and its value, or zero but at one point."""
     at = points or integration or (position or "NOEUD").rstrip()

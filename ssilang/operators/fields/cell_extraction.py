@@ -64,18 +64,17 @@ _OF_FIELD: dict[str, Callable[[CellField, Chosen], ListMots | Mesh | int]] = {
 }
 
 
-@EXTR.form(
-    main("field", "MCHAML", en="field in cells"),
-    select(
-        "what",
+@EXTR.form(gives=by("what", {"MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"))
+def extr_cells(
+    call: Call,
+    field: CellField = Main("MCHAML", en="field in cells"),
+    what: Chosen = Cases(
         {word: _OF_MODEL if word in ("COMP", "CONS") else [] for word in ("MAIL", *_OF_FIELD)},
         optional=False,
         unless=_own_names,
         en="sub-type, mesh, names of components or constituents, number of zones",
     ),
-    gives=by("what", {"MAIL": "MAILLAGE", "NBZO": "ENTIER"}, "LISTMOTS"),
-)
-def extr_cells(call: Call, field: CellField, what: Chosen) -> ListMots | Mesh | int:
+) -> ListMots | Mesh | int:
     """A part of a field in cells."""
     return _mesh_of(call, field) if what.word == "MAIL" else _OF_FIELD[what.word](field, what)
 

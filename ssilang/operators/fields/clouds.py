@@ -72,10 +72,11 @@ _COMPONENT = arg("component", "MOT", en="column")
 _LIMIT = arg("limit", "FLOTTANT", en="limit", range=ANY_NUMBER)
 
 
-@EXTR.form(
-    main("cloud", "NUAGE", en="cloud"),
-    select(
-        "what",
+@EXTR.form(gives=by("what", {"COMP": "LISTMOTS"}, "NUAGE"))
+def extract_from_cloud(
+    call: Call,
+    cloud: Cloud = Main("NUAGE", en="cloud"),
+    what: Chosen = Cases(
         {
             "COMP": [],
             "MAXI": [_COMPONENT],
@@ -92,9 +93,7 @@ _LIMIT = arg("limit", "FLOTTANT", en="limit", range=ANY_NUMBER)
         unless=lambda cloud: getattr(cloud, "columns", ()),
         en="names of columns, or the rows to take",
     ),
-    gives=by("what", {"COMP": "LISTMOTS"}, "NUAGE"),
-)
-def extract_from_cloud(call: Call, cloud: Cloud, what: Chosen) -> ListMots | Cloud:
+) -> ListMots | Cloud:
     """Rows of a cloud, or the names of its columns."""
     word = what.word
     if word == "COMP":

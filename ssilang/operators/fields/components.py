@@ -173,10 +173,11 @@ def support_nodes(support: Point | Mesh) -> IntArray:
     return support.node_ids
 
 
-@EXTR.form(
-    main("field", "CHPOINT", en="field at nodes"),
-    select(
-        "what",
+@EXTR.form(gives=by("what", {"VALE": "LISTREEL", "MAIL": "MAILLAGE", "COMP": "LISTMOTS"}, "MOT"))
+def extract(
+    call: Call,
+    field: NodeField = Main("CHPOINT", en="field at nodes"),
+    what: Chosen = Cases(
         {
             "VALE": [
                 _LENIENT,
@@ -193,9 +194,7 @@ def support_nodes(support: Point | Mesh) -> IntArray:
         unless=lambda field: getattr(field, "components", ()),
         en="values as a list, mesh of points, names of components, title, type or nature",
     ),
-    gives=by("what", {"VALE": "LISTREEL", "MAIL": "MAILLAGE", "COMP": "LISTMOTS"}, "MOT"),
-)
-def extract(call: Call, field: NodeField, what: Chosen) -> ListReel | Mesh | ListMots | Mot:
+) -> ListReel | Mesh | ListMots | Mot:
     """A part of a field at nodes."""
     if what.word == "VALE":
         wanted = what["names"]

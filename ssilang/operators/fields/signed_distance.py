@@ -8,25 +8,23 @@ _ENDS = many("ends", "POINT", "MAILLAGE", en="ends of the line (2D) or front of 
 
 @operator(
     "PSIP",
-    arg("place", "MAILLAGE", "POINT", en="where"),
-    arg("mesh", "MAILLAGE", en="line or surface"),
-    opt(
-        "reach",
+    gives=by("ahead", {"DEUX": ("CHPOINT",) * 2, "TROI": ("CHPOINT",) * 3}, "CHPOINT"),
+    family="fields",
+)
+def psip(
+    call: Call,
+    place: Mesh | Point = Arg("MAILLAGE", "POINT", en="where"),
+    mesh: Mesh = Arg("MAILLAGE", en="line or surface"),
+    reach: float | None = Opt(
         "FLOTTANT",
         range=NOT_NEGATIVE,
         en="nodes farther away (largest coordinate) are left out",
         unit="m",
     ),
-    select(
-        "ahead",
+    ahead: Chosen | None = Cases(
         {"DEUX": [_ENDS], "TROI": [_ENDS]},
         en="distances ahead of the ends too, and the abscissa along a front",
     ),
-    gives=by("ahead", {"DEUX": ("CHPOINT",) * 2, "TROI": ("CHPOINT",) * 3}, "CHPOINT"),
-    family="fields",
-)
-def psip(
-    call: Call, place: Mesh | Point, mesh: Mesh, reach: float | None, ahead: Chosen | None
 ) -> NodeField | tuple[NodeField, ...]:
     """Signed distances."""
     ws = workspace(call.session)

@@ -246,14 +246,14 @@ for _kind in ("ENTIER", "FLOTTANT"):
 # ---- PSCA ---------------------------------------------------------------------------------------
 
 
-_NAMES = (
+PAIRED = (
     arg("left", "LISTMOTS", en="components of the first"),
     arg("right", "LISTMOTS", en="components of the second, paired with them"),
 )
 
 
 @PSCA.form(
-    main("first", "CHPOINT", en="first field"), arg("second", "CHPOINT", en="second field"), *_NAMES
+    main("first", "CHPOINT", en="first field"), arg("second", "CHPOINT", en="second field"), *PAIRED
 )
 def scalar_product(
     call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots
@@ -267,7 +267,7 @@ def scalar_product(
 @PSCA.form(
     main("first", "MCHAML", en="first field"),
     arg("second", "MCHAML", en="second field"),
-    *_NAMES,
+    *PAIRED,
 )
 def scalar_product_in_cells(
     call: Call, first: CellField, second: CellField, left: ListMots, right: ListMots
@@ -313,44 +313,17 @@ def quarter_turn_in_cells(call: Call, first: CellField, old: ListMots, new: List
     return cell_algebra.added(turned, cell_algebra.extracted(first, [x], [v]))
 
 
-@PVEC.form(
-    main("first", "CHPOINT", en="first field"),
-    arg("second", "CHPOINT", en="second field"),
-    *_THREE,
-    when=NOT_IN_PLANE,
-)
 def vector_product(
+    algebra: Any,
     call: Call,
-    first: NodeField,
-    second: NodeField,
+    first: Any,
+    second: Any,
     left: ListMots,
     right: ListMots,
     made: ListMots,
-) -> NodeField:
-    """Vector product at each node."""
-    return _crossed(node_algebra, first, second, _lists_of(call, left, right, made))
-
-
-@PVEC.form(
-    main("first", "MCHAML", en="first field"),
-    arg("second", "MCHAML", en="second field"),
-    *_THREE,
-    when=NOT_IN_PLANE,
-)
-def vector_product_in_cells(
-    call: Call,
-    first: CellField,
-    second: CellField,
-    left: ListMots,
-    right: ListMots,
-    made: ListMots,
-) -> CellField:
-    """Vector product at each point of the cells."""
-    return _crossed(cell_algebra, first, second, _lists_of(call, left, right, made))
-
-
-def _crossed(algebra: Any, first: Any, second: Any, names: list[list[str]]) -> Any:
-    a, b, c = names
+) -> Any:
+    """Vector product at each node, or at each point of the cells."""
+    a, b, c = _lists_of(call, left, right, made)
     terms = []
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -358,6 +331,16 @@ def _crossed(algebra: Any, first: Any, second: Any, names: list[list[str]]) -> A
         minus = algebra.multiplied_by_names(first, second, ([a[k]], [b[j]], [c[i]]))
         terms.append(algebra.added(plus, minus, -1.0))
     return reduce(algebra.added, terms)
+
+
+for _kind, _algebra in (("CHPOINT", node_algebra), ("MCHAML", cell_algebra)):
+    PVEC.form(
+        main("first", _kind, en="first field"),
+        arg("second", _kind, en="second field"),
+        *_THREE,
+        when=NOT_IN_PLANE,
+        gives=_kind,
+    )(partial(vector_product, _algebra))
 
 
 def _picked_nodes(field: NodeField, old: list[str], new: list[str]) -> NodeField:

@@ -5,7 +5,7 @@ from collections import defaultdict
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields import cell_algebra, node_algebra
-from ssilang.operators.fields.signs import paired_names
+from ssilang.operators.fields.signs import PAIRED, paired_names
 from ssilang.operators.prelude import *
 
 # ---- measures -----------------------------------------------------------------------------------
@@ -32,17 +32,11 @@ def resu_of_list(
     return values.values.sum()
 
 
-_PAIRED = (
-    arg("left", "LISTMOTS", en="components of the first"),
-    arg("right", "LISTMOTS", en="components of the second, paired with them"),
-)
-
-
 @operator(
     "XTY",
     arg("first", "CHPOINT", en="first field"),
     arg("second", "CHPOINT", en="second field"),
-    *_PAIRED,
+    *PAIRED,
     family="fields",
 )
 def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: ListMots) -> float:
@@ -53,7 +47,7 @@ def xty(call: Call, first: NodeField, second: NodeField, left: ListMots, right: 
 @xty.form(
     arg("first", "LISTCHPO", en="first fields"),
     arg("second", "LISTCHPO", en="as many second fields"),
-    *_PAIRED,
+    *PAIRED,
 )
 def xty_of_lists(
     call: Call, first: ListChpo, second: ListChpo, left: ListMots, right: ListMots

@@ -24,10 +24,10 @@ def target_path(call: Call, suffix: str = "", also: tuple[str, ...] = ()) -> Pat
 _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
 
 
-@SORT.form(
-    said("EXCE"),
-    many(
-        "objects",
+@SORT.form(said("EXCE"))
+def _exce(
+    call: Call,
+    objects: tuple[Any, ...] = Many(
         "LISTENTI",
         "LISTREEL",
         "LISTMOTS",
@@ -37,18 +37,11 @@ _SEPARATORS = {"PVIR": ";", "VIRG": ",", "ESPA": " ", "TABU": "\t", "OBLI": "/"}
         en="lists, or what holds them",
         range=CARRIED,
     ),
-    key("width", "NCOL", "ENTIER", range=POSITIVE, en="columns side by side"),
-    key("digits", "DIGI", "ENTIER", range=NOT_NEGATIVE, en="decimals"),
-    select(
-        "separator", {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
+    width: int | None = Key("NCOL", "ENTIER", range=POSITIVE, en="columns side by side"),
+    digits: int | None = Key("DIGI", "ENTIER", range=NOT_NEGATIVE, en="decimals"),
+    separator: Chosen | None = Cases(
+        {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
     ),
-)
-def _exce(
-    call: Call,
-    objects: tuple[Any, ...],
-    width: int | None,
-    digits: int | None,
-    separator: Chosen | None,
 ) -> None:
     options: dict[str, Any] = {}
     for name, n in (("width", width), ("digits", digits)):

@@ -89,10 +89,10 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
     return np.asarray(found, dtype=float)
 
 
-@operator(
-    "FONC",
-    select(
-        "function",
+@operator("FONC", family="lists", full_name="FONCTION")
+def fonc(
+    call: Call,
+    function: Chosen = Cases(
         {
             "BESSEL": [choice("name", ("J0", "J1", "Y0", "Y1"), optional=False)],
             "FRESNEL": [choice("name", ("CX", "SX"), optional=False)],
@@ -101,12 +101,6 @@ def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64
         optional=False,
         en="which function",
     ),
-    family="lists",
-    full_name="FONCTION",
-)
-def fonc(
-    call: Call,
-    function: Chosen,
     values: ListReel = Arg("LISTREEL", en="arguments", range=ANY_NUMBER),
 ) -> ListReel:
     """Special functions."""

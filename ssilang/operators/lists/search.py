@@ -152,18 +152,12 @@ _SORTED = main("value", *SORTABLE, en="list to sort by")
 _OTHERS = many("others", *SORTABLE, en="lists that follow it", range=CARRIED)
 
 
-@ORDO.form(
-    *_COST,
-    *_ORDER,
-    _SORTED,
-    _OTHERS,
-    gives=ANY,
-)
+@ORDO.form(*_COST, *_ORDER, gives=ANY)
 def _sort_by_cost(
     call: Call,
-    value: Sortable,
     cost: Chosen,
-    others: tuple[Sortable, ...],
+    value: Sortable = _SORTED,
+    others: tuple[Sortable, ...] = _OTHERS,
     **_: object,
 ) -> Any:
     lists = _together(call, value, others)
@@ -171,23 +165,16 @@ def _sort_by_cost(
     return (total, *(taken(v, order) for v in lists))
 
 
-@ORDO.form(
-    _SORTED,
-    *_ORDER,
-    _DISTINCT,
-    _OTHERS,
-    opt("table", "TABLE", en="refused: a table of lists stands before the list"),
-    gives=Like("value", ("others",)),
-)
+@ORDO.form(_SORTED, *_ORDER, gives=Like("value", ("others",)))
 def _sort_lists(
     call: Call,
     value: Sortable,
     order: str,
     absolute: bool,
     fold: bool,
-    distinct: float | None,
-    others: tuple[Sortable, ...],
-    table: Table | None,
+    distinct: float | None = _DISTINCT,
+    others: tuple[Sortable, ...] = _OTHERS,
+    table: Table | None = Opt("TABLE", en="refused: a table of lists stands before the list"),
 ) -> Any:
     if table is not None:
         raise call.error("operators.lists.table-before-list", table)

@@ -139,9 +139,12 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix")
 
 
 @EXTR.form(
-    _MATRIX,
-    select(
-        "what",
+    gives=by("what", {"MAIL": "MAILLAGE", "COMP": "LISTMOTS", "DIAG": "CHPOINT"}, "RIGIDITE")
+)
+def extract_from_matrix(
+    call: Call,
+    matrix: Matrix = _MATRIX,
+    what: Chosen = Cases(
         {
             "MAIL": [_PART],
             "RIGI": [_PART],
@@ -154,10 +157,6 @@ _MATRIX = main("matrix", "RIGIDITE", en="matrix")
         en="mesh, matrices or conditions, names of unknowns, diagonal, symmetric or "
         "antisymmetric part",
     ),
-    gives=by("what", {"MAIL": "MAILLAGE", "COMP": "LISTMOTS", "DIAG": "CHPOINT"}, "RIGIDITE"),
-)
-def extract_from_matrix(
-    call: Call, matrix: Matrix, what: Chosen
 ) -> Mesh | Matrix | ListMots | NodeField:
     """A part of a matrix."""
     if what.word == "RIGI" and what["part"] is None:

@@ -36,11 +36,11 @@ def impo(
     return touching.possible_links(master, slave)
 
 
-@impo.form(
-    said("IMPA"),
-    arg("links", "MAILLAGE", en="possible links, by IMPO 'IMPA' 'MAIT'"),
-    select(
-        "nose",
+@impo.form(said("IMPA"))
+def of_touching(
+    call: Call,
+    links: Mesh = Arg("MAILLAGE", en="possible links, by IMPO 'IMPA' 'MAIT'"),
+    nose: Chosen | None = Cases(
         {
             "HEMI": [_SIZE],
             "PLAT": [_SIZE],
@@ -48,10 +48,7 @@ def impo(
         },
         en="nose of the projectile: half a circle, flat, or a cone",
     ),
-    key("axis", "VECT", "POINT", en="axis of the projectile, out of its nose"),
-)
-def of_touching(
-    call: Call, links: Mesh, nose: Chosen | None, axis: Point | None
+    axis: Point | None = Key("VECT", "POINT", en="axis of the projectile, out of its nose"),
 ) -> Matrix | Annule:
     """Relations of the nodes that touch now."""
     kinds = {b.cell_type for b in links.blocks}

@@ -293,16 +293,10 @@ _SPRINGS = Range(-1e20, 1e20)  # below zero: the moment of a weight
 _STIFFNESS = arg("stiffness", "FLOTTANT", en="stiffness of each", range=ANY_NUMBER, usual=_SPRINGS)
 
 
-@operator(
-    "APPU",
-    *_held(_CENTRE),
-    _STIFFNESS,
-    _SUPPORT,
-    when=IN_PLANE,
-    family="relations",
-    full_name="APPUI",
-)
-def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Matrix:
+@operator("APPU", *_held(_CENTRE), when=IN_PLANE, family="relations", full_name="APPUI")
+def appu(
+    call: Call, stiffness: float = _STIFFNESS, support: Mesh | Point = _SUPPORT, **said: Any
+) -> Matrix:
     """Springs to the ground."""
     held, nodes = _Held(call, **said), nodes_of(support)
     if held.sense:
@@ -316,4 +310,4 @@ def appu(call: Call, stiffness: float, support: Mesh | Point, **said: Any) -> Ma
     return Matrix(held.ws.nodes, tuple(b for p in parts for b in p.blocks))
 
 
-appu.form(*_held(_CENTRE, _ON_AXIS), _STIFFNESS, _SUPPORT, when=IN_SPACE)(appu.forms[0].function)
+appu.form(*_held(_CENTRE, _ON_AXIS), when=IN_SPACE)(appu.forms[0].function)

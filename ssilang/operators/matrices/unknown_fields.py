@@ -8,21 +8,17 @@ from ssilang.operators.numbers.noise import session_generator
 from ssilang.operators.prelude import *
 
 
-@operator(
-    "CHPO",
-    select(
-        "values",
+@operator("CHPO", family="fields", full_name="CHPOINT")
+def chpo(
+    call: Call,
+    values: Chosen | None = Cases(
         {
             "ALEATOIRE": [],
             "UNIFORME": [arg("value", "FLOTTANT", en="value", range=ANY_NUMBER)],
         },
         en="random, or the same everywhere",
     ),
-    family="fields",
-    full_name="CHPOINT",
-)
-def chpo(
-    call: Call, values: Chosen | None, matrix: Matrix = Arg("RIGIDITE", en="matrix")
+    matrix: Matrix = Arg("RIGIDITE", en="matrix"),
 ) -> NodeField:
     """Field on the unknowns of a matrix."""
     if values is None:

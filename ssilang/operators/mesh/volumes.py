@@ -50,23 +50,7 @@ _CUTS = (
 )
 
 
-@operator(
-    "VOLU",
-    _BASE,
-    *_CUTS,
-    opt("goal", "MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
-    opt(
-        "thickness",
-        "FLOTTANT",
-        "CHPOINT",
-        range=POSITIVE,
-        en="thickness to give to a shell",
-        unit="m",
-    ),
-    opt("outwards", "POINT", en="vector from the inner to the outer skin of the shell"),
-    family="mesh",
-    full_name="VOLUME",
-)
+@operator("VOLU", _BASE, *_CUTS, family="mesh", full_name="VOLUME")
 def volu(
     call: Call,
     base: Mesh,
@@ -74,9 +58,13 @@ def volu(
     sizes: Sizes,
     places: ListReel | None,
     wordy: bool,
-    goal: Mesh | None,
-    thickness: float | NodeField | None,
-    outwards: Point | None,
+    goal: Mesh | None = Opt("MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
+    thickness: float | NodeField | None = Opt(
+        "FLOTTANT", "CHPOINT", range=POSITIVE, en="thickness to give to a shell", unit="m"
+    ),
+    outwards: Point | None = Opt(
+        "POINT", en="vector from the inner to the outer skin of the shell"
+    ),
 ) -> Mesh:
     """Fill a volume, span one between two surfaces, or thicken a shell."""
     if goal is not None:
@@ -93,12 +81,7 @@ def volu(
     return thickened(base, thickness, outwards.coordinates.copy())
 
 
-@volu.form(
-    said("TRANSLATION"),
-    _BASE,
-    *_CUTS,
-    arg("vector", "POINT", en="vector", unit="m", usual=NOT_ZERO),
-)
+@volu.form(said("TRANSLATION"), _BASE, *_CUTS)
 def translated(
     call: Call,
     base: Mesh,
@@ -106,7 +89,7 @@ def translated(
     sizes: Sizes,
     places: ListReel | None,
     wordy: bool,
-    vector: Point,
+    vector: Point = Arg("POINT", en="vector", unit="m", usual=NOT_ZERO),
 ) -> Mesh:
     """Sweep a volume along a vector."""
     path = sweep.translation(vector.coordinates.copy())

@@ -107,6 +107,13 @@ def _model_shapes(call: Call, model: Model, material: tuple[CellField, ...]) -> 
     return [Shape(p.field, Point(nodes, p.node), p.unknown, Table()) for p in points]
 
 
+@operator(
+    "PJBA",
+    main("thing", "CHPOINT", "CHARGEME", "RIGIDITE", en="what is projected"),
+    BASIS,
+    gives=Like("thing"),
+    family="modal",
+)
 def _pjba(call: Call, thing: NodeField | Load | Matrix, basis: Chosen) -> NodeField | Load | Matrix:
     shapes = basis_shapes(call, basis)
     if isinstance(thing, Load):
@@ -131,16 +138,7 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
 
 
-pjba = operator(
-    "PJBA",
-    main("thing", "CHPOINT", "CHARGEME", "RIGIDITE", en="what is projected"),
-    BASIS,
-    gives=Like("thing"),
-    family="modal",
-)(_pjba)
-
-
-@pjba.form()
+@_pjba.form()
 def project_list(
     call: Call,
     fields: ListChpo = Main("LISTCHPO", en="fields"),

@@ -24,7 +24,13 @@ _ROLES = {
 }  # fmt: skip
 
 
-def _dync(call: Call, given: tuple[Table, ...], harmonics: int, samples: int) -> Table:
+@operator("DYNC", family="modal")
+def _dync(
+    call: Call,
+    given: tuple[Table, ...] = TABLES,
+    harmonics: int = Arg("ENTIER", range=POSITIVE, en="number of harmonics"),
+    samples: int = Arg("ENTIER", range=POSITIVE, en="instants of a period"),
+) -> Table:
     from ssilang.kernel.continuation.response import forced_response, normal_mode
 
     tables = tables_by_role(call, given, _ROLES)
@@ -207,12 +213,3 @@ def _bifurcations(found: "Response") -> Table:
     for name, rows in vectors.items():
         entries[name] = Table.numbered(ListReel(np.array(row, dtype=float)) for row in rows)
     return Table.of(entries)
-
-
-operator(
-    "DYNC",
-    TABLES,
-    arg("harmonics", "ENTIER", range=POSITIVE, en="number of harmonics"),
-    arg("samples", "ENTIER", range=POSITIVE, en="instants of a period"),
-    family="modal",
-)(_dync)

@@ -41,13 +41,16 @@ class System:
 TABLES = many("given", "TABLE", en="basis, links, damping, loads ...")
 
 
+@operator("DYNE", family="modal")
 def _dyne(
     call: Call,
-    scheme: str,
-    given: tuple[Table, ...],
-    steps: int,
-    h: float,
-    every: int,
+    scheme: str = Choice(explicit.SCHEMES, optional=False, en="how time is stepped"),
+    given: tuple[Table, ...] = TABLES,
+    steps: int = Arg("ENTIER", range=POSITIVE, en="number of steps"),
+    h: float = Arg("FLOTTANT", range=POSITIVE, en="time step", unit="s"),
+    every: int = Opt(
+        "ENTIER", range=POSITIVE, default=1, en="one step of so many is kept, all without it"
+    ),
 ) -> Table:
     tables = tables_by_role(call, given, _ROLES)
     if "system" not in tables:
@@ -324,24 +327,7 @@ def _restart(run: explicit.ModalRun, system: System) -> Table:
     return Table.of(entries | times | {"LIAISONS": ListReel(links)}, "REPRISE")
 
 
-_FORM = operator(
-    "DYNE",
-    choice("scheme", explicit.SCHEMES, optional=False, en="how time is stepped"),
-    TABLES,
-    arg("steps", "ENTIER", range=POSITIVE, en="number of steps"),
-    arg("h", "FLOTTANT", range=POSITIVE, en="time step", unit="s"),
-    opt(
-        "every",
-        "ENTIER",
-        range=POSITIVE,
-        default=1,
-        en="one step of so many is kept, all without it",
-    ),
-    family="modal",
-)(_dyne)
-
-
-@_FORM.form()
+@_dyne.form()
 def _of_models(
     call: Call,
     scheme: str = Choice(explicit.SCHEMES, optional=False, en="how time is stepped"),

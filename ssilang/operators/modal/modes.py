@@ -24,15 +24,47 @@ def _wanted(call: Call, method: Chosen) -> list[tuple[float, int]]:
     return [(float(f), int(n)) for f, n in zip(frequencies, numbers, strict=True)]
 
 
+@operator(
+    "VIBR", family="modal", full_name="VIBRATION", gives=by("solution", {True: "SOLUTION"}, "TABLE")
+)
 def _vibr(
     call: Call,
-    solution: bool,
-    method: Chosen,
-    lowest: int,
-    highest: int,
-    matrices: tuple[Matrix, ...],
-    signed: bool,
-    **_: Any,
+    solution: bool = Flag("SOLU", en="an object SOLUTION in place of a table"),
+    method: Chosen = Cases(
+        {
+            "PROCHE": [
+                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz", range=ANY_NUMBER),
+                opt("counts", "LISTENTI", en="modes near each, 1", range=POSITIVE),
+            ],
+            "INTERVALLE": [
+                arg("low", "FLOTTANT", en="one end", unit="Hz", range=ANY_NUMBER),
+                arg("high", "FLOTTANT", en="the other", unit="Hz", range=ANY_NUMBER),
+            ],
+            "SIMULTANE": [_FREQUENCY, _COUNT],
+            "IRAM": [
+                _FREQUENCY,
+                _COUNT,
+                opt("decay", "FLOTTANT", default=0.0, en="imaginary part", range=ANY_NUMBER),
+            ],
+        },
+        optional=False,
+        en="near frequencies, in an interval, near one",
+    ),
+    lowest: int = Key("BASSE", "ENTIER", range=POSITIVE, default=0, en="so many from the low end"),
+    highest: int = Key(
+        "HAUTE", "ENTIER", range=POSITIVE, default=0, en="so many from the high end"
+    ),
+    shown: bool = Flag("IMPR", en="accepted, changes nothing"),
+    multiple: bool = Flag("MULT", en="accepted, changes nothing"),
+    table: bool = Flag("TBAS", en="a table: the default"),
+    largest: bool = Flag("LM", en="accepted, changes nothing"),
+    matrices: tuple[Matrix, ...] = Many(
+        "RIGIDITE", en="stiffness, mass, and damping", distinct=True
+    ),
+    first: object = Opt("LISTCHPO", en="shapes to begin with: accepted, change nothing"),
+    signed: bool = Opt(
+        "LOGIQUE", default=True, en="negative frequencies of unstable modes (default VRAI)"
+    ),
 ) -> "Table | Solution":
     made = _modes(call, method, lowest, highest, matrices, signed)
     if not solution:
@@ -189,47 +221,3 @@ def modal_table(
         mark = Point(ws.nodes, int(ws.nodes.add([[0.0, 0.0, 0.0]])[0]))  # type: ignore[arg-type]
         modes.set(number, Table.of({"NUMERO_MODE": number, "POINT_REPERE": mark, **entry}, subtype))
     return Table.of({"MODES": modes}, "BASE_MODALE")
-
-
-operator(
-    "VIBR",
-    flag("solution", "SOLU", en="an object SOLUTION in place of a table"),
-    select(
-        "method",
-        {
-            "PROCHE": [
-                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz", range=ANY_NUMBER),
-                opt("counts", "LISTENTI", en="modes near each, 1", range=POSITIVE),
-            ],
-            "INTERVALLE": [
-                arg("low", "FLOTTANT", en="one end", unit="Hz", range=ANY_NUMBER),
-                arg("high", "FLOTTANT", en="the other", unit="Hz", range=ANY_NUMBER),
-            ],
-            "SIMULTANE": [_FREQUENCY, _COUNT],
-            "IRAM": [
-                _FREQUENCY,
-                _COUNT,
-                opt("decay", "FLOTTANT", default=0.0, en="imaginary part", range=ANY_NUMBER),
-            ],
-        },
-        optional=False,
-        en="near frequencies, in an interval, near one",
-    ),
-    key("lowest", "BASSE", "ENTIER", range=POSITIVE, default=0, en="so many from the low end"),
-    key("highest", "HAUTE", "ENTIER", range=POSITIVE, default=0, en="so many from the high end"),
-    flag("shown", "IMPR", en="accepted, changes nothing"),
-    flag("multiple", "MULT", en="accepted, changes nothing"),
-    flag("table", "TBAS", en="a table: the default"),
-    flag("largest", "LM", en="accepted, changes nothing"),
-    many("matrices", "RIGIDITE", en="stiffness, mass, and damping", distinct=True),
-    opt("first", "LISTCHPO", en="shapes to begin with: accepted, change nothing"),
-    opt(
-        "signed",
-        "LOGIQUE",
-        default=True,
-        en="negative frequencies of unstable modes (default VRAI)",
-    ),
-    family="modal",
-    full_name="VIBRATION",
-    gives=by("solution", {True: "SOLUTION"}, "TABLE"),
-)(_vibr)

@@ -169,13 +169,16 @@ _QUANTITY = choice(
 _LOAD = opt("load", "CHARGEME", en="load of pseudo-modes")
 
 
+@operator("RECO", main("weights", "CHPOINT", en="contributions"), BASIS, family="modal")
 def _reco(
     call: Call,
     weights: NodeField,
     basis: Chosen,
-    quantity: str,
-    load: Load | None,
-    time: float | None,
+    quantity: str = _QUANTITY,
+    load: Load | None = _LOAD,
+    time: float | None = Opt(
+        "FLOTTANT", en="number of shapes to take; instant of the load", range=ANY_NUMBER
+    ),
 ) -> NodeField | CellField:
     shapes = basis_shapes(call, basis)
     if time is not None and load is None:  # a number of shapes to take
@@ -254,18 +257,7 @@ def _reactions(
     return combined([f for f, _ in entries], fields)
 
 
-reco = operator(
-    "RECO",
-    main("weights", "CHPOINT", en="contributions"),
-    BASIS,
-    _QUANTITY,
-    _LOAD,
-    opt("time", "FLOTTANT", en="number of shapes to take; instant of the load", range=ANY_NUMBER),
-    family="modal",
-)(_reco)
-
-
-@reco.form()
+@_reco.form()
 def reco_of_results(
     call: Call,
     results: Table = Main("TABLE", en="results of DYNE or PASAPAS"),
@@ -282,7 +274,7 @@ def reco_of_results(
     )
 
 
-@reco.form(
+@_reco.form(
     main("fields", "LISTCHPO", en="contributions"),
     BASIS,
     opt("count", "ENTIER", range=POSITIVE, en="number of shapes, all without it"),

@@ -13,12 +13,15 @@ from ssilang.operators.prelude import *
 _THING = arg("thing", "CHPOINT", "TABLE", en="field, or basis")
 
 
+@operator("NNOR", gives=Like("thing"), family="modal", full_name="NNOR")
 def _nnor(
     call: Call,
-    largest: bool,
-    thing: NodeField | Table,
-    side: str | None,
-    names: ListMots | None,
+    largest: bool = Flag("INFI", en="by the largest value, the default"),
+    thing: NodeField | Table = _THING,
+    side: str | None = Choice(
+        ("AVEC", "SANS"), en="of the components named (default), or of the others"
+    ),
+    names: ListMots | None = Opt("LISTMOTS", en="components", kind="component"),
 ) -> NodeField | Table:
     chosen = None if names is None else {str(w).rstrip() for w in names.values}
     return _of_unit_size(thing, lambda f: _largest(call, f, chosen, side == "SANS"))
@@ -87,19 +90,7 @@ def _unit_mode(entry: Table, shape: NodeField, by: float) -> Table:
     return made
 
 
-nnor = operator(
-    "NNOR",
-    flag("largest", "INFI", en="by the largest value, the default"),
-    _THING,
-    choice("side", ("AVEC", "SANS"), en="of the components named (default), or of the others"),
-    opt("names", "LISTMOTS", en="components", kind="component"),
-    gives=Like("thing"),
-    family="modal",
-    full_name="NNOR",
-)(_nnor)
-
-
-@nnor.form(said("EUCL"), gives=Like("thing"))
+@_nnor.form(said("EUCL"), gives=Like("thing"))
 def by_euclidean_norm(
     thing: NodeField | Table = _THING,
     metric: Matrix | None = Opt("RIGIDITE", en="matrix of the norm"),

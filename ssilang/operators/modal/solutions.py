@@ -143,20 +143,19 @@ _ENTRIES = {
 _ALONG = {"QX": 1, "QY": 2, "QZ": 3}
 
 
-@tire.form(
-    _MAIN,
-    arg("word", "MOT", en="FREQ, MGEN, QX, QY, QZ, POIN, DEPL or CONT"),
-    select(
-        "which",
+@tire.form(gives="FLOTTANT|ENTIER|POINT|CHPOINT|MCHAML")
+def of_a_mode(
+    call: Call,
+    solution: Solution = _MAIN,
+    word: str = Arg("MOT", en="FREQ, MGEN, QX, QY, QZ, POIN, DEPL or CONT"),
+    which: Chosen | None = Cases(
         {
             word: [arg("number", "ENTIER", range=POSITIVE, en="its place, or its number")]
             for word in ("RANG", "CAS", "NUME")
         },
         en="which mode, the last without it",
     ),
-    gives="FLOTTANT|ENTIER|POINT|CHPOINT|MCHAML",
-)
-def of_a_mode(call: Call, solution: Solution, word: str, which: Chosen | None) -> Any:
+) -> Any:
     """What one mode holds."""
     modes = solution.modes
     if which is not None and which.word == "NUME":

@@ -38,13 +38,13 @@ _ON_AXIS = arg("on_axis", "POINT", en="point of the axis")
 _SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, in space")
 
 
-@operator(
-    "RTEN",
-    arg("model", "MMODEL", en="model"),
-    arg("field", "MCHAML", en="stresses or strains"),
-    opt("material", "MCHAML", en="parameters with axes"),
-    select(
-        "frame",
+@operator("RTEN", family="stress", full_name="RTENS")
+def rten(
+    call: Call,
+    model: Model = Arg("MMODEL", en="model"),
+    field: CellField = Arg("MCHAML", en="stresses or strains"),
+    material: CellField | None = Opt("MCHAML", en="parameters with axes"),
+    frame: Chosen | None = Cases(
         {
             "POLA": [_CENTRE],
             "CYLI": [_CENTRE, _ON_AXIS],
@@ -64,26 +64,11 @@ _SECOND = opt("second", "POINT", en="vector of the plane of the first two axes, 
         },
         en="polar, cylindrical or spherical coordinates, or those of a torus",
     ),
-    choice(
-        "product",
-        ("RTAR", "RART"),
-        default="RTAR",
-        en="of matrices of rotation R: Rt A R (default) or R A Rt",
+    product: str = Choice(
+        ("RTAR", "RART"), default="RTAR", en="of matrices of rotation R: Rt A R (default) or R A Rt"
     ),
-    opt("first", "POINT", en="first axis"),
-    _SECOND,
-    family="stress",
-    full_name="RTENS",
-)
-def rten(
-    call: Call,
-    model: Model,
-    field: CellField,
-    material: CellField | None,
-    frame: Chosen | None,
-    product: str,
-    first: Point | None,
-    second: Point | None,
+    first: Point | None = Opt("POINT", en="first axis"),
+    second: Point | None = _SECOND,
 ) -> CellField:
     """Stresses or strains in another frame."""
     turning = material is not None and any("UX,X" in b.components for b in material.blocks)

@@ -77,10 +77,6 @@ MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
         en="nodes of the second side (default), of both, or means over its cells or nodes",
     ),
     *_SETTINGS,
-    _WORDS,
-    arg("master", "MAILLAGE", "POINT", en="first side, or the cable"),
-    opt("cables", "MMODEL", en="model of the cable"),
-    opt("slave", "MAILLAGE", en="second side, or the body; none behind a mesh of IMPO 'MAIL'"),
 )
 def contact(
     call: Call,
@@ -88,10 +84,12 @@ def contact(
     friction: Chosen | None,
     smooth: bool,
     method: str,
-    said: tuple[str, ...],
-    master: Mesh | Point,
-    cables: Model | None,
-    slave: Mesh | None,
+    said: tuple[str, ...] = _WORDS,
+    master: Mesh | Point = Arg("MAILLAGE", "POINT", en="first side, or the cable"),
+    cables: Model | None = Opt("MMODEL", en="model of the cable"),
+    slave: Mesh | None = Opt(
+        "MAILLAGE", en="second side, or the body; none behind a mesh of IMPO 'MAIL'"
+    ),
     **settings: Any,
 ) -> Model:
     """A model of two sides, or of a cable in a body."""
@@ -134,22 +132,14 @@ def link(
     return Model(tuple(Zone(b, "LIAISON", words, shape_models.LINK, mode) for b in mesh.blocks))
 
 
-@MODE.form(
-    *_SETTINGS,
-    _WORDS,
-    arg("mesh", "MAILLAGE", "POINT", en="mesh"),
-    many(
-        "unknowns",
-        "LISTMOTS",
-        kind="component",
-        en="unknowns of IMPEDANCE: one list, or one for each end",
-    ),
-)
+@MODE.form(*_SETTINGS)
 def mode(
     call: Call,
-    said: tuple[str, ...],
-    mesh: Mesh | Point,
-    unknowns: tuple[ListMots, ...],
+    said: tuple[str, ...] = _WORDS,
+    mesh: Mesh | Point = Arg("MAILLAGE", "POINT", en="mesh"),
+    unknowns: tuple[ListMots, ...] = Many(
+        "LISTMOTS", kind="component", en="unknowns of IMPEDANCE: one list, or one for each end"
+    ),
     **settings: Any,
 ) -> Model:
     """A model: a zone for each block of the mesh."""

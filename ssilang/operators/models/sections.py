@@ -33,32 +33,22 @@ def mocu(
     material: CellField,
     tolerance: float,
 ) -> tuple[object, ...]:
-    """Bend a section in space."""
-    _check(call, lists, model, True)
+    """Bend a section."""
+    space = workspace(call.session).mode.dimension == 3
+    _check(call, lists, model, space)
     curvatures = np.stack([v.values for v in lists[:-1]], axis=1)
+    if not space:
+        curvatures = np.column_stack([np.zeros(len(curvatures)), curvatures])
     found = _bent(model, material, curvatures, lists[-1], tolerance)
-    moments = [ListReel.of(found.moments[:, i].copy()) for i in (0, 1)]
+    moments = [ListReel.of(found.moments[:, i].copy()) for i in ((0, 1) if space else (1,))]
     return _results(found, moments, checked)
 
 
-@mocu.form(
+mocu.form(
     *_ENTRIES,
     when=_IN_PLANE,
     gives=by("checked", {True: ("LISTREEL",) * 2 + ("TABLE",)}, ("LISTREEL",) * 2),
-)
-def mocu_in_plane(
-    call: Call,
-    checked: bool,
-    lists: tuple[ListReel, ...],
-    model: Model,
-    material: CellField,
-    tolerance: float,
-) -> tuple[object, ...]:
-    """Bend a section in the plane."""
-    _check(call, lists, model, False)
-    curvatures = np.column_stack([np.zeros(len(lists[0].values)), lists[0].values])
-    found = _bent(model, material, curvatures, lists[-1], tolerance)
-    return _results(found, [ListReel.of(found.moments[:, 1].copy())], checked)
+)(mocu.forms[0].function)
 
 
 def _check(call: Call, lists: tuple[ListReel, ...], model: Model, space: bool) -> None:

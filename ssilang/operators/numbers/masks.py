@@ -136,10 +136,11 @@ def _clipped_curves(call: Call, value: Curve, bounds: list[tuple[int | None, Cho
     return _clipped_curve(call, value, [(who, *_ends(bound)) for who, bound in bounds])
 
 
-@BORN.form(
-    main("value", "CHPOINT", "MCHAML", en="field"),
-    each(
-        "bounds",
+@BORN.form(gives=Like("value"))
+def _clipped_fields(
+    call: Call,
+    value: NodeField | CellField = Main("CHPOINT", "MCHAML", en="field"),
+    bounds: list[Chosen] = Each(
         either(
             "one",
             group("only", _BOUND),
@@ -151,9 +152,7 @@ def _clipped_curves(call: Call, value: Curve, bounds: list[tuple[int | None, Cho
         ),
         at_least=1,
     ),
-    gives=Like("value"),
-)
-def _clipped_fields(call: Call, value: NodeField | CellField, bounds: list[Chosen]) -> Any:
+) -> Any:
     wanted = []
     for one in bounds:
         name = one.values.get("component")

@@ -246,28 +246,23 @@ def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     return _tangent_matrix(read.model, tangents, read.material, symmetric)
 
 
-@ktan.form(
-    said("PERT"),
-    *_TWO_STATES,
-    key(
-        "share",
+@ktan.form(said("PERT"), *_TWO_STATES)
+def perturbed(
+    call: Call,
+    model: Model,
+    start: CellField,
+    end: CellField,
+    share: float = Key(
         "C1",
         "FLOTTANT",
         range=POSITIVE,
         default=1e-3,
         en="share of the step by which its strain is perturbed, 1.E-3 without it",
     ),
-    key("least", "C2", "FLOTTANT", range=POSITIVE, en="least perturbation, C1 / 100 without it"),
-    _SYMMETRIC,
-)
-def perturbed(
-    call: Call,
-    model: Model,
-    start: CellField,
-    end: CellField,
-    share: float,
-    least: float | None,
-    symmetric: bool,
+    least: float | None = Key(
+        "C2", "FLOTTANT", range=POSITIVE, en="least perturbation, C1 / 100 without it"
+    ),
+    symmetric: bool = _SYMMETRIC,
 ) -> Matrix:
     """Stiffness of a step, by perturbing its strain."""
     model, step = present(call, model), _Step(start, end)

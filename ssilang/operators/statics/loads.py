@@ -105,12 +105,12 @@ _OF_SHELLS = many("fields", "MCHAML", en="parameters of shells: DIM3 counts in p
 _FACES = opt("faces", "MAILLAGE", en="sides")
 
 
-@operator(
-    "PRES",
-    MODEL,
-    choice("kind", ("MASS", "POUT"), en="on sides of continuous elements, the default"),
-    either(
-        "load",
+@operator("PRES", family="load", full_name="PRESSION")
+def pres(
+    call: Call,
+    model: Model = MODEL,
+    kind: str | None = Choice(("MASS", "POUT"), en="on sides of continuous elements, the default"),
+    load: Chosen = OneOf(
         group("plain", _PRESSURE, _FACES),
         group(
             "named",
@@ -119,10 +119,7 @@ _FACES = opt("faces", "MAILLAGE", en="sides")
             _FACES,
         ),
     ),
-    family="load",
-    full_name="PRESSION",
-)
-def pres(call: Call, model: Model, kind: str | None, load: Chosen) -> NodeField | CellField:
+) -> NodeField | CellField:
     """Pressure on sides of continuous elements, or the field of a model of loads."""
     value, faces = load["value"], load["faces"]
     if all(z.formulation == "CHARGEMENT" for z in model.zones) and kind is None:

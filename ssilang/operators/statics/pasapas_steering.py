@@ -54,7 +54,7 @@ def working_table(table: Table) -> Table:
 def tell_parts(inner: Table) -> None:
     """What WTABLE holds beside the entries: the model by formulations, the nodes' places."""
     model, material = inner.get("MODELE"), inner.get("CARACTERISTIQUES")
-    if not isinstance(model, Model):
+    if not isinstance(model, Model) or not model.zones:
         return
     for formulation, (part, values) in PARTS.items():
         zones = tuple(z for z in model.zones if z.formulation == formulation)

@@ -57,6 +57,16 @@ def _options(call: Call, words: Mapping[str, Any]) -> SolveOptions:
     )
 
 
+@operator(
+    "RESO",
+    _MATRIX,
+    _PRECISION,
+    _LOADS,
+    *_WORDS,
+    family="solve",
+    full_name="RESO",
+    gives=Like("loads"),
+)
 def _reso(
     call: Call, matrix: Matrix, precision: float | None, loads: tuple[NodeField, ...], **words: Any
 ) -> tuple[NodeField, ...]:
@@ -139,19 +149,7 @@ def _warn_condition(call: Call, matrix: Matrix, options: SolveOptions) -> None:
     )  # fmt: skip
 
 
-RESO = operator(
-    "RESO",
-    _MATRIX,
-    _PRECISION,
-    _LOADS,
-    *_WORDS,
-    family="solve",
-    full_name="RESO",
-    gives=Like("loads"),
-)(_reso)
-
-
-@RESO.form(said("ENSE"), _MATRIX, _PRECISION, _LOADS, *_WORDS, gives=ANY)
+@_reso.form(said("ENSE"), _MATRIX, _PRECISION, _LOADS, *_WORDS, gives=ANY)
 def with_motions(
     call: Call, matrix: Matrix, precision: float | None, loads: tuple[NodeField, ...], **words: Any
 ) -> tuple[Any, ...]:
@@ -171,14 +169,14 @@ def with_motions(
     return (*fields, len(motions), nodes)
 
 
-@RESO.form(_MATRIX, arg("loads", "LISTCHPO", en="second members"), *_WORDS)
+@_reso.form(_MATRIX, arg("loads", "LISTCHPO", en="second members"), *_WORDS)
 def solved_list(call: Call, matrix: Matrix, loads: ListChpo, **words: Any) -> ListChpo:
     """One solution for each second member of a list."""
     fields: list[Any] = loads.values
     return ListChpo(tuple(solve(matrix, fields, _options(call, words))))
 
 
-@RESO.form(_MATRIX, arg("table", "TABLE", en="table LIAISONS_STATIQUES"), *_WORDS)
+@_reso.form(_MATRIX, arg("table", "TABLE", en="table LIAISONS_STATIQUES"), *_WORDS)
 def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Table:
     """Static shapes of a LIAISONS_STATIQUES table: DEFORMEE and POINT_REPERE of each entry."""
     ws, options = workspace(call.session), _options(call, words)
@@ -200,7 +198,11 @@ def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Tabl
     return table
 
 
-def _reac(matrix: Matrix, solution: NodeField | Table) -> NodeField | Table:
+@operator("REAC", family="solve", full_name="REACTION", gives=Like("solution"))
+def _reac(
+    matrix: Matrix = _MATRIX,
+    solution: NodeField | Table = Arg("CHPOINT", "TABLE", en="solution, or table of shapes"),
+) -> NodeField | Table:
     if isinstance(solution, NodeField):
         return reactions(matrix, solution)
     for entry, shape, index in _shapes(solution):
@@ -230,16 +232,6 @@ def _shapes(table: Table) -> list[tuple[Table, NodeField, str]]:
         else:
             found += _shapes(entry)
     return found
-
-
-operator(
-    "REAC",
-    _MATRIX,
-    arg("solution", "CHPOINT", "TABLE", en="solution, or table of shapes"),
-    family="solve",
-    full_name="REACTION",
-    gives=Like("solution"),
-)(_reac)
 
 
 operator("DIAG", _MATRIX, family="solve", full_name="DIAGNEG")(negative_eigenvalues)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran
+from script_runs import finder, ran
 from together import together
 
 from ssilang.cli.run import run_text
@@ -39,9 +39,8 @@ PERFECT = {"law": "'PARFAIT'", "strength": f"'SIGY' {SY:g}"}
 
 def run(tmp_path, deck, **words):
     words = {"path": "1.", "at": "1.", "end": "1.", "more": "", **PERFECT, **words}
-    result = run_text(f"{deck}{PUSH}".format(**words), output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    find = finder(f"{deck}{PUSH}".format(**words), tmp_path)
+    return find
 
 
 @together("element, section, what, dual, size, limit", [
@@ -194,9 +193,7 @@ def test_a_calculation_goes_on_from_its_fields(tmp_path):
         "H0 = MAXI 'ABS' SI ; KK = INDE (T . 'CONTRAINTES') ;"
     )
     text = f"{LINE}{PUSH}".format(path="1.", at="1.", end="1.", **words) + resumed
-    result = run_text(text, output_directory=tmp_path)
-    assert result.exit_code == 0, result.message
-    find = result.session.root.find
+    find = finder(text, tmp_path)
     assert find("G") < 1e-9 * find("H0")
 
 

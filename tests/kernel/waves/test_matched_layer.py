@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from script_runs import finder
 from together import together
 
 from ssilang.cli.run import run_text
@@ -48,9 +49,8 @@ def box(cell="QUA4", across=8, down=4, half=4, deep=4, x=2.01, y=2.01, nu=0.3):
 
 
 def ran(script):
-    result = run_text(script)
-    assert result.exit_code == 0, result.message
-    return result.session.root.find
+    find = finder(script)
+    return find
 
 
 def values(find, name):

@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 from scipy.special import ellipe, ellipeinc
-from script_runs import failed, ran
-from together import together
+from script_runs import failed, found
 
 SPACE = "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ; "
 
 
 def line(text):
-    result = ran(SPACE + text)
-    mesh = result.session.root.find("L")
+    mesh = found(SPACE + text, "L")
     block = mesh.blocks[0]
     chain = np.append(block.connectivity[:, 0], block.connectivity[-1, -1])
     return mesh.nodes.coordinates[chain]
@@ -79,16 +77,3 @@ def test_sizes_grade_the_curve_and_lines_are_continued():
     closed = line("K = (-1. 0. 0.) DROI 4 A ; L = K INTE 20 'SPHE' (0. 0. 0.) 'PLAN' (0. 2. 0.) ; ")
     assert length(closed) > 4.9
     np.testing.assert_allclose(closed[0], closed[-1])
-
-
-@together(
-    "text, said",
-    [
-        ("L = A INTE 5 'CYLI' (0. 0. -1.) (0. 0. 1.) 'SPHE' (0. 0. 0.) B ;", "touch"),
-        ("L = A INTE 5 'CYLI' (0. 0. -1.) (0. 0. 1.) 'SPHE' (0. 0. 3.) (0. 5. 0.) ;", "away from"),
-        ("L = A INTE 5 'SPHE' (0. 0. 0.) B ;", "two surfaces"),
-        ("L = A INTE 5 'LONG' -1. 'SPHE' (0. 0. 0.) 'PLAN' (-1. 0. 0.) B ;", "length > 0"),
-    ],
-)
-def test_curves_that_are_none_are_refused(text, said):
-    assert said in refused(text)

@@ -8,7 +8,6 @@ from script_runs import failed, ran
 from together import together
 
 PLANE = "OPTI DIME 2 ELEM QUA4 ; O = 0. 0. ; A = 1. 0. ; B = 1. 1. ; E = 0. 1. ; "
-STRIP = PLANE + "L = O D 4 A ; S = L TRAN 2 (0. 1.) ; "
 SPACE = "OPTI DIME 3 ELEM CUB8 ; O = 0. 0. 0. ; A = 1. 0. 0. ; Z = 0. 0. 1. ; "
 
 
@@ -20,45 +19,8 @@ def message(script: str) -> str:
     return failed(script).message
 
 
-CROSSING = (
-    "OPTI DIME 3 ELEM TRI3 ; A = (DROI 2 (0. 0. 0.) (2. 0. 0.)) TRAN 2 (0. 2. 0.) ; "
-    "B = (DROI 2 (-1. 6.1 -1.) (3. 6.1 -1.)) TRAN 2 (0. 0. 2.) ; C D L M = INTE 'GEOM' A B ; "
-)
-
-
-@together(
-    "script, said",
-    [
-        (PLANE + "D1 E1 F1 = (O D 5 A) CONG 8 0.25 (A D 5 B) 'DOUBLE' ;", "DOUBLE"),
-        (STRIP + "T = L TRAN 1 (0. 1.) ; X = INCL S (CONT T) 'STRI' ;", "inside"),
-        (SPACE + "F = (O D 2 A) TRAN 4 Z ; G = F PLUS A ; X = PAVE F G ;", "six faces"),
-        (STRIP + "X = (DROI 1 (7. 7.) A) DEDU 'TRAN' S (S TOUR 30. O) ;", "does not belong"),
-        (STRIP + "X = CHAN 'CUB8' S ;", "cannot be changed"),
-        (PLANE + "X = MANU 'TRI3' O A ;", "needs 3 points"),
-        (PLANE + "L = (A D 2 O) ET (A D 2 B) ; X = VERS L ;", "opposite senses"),
-        (STRIP + "M = MODE S MECANIQUE ELASTIQUE ; "
-         "X = M INTE (MODE (S PLUS (3. 0.)) MECANIQUE ELASTIQUE) ;", "in common"),
-        (CROSSING, "do not cross"), (CROSSING.replace("TRI3", "QUA4"), "surfaces of TRI3"),
-        (SPACE + "X = ENVE (O D 1 A) ;", "envelope"),
-        (PLANE + "K = APPU 'UX' 4. O ; U = MANU 'CHPO' O 'UX' 1. 'UY' 0. ; Q = K PLUS U ;",
-         "vector"),
-        (SPACE + "OPTI ELEM QUA4 ; S = (Z D 3 (1. 0. 1.)) TRAN 3 (0. 1. 0.) ; "
-         "N = (Z D 2 (0. 1. 1.)) PROJ 'CYLI' A (S PLUS (0. 9. 0.)) ;", "no projection"),
-        (PLANE + "Q = O PROJ 'CYLI' A (MANU 'POI1' B) ;", "lines"),
-    ],
-)  # fmt: skip
-def test_what_cannot_be_made_is_refused(script: str, said: str) -> None:
-    assert said in message(script)
-
-
 FRAME = """OPTI DIME 2 ELEM SEG2 ; O = 0. 0. ; A = 4. 0. ; B = 4. 4. ; E = 0. 4. ;
 C = O D 4 A D 4 B D 4 E D 4 O ; M = C POIN 'PROC' (2. 0.) ; """
-
-
-def test_crossing_lines_and_empty_contours_are_refused() -> None:
-    assert "cross" in message(FRAME + "H = D 1 (1. 1.) (3. 3.) ; G = D 1 (1. 3.) (3. 1.) ;"
-                              "T = TRIA (C ET H ET G) ;")  # fmt: skip
-    assert "enclose nothing" in message(FRAME + "T = TRIA ((D 2 O A) ET (D 3 (1. 1.) (3. 2.5))) ;")
 
 
 def test_nothing_found_in_a_field_is_an_empty_mesh_and_a_doubt() -> None:

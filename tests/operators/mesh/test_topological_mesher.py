@@ -4,8 +4,6 @@ import pytest
 from script_runs import ran
 from together import together
 
-from ssilang.cli.run import run_text
-
 SQUARE = (
     "OPTI DIME 2 ELEM TRI3 ; A = 0. 0. ; B = 3. 0. ; C = 3. 2. ; D1 = 0. 2. ; "
     "L = (DROI 9 A B) ET (DROI 5 B C) ET (DROI 9 C D1) ET (DROI 5 D1 A) ; T = TABL ; "
@@ -19,25 +17,6 @@ BOX = (
 
 def root_of(text: str):
     return ran(text).session.root
-
-
-@together("words", ["L 'NOAJ'", "'NOAJ' L", "L T 'NOAJ'"])
-def test_without_new_points_all_nodes_are_those_of_the_lines(words):
-    root = root_of(SQUARE + f"M = TRIA 'TOPO' {words} ; X = MESU M ; N = NBEL M ; P = NBNO M ;")
-    assert root.find("X") == pytest.approx(6.0)
-    assert (root.find("P"), root.find("N")) == (28, 26)  # n - 2 triangles of n points
-
-
-@together("words", ["L", "L 'AJNO' T", "T L"])
-def test_new_points_make_good_triangles_on_the_same_boundary(words):
-    root = root_of(
-        SQUARE + f"M = TRIA 'TOPO' {words} ; X = MESU M ; Q = INDI 'TOPO' M ; Y = MINI Q ; "
-        "C = CONT M ; N = NBEL (DIFF C L) ; P = NBNO M ;"
-    )
-    assert root.find("X") == pytest.approx(6.0)
-    assert root.find("Y") > 0.6
-    assert root.find("N") == 0
-    assert root.find("P") > 28
 
 
 def test_a_hole_stays_empty():
@@ -62,8 +41,3 @@ def test_the_table_gets_what_the_mesher_found(script, name, volume):
     assert (table.get("nnul"), root.find("N")) == (0, root.find("NM"))
     assert (table.get("miq"), table.get("maq")) == pytest.approx((root.find("Y"), root.find("Z")))
     assert table.get("miq") <= table.get("moq") <= table.get("maq")
-
-
-def test_a_volume_without_new_points_is_refused():
-    result = run_text(BOX + "M = TRIA 'TOPO' 'NOAJ' S ;")
-    assert [e.code for e in result.errors] == ["operators.mesh.volume-needs-points"]

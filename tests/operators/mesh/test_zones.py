@@ -1,7 +1,7 @@
 """PART and CCON: zones of lines, surfaces and volumes; @ISOSURF."""
 
 import pytest
-from script_runs import ran, refused
+from script_runs import found, ran, refused
 from together import together
 
 from ssilang.cli.run import run_text
@@ -18,8 +18,7 @@ SHEETS = (
 
 def cells_of(script: str) -> list[int]:
     """Numbers of cells of the zones of T."""
-    result = ran(script)
-    table = result.session.root.find("T")
+    table = found(script, "T")
     return [mesh.n_cells for index, mesh in table.items() if index != "SOUSTYPE"]
 
 

@@ -302,14 +302,12 @@ def projected_along(
     return copies(call, objects, projection_of("CYLI", vector, surface))
 
 
-@proj.form(
-    RAYS[0],
-    _objects(1, "MAILLAGE"),
-    arg("goal", "MAILLAGE", en="mesh on which they go"),
-    gives=Like("objects"),
-)
+@proj.form(RAYS[0], _objects(1, "MAILLAGE"), gives=Like("objects"))
 def projected_on_mesh(
-    call: Call, rays: tuple[str, Point], objects: Sequence[Any], goal: Mesh
+    call: Call,
+    rays: tuple[str, Point],
+    objects: Sequence[Any],
+    goal: Mesh = Arg("MAILLAGE", en="mesh on which they go"),
 ) -> tuple[Any, ...]:
     """Copy and project on a mesh."""
     return copies(call, objects, projection_on(*rays, facet_shape(goal)))

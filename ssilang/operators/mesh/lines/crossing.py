@@ -22,9 +22,10 @@ _SURFACES: Mapping[
 }
 
 
-@INTE.form(
-    select(
-        "surfaces",
+@INTE.form()
+def crossing(
+    call: Call,
+    surfaces: Sequence[Chosen] = Cases(
         {
             "PLAN": [arg("point", "POINT", en="point of the plane")],
             "SPHE": [_CENTRE],
@@ -39,11 +40,7 @@ _SURFACES: Mapping[
         optional=False,
         repeated=True,
         en="the two surfaces that cross, both through the start",
-    )
-)
-def crossing(
-    call: Call,
-    surfaces: Sequence[Chosen],
+    ),
     start: Point | Mesh = Main("POINT", "MAILLAGE", en=START.en),
     count: int | None = COUNT,
     sizes: Sizes = SIZES,

@@ -181,14 +181,13 @@ def of_field(
     return _doubted_if_empty(session, poi1(field.table, _once(found)))
 
 
-@poin.form(
-    main("field", "MCHAML", en="field in cells"),
-    EXTREMES,
-    ABSOLUTE,
-    NAMED,
-)
+@poin.form()
 def of_cell_field(
-    session: Session, field: CellField, what: Chosen, absolute: bool, named: Named
+    session: Session,
+    field: CellField = Main("MCHAML", en="field in cells"),
+    what: Chosen = EXTREMES,
+    absolute: bool = ABSOLUTE,
+    named: Named = NAMED,
 ) -> Mesh:
     """Nodes, or new points at integration points, where values are extreme or compare."""
     names = dict.fromkeys(n for b in field.blocks for n in b.components)

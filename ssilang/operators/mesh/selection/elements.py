@@ -30,9 +30,10 @@ def elem(
     return _numbered(call, _filtered(mesh, filters), which)
 
 
-@elem.form(
-    select(
-        "colour",
+@elem.form()
+def of_numbered_colour(
+    call: Call,
+    colour: Chosen = Cases(
         {
             "COUL": [
                 opt("number", "ENTIER", en="number of a colour", range=NOT_NEGATIVE),
@@ -40,11 +41,7 @@ def elem(
         },
         optional=False,
         en="cells of a colour; without number the colours that there are",
-    )
-)
-def of_numbered_colour(
-    call: Call,
-    colour: Chosen,
+    ),
     mesh: Mesh = _MESH,
     filters: Sequence[str] = _FILTERS,
     which: int | ListEnti | None = _NUMBERS,
@@ -82,16 +79,13 @@ def between(
     return shortest_line(mesh, first.node, second.node)
 
 
-@elem.form(
-    select(
-        "holding",
+@elem.form()
+def holding_point(
+    holding: Chosen = Cases(
         {"CONTENANT": [arg("point", "POINT", en="point")]},
         optional=False,
         en="cell that holds a point",
-    )
-)
-def holding_point(
-    holding: Chosen,
+    ),
     mesh: Mesh = _MESH,
     every: bool = Flag("TOUS", en="all cells that hold it"),
     allowed: bool = _ALLOWED,
@@ -103,9 +97,10 @@ def holding_point(
     return made
 
 
-@elem.form(
-    select(
-        "resting",
+@elem.form(gives="MAILLAGE")
+def resting_on_points(
+    call: Call,
+    resting: Chosen = Cases(
         {
             "APPUYE": [
                 choice(
@@ -121,11 +116,6 @@ def holding_point(
         optional=False,
         en="cells that rest on points",
     ),
-    gives="MAILLAGE",
-)
-def resting_on_points(
-    call: Call,
-    resting: Chosen,
     mesh: Mesh | None = Opt("MAILLAGE", en="cells to pick from"),
     more: Sequence[Mesh | Point] = Many("MAILLAGE", "POINT", en="further points"),
 ) -> Mesh:

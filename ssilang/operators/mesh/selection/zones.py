@@ -14,13 +14,15 @@ def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
     return _table(connected(mesh), free)
 
 
-@part.form(
-    said("SEPA"),
-    _MESH,
-    key("branching", ("FACE", "LIGN"), repeated=True, en="sides of more than two cells separate"),
-    key("separator", "MAIL", "MAILLAGE", en="sides within these cells separate"),
-    select(
-        "turn",
+@part.form(said("SEPA"))
+def separated_parts(
+    call: Call,
+    mesh: Mesh = _MESH,
+    branching: list[str] = Key(
+        ("FACE", "LIGN"), repeated=True, en="sides of more than two cells separate"
+    ),
+    separator: Mesh | None = Key("MAIL", "MAILLAGE", en="sides within these cells separate"),
+    turn: Chosen | None = Cases(
         {
             "ANGL": (
                 opt(
@@ -35,17 +37,8 @@ def part(mesh: Mesh = _MESH, free: bool = _FREE) -> Table:
         },
         en="sides where normals or tangents turn separate",
     ),
-    flag("folded", "TELQ", en="cells of opposite senses are taken as folded"),
-    _FREE,
-)
-def separated_parts(
-    call: Call,
-    mesh: Mesh,
-    branching: list[str],
-    separator: Mesh | None,
-    turn: Chosen | None,
-    folded: bool,
-    free: bool,
+    folded: bool = Flag("TELQ", en="cells of opposite senses are taken as folded"),
+    free: bool = _FREE,
 ) -> Table:
     """Parts joined by common sides, but those that separate."""
     said: dict[str, Any] = {"by_branching": True} if branching else {}

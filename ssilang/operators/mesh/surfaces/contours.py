@@ -42,31 +42,17 @@ def _curved_chart(shape: Chosen, boundary: FloatArray) -> charts.Chart:
     return _CHARTS[shape.word](boundary, *points)
 
 
-@operator(
-    "SURF",
-    opt(
-        "sizes",
-        "CHPOINT",
-        en="mesh sizes to respect, one component",
-        unit="m",
-    ),
-    arg("contour", "MAILLAGE", en="closed lines"),
-    select("shape", _SHAPES, en=_SHAPE_EN),
-    opt(
-        "criterion",
+@operator("SURF", family="mesh", full_name="SURFACE")
+def surf(
+    session: Session,
+    sizes: NodeField | None = Opt("CHPOINT", en="mesh sizes to respect, one component", unit="m"),
+    contour: Mesh = Arg("MAILLAGE", en="closed lines"),
+    shape: Chosen | None = Cases(_SHAPES, en=_SHAPE_EN),
+    criterion: float | None = Opt(
         "FLOTTANT",
         range=NOT_NEGATIVE,
         en="how far the lines may leave their plane, a share of their extent, 1E-3 by default",
     ),
-    family="mesh",
-    full_name="SURFACE",
-)
-def surf(
-    session: Session,
-    sizes: NodeField | None,
-    contour: Mesh,
-    shape: Chosen | None,
-    criterion: float | None,
 ) -> Mesh:
     """Mesh the inside of a contour."""
     boundary, segments = contour_chart_data(contour)
@@ -89,18 +75,14 @@ def _wanted_sizes(field: NodeField | None) -> tuple[FloatArray, FloatArray] | No
     return field.table.coordinates[part.nodes].copy(), part.values
 
 
-@operator(
-    "DALL",
-    arg("side1", "MAILLAGE", en="first side"),
-    arg("side2", "MAILLAGE", en="second side"),
-    arg("side3", "MAILLAGE", en="third side"),
-    arg("side4", "MAILLAGE", en="fourth side"),
-    select("shape", {**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN),
-    family="mesh",
-    full_name="DALLER",
-)
+@operator("DALL", family="mesh", full_name="DALLER")
 def dall(
-    session: Session, side1: Mesh, side2: Mesh, side3: Mesh, side4: Mesh, shape: Chosen | None
+    session: Session,
+    side1: Mesh = Arg("MAILLAGE", en="first side"),
+    side2: Mesh = Arg("MAILLAGE", en="second side"),
+    side3: Mesh = Arg("MAILLAGE", en="third side"),
+    side4: Mesh = Arg("MAILLAGE", en="fourth side"),
+    shape: Chosen | None = Cases({**_SHAPES, "QUELCONQUE": ()}, en=_SHAPE_EN),
 ) -> Mesh:
     """Make a grid on four sides."""
     ws = workspace(session)

@@ -1,7 +1,7 @@
 """Largest shear strain over a motion."""
 
 import numpy as np
-from script_runs import ran
+from script_runs import finder, found
 
 _BLOCK = (
     "OPTI DIME 3 ELEM CU20 ; L = DROI 1 (0. 0. 0.) (1. 0. 0.) ; S = TRAN 1 L (0. 2. 0.) ;"
@@ -10,8 +10,7 @@ _BLOCK = (
 
 
 def largest(script):
-    result = ran(script)
-    field = result.session.root.find("G")
+    field = found(script, "G")
     return np.concatenate([b.components["SCAL"].ravel() for b in field.blocks])
 
 
@@ -41,8 +40,7 @@ def test_recorded_motion_gives_what_its_fields_give():
         " REPE K 21 ; L = L ET (R . &K . 'DEPL') ;"
         "FIN K ; G2 = ZGAM M L ; D = MAXI (ABS (G - G2)) ; E = MINI G2 ;"
     )
-    result = ran(script)
-    find = result.session.root.find
+    find = finder(script)
     assert find("D") < 1e-12 * find("E")
     assert find("E") > 1e-5
 

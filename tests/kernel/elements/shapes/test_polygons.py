@@ -101,16 +101,6 @@ def test_bending_converges_with_the_square_of_the_size() -> None:
     assert tip(16, 8) < coarse / 2.5
 
 
-def test_mass_of_polygons_is_that_of_the_plate() -> None:
-    total = found(
-        PLATE.format(n=8, m=4)
-        + "MO = MODE S MECANIQUE ELASTIQUE POLY ; MA = MATE MO 'YOUN' 1. 'NU' 0.3 'RHO' 3. ; "
-        "U = MANU 'CHPO' S 1 'UX' 1. ; M1 = YTMX U U (MASS MO MA) ;",
-        "M1",
-    )
-    assert total == pytest.approx(6.0)
-
-
 @together("n", [5, 6, 9])
 @together("per_side", [1, 3])
 def test_rules_of_polygons_integrate_squares(n: int, per_side: int) -> None:

@@ -1,7 +1,7 @@
 """Complete quadratic cells: shared middles, and the cells that they are taken apart into."""
 
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 from together import together
 
 CUBES = (
@@ -83,9 +83,3 @@ def test_volumes_and_their_envelope_are_taken_apart_alike(
     assert (d, c) == (0, cells)
     assert x == pytest.approx(2.0)
     assert area == pytest.approx(10.0)
-
-
-def test_cells_that_cannot_be_taken_apart_are_named() -> None:
-    assert "CU27 cannot be changed into PRI6" in refused(
-        CUBES + "M = CHAN 'PRI6' (CHAN V 'QUAF') ;"
-    )

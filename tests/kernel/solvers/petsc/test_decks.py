@@ -87,14 +87,11 @@ def values(result, *names):
 
 @there
 def test_modes_and_multipliers_by_petsc_and_the_summary_names_versions_and_machines(tmp_path):
-    script = (
-        MODEL
-        + """
+    script = f"""{MODEL}
 U2 = RESO RIJ POID 'ELIM' 0 ; X2 = EXTR U2 'UY' PTOP ;
 T1 = VIBR 'PROC' (PROG 0. 8.) (LECT 2 2) RIJ MM ;
 F1 = T1 . 'MODES' . 1 . 'FREQUENCE' ; F4 = T1 . 'MODES' . 4 . 'FREQUENCE' ;
 """
-    )
     own, _ = run(HEAD + script, tmp_path / "own", "")
     petsc, summary = run(HEAD + ASKED + script, tmp_path / "petsc")
     names = ("X1", "X2", "F1", "F4")
