@@ -84,16 +84,13 @@ def out_of_balance(start: Start) -> Told:
 
 
 def weight_of_part(start: Start) -> Told:
-    """Bodies that weigh at most nodes what their mass does, less or nothing at others of them.
+    """Bodies that weigh at some nodes what their mass does, less at others: by loads, by 'DEPL'.
 
-    First by the loads, then by what holds the displacements of the start. On bodies that something
-    holds, ground with its structure, nothing may be meant.
+    Nothing at all is less, too, but on bodies that something holds: ground with its structure.
     """
     problem = start.problem
     nodes, points = problem.numbering.nodes, problem.numbering.table.coordinates
-    forces = [-start.weight]
-    if problem.u.any():
-        forces.append(_held_at_start(problem))
+    forces = [-start.weight, *([_held_at_start(problem)] if problem.u.any() else [])]
     for body, (rest, force) in product(start.bodies(), enumerate(forces)):
         mass, weight = body.up * (problem.M @ body.up), body.up * force
         heavy = np.flatnonzero(mass > 0.0)
@@ -101,24 +98,19 @@ def weight_of_part(start: Start) -> Told:
         usual = float(pull.max(initial=0.0))
         if not any(abs(usual / g - 1.0) < 0.01 for g in GRAVITIES):
             continue
-        known = SAME_PULL if not rest else OFF  # of what is solved for
-        same, less = np.abs(pull - usual) < known * usual, pull < (1.0 - AGAIN) * usual
-        nought = np.abs(pull) < known * usual
-        less &= (pull > 0.0) & ~nought | nought & (not start.holds(body.up))
+        known = usual * (OFF if rest else SAME_PULL)  # what is held was solved for
+        same, least = np.abs(pull - usual) < known, known if start.holds(body.up) else -known
+        less = (pull > least) & (pull < (1.0 - AGAIN) * usual)
         if not (same | less).all():
             continue
         heights = points[nodes[heavy], len(start.axes) - 1]
         less &= heights > heights.min() + BESIDE * body.size  # ground moves with a footing
         if less.any():
             worst = int(heavy[less][np.argmin(pull[less])])
-            told = {
-                "mass": mass[worst],
-                "weighs": weight[worst] / usual + 0.0,
-                "count": int(less.sum()),
-            }
-            told["node"] = problem.numbering.table.told(nodes[worst])
+            told = {"mass": mass[worst], "weighs": weight[worst] / usual + 0.0, "rest": bool(rest)}
+            told |= {"count": int(less.sum()), "node": problem.numbering.table.told(nodes[worst])}
             told["share"] = 100.0 * weight.sum() / (usual * body.mass)
-            yield "operators.dynamics.weight-of-part", {**told, "rest": bool(rest)}
+            yield "operators.dynamics.weight-of-part", told
             return
 
 
