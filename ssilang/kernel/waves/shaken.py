@@ -167,8 +167,8 @@ def unlike_sides(
                 wanted = (np.sqrt(np.maximum(np.prod(squares, axis=0), 0.0)) / sizes).sum()
                 on = np.array([u == name for u in edge.unknowns]) * 1.0
                 given = np.einsum("i,nij,j->", on, edge.values[np.isin(beside, keys[met])], on)
-                low, high = ALIKE[base]
-                if (times := given / (wanted or np.inf)) and not low < times < high:
+                times = given / (wanted or np.inf)
+                if times and not ALIKE[base][0] < times < ALIKE[base][1]:
                     return int(block.nodes[met][0, local[0]]), float(times), base
     return None
 

@@ -89,7 +89,7 @@ def weight_of_part(start: Start) -> Told:
     Nothing at all is less, too, but on bodies that something holds: ground with its structure.
     """
     problem = start.problem
-    nodes, points = problem.numbering.nodes, problem.numbering.table.coordinates
+    nodes, table = problem.numbering.nodes, problem.numbering.table
     forces = [-start.weight, *([_held_at_start(problem)] if problem.u.any() else [])]
     for body, (rest, force) in product(start.bodies(), enumerate(forces)):
         mass, weight = body.up * (problem.M @ body.up), body.up * force
@@ -103,14 +103,13 @@ def weight_of_part(start: Start) -> Told:
         less = (pull > least) & (pull < (1.0 - AGAIN) * usual)
         if not (same | less).all():
             continue
-        heights = points[nodes[heavy], len(start.axes) - 1]
+        heights = table.coordinates[nodes[heavy], len(start.axes) - 1]
         less &= heights > heights.min() + BESIDE * body.size  # ground moves with a footing
         if less.any():
             worst = int(heavy[less][np.argmin(pull[less])])
             told = {"mass": mass[worst], "weighs": weight[worst] / usual + 0.0, "rest": bool(rest)}
-            told |= {"count": int(less.sum()), "node": problem.numbering.table.told(nodes[worst])}
-            told["share"] = 100.0 * weight.sum() / (usual * body.mass)
-            yield "operators.dynamics.weight-of-part", told
+            told |= {"count": int(less.sum()), "share": 100.0 * weight.sum() / (usual * body.mass)}
+            yield "operators.dynamics.weight-of-part", told | {"node": table.told(nodes[worst])}
             return
 
 
@@ -263,11 +262,10 @@ def bodies_stand(start: Start) -> Told:
             yield "operators.dynamics.weight-dropped", {"name": start.names[most]}
         stands = weight > 0.0 and start.touches(-up) and not start.holds(up)
         pull = weight / mass if stands and mass > 0.0 and start.shaking.any() else 0.0
-        pull *= all(abs(pull / g - 1.0) > 0.01 for g in IN_FEET)
         heavier = [pull / g for g in GRAVITIES if HEAVIER[0] < pull / g < HEAVIER[1]]
+        heavier *= all(abs(pull / g - 1.0) > 0.01 for g in IN_FEET)
         for times in [2.0] if _are_weights(2.0, weight, mass) else heavier:
-            told = {"mass": mass, "weight": weight, "times": times}
-            yield WEIGHT_TWICE, {**told, "node": node}
+            yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "times": times, "node": node}
         if stands:
             times = mass * GRAVITIES[0] / weight
             same = abs(mass - weight) < SAME_PULL * weight and mass != 1.0  # g left out; no unit
