@@ -111,11 +111,9 @@ def _odd(
         base = given.get(other.removesuffix("**2"), np.empty(0))
         if base.dtype != float or not base.size or not base.all():
             continue
-        if (
-            other.endswith("**2") and float(base.min()) / high**2 in _SOLID
-        ):  # exchanged it would be one
-            stout = high > (_STOUT * _size(zone)) ** 2 * float(base.max())
-            usual = Range(usual.low, _SOLID.high * 10.0) if stout else usual
+        solid = other.endswith("**2") and float(base.min()) / high**2 in _SOLID  # if exchanged
+        if solid and high > (_STOUT * _size(zone)) ** 2 * float(base.max()):
+            usual = Range(usual.low, _SOLID.high * 10.0)
         base = base ** (1 + other.endswith("**2"))
         ratios = (float(ratio) for ratio in (low / np.max(base), high / np.min(base)))
         if (ratio := next((r for r in ratios if r not in usual), None)) is not None:
