@@ -341,6 +341,9 @@ def test_the_tables_of_mate_hold_what_the_kernel_asks_for():
     for name, law in PLASTIC_LAWS.items():
         if name != "SECTION":
             assert {*law.required, *law.defaults} <= whole(tables, f"PLASTIQUE {name}")
+            told = {row[0]: row[2] for row in tables[f"PLASTIQUE {name}"].rows}
+            defaults = {n: f"{v:g}" for n, v in law.defaults.items() if n in told}
+            assert {n: told[n] for n in defaults} == defaults
     for name in JOINT_LAWS:
         assert {"KN", "KS"} <= whole(tables, " ".join(dict.fromkeys(("ELASTIQUE", name))))
     rows = {row[0]: row for row in tables["PLASTIQUE CAM_CLAY"].rows}
