@@ -96,12 +96,10 @@ def weight_of_part(start: Start) -> Told:
         heavy = np.flatnonzero(mass > 0.0)
         pull = weight[heavy] / mass[heavy]
         usual = float(pull.max(initial=0.0))
-        if not any(abs(usual / g - 1.0) < 0.01 for g in GRAVITIES):
-            continue
         known = usual * (OFF if rest else SAME_PULL)  # what is held was solved for
         same, least = np.abs(pull - usual) < known, known if start.holds(body.up) else -known
         less = (pull > least) & (pull < (1.0 - AGAIN) * usual)
-        if not (same | less).all():
+        if not ((same | less).all() and any(abs(usual / g - 1.0) < 0.01 for g in GRAVITIES)):
             continue
         heights = table.coordinates[nodes[heavy], len(start.axes) - 1]
         less &= heights > heights.min() + BESIDE * body.size  # ground moves with a footing
@@ -115,10 +113,8 @@ def weight_of_part(start: Start) -> Told:
 
 def _held_at_start(problem: Problem) -> FloatArray:
     """Forces (n,) that stiffness and joints exert for the displacements of the start, reversed."""
-    held = -(problem.K @ problem.u)
-    if problem.interface is not None:
-        held -= problem.interface.J.T @ joint_state(problem).f
-    return np.asarray(held)
+    joints, held = problem.interface, problem.K @ problem.u
+    return np.asarray(-held if joints is None else -held - joints.J.T @ joint_state(problem).f)
 
 
 def velocity_of_rest(start: Start) -> Told:
@@ -364,9 +360,8 @@ def weights_twice(
     own, weights = np.bincount(label, mass[: len(label)]), np.bincount(label[nodes], pressing)
     for body in np.flatnonzero(own[: len(weights)] > 0.0):
         if _are_weights(2.0, weights[body], own[body]):
-            node = matrix.table.told((label == body).argmax())
             told = {"mass": own[body], "weight": weights[body], "times": 2.0}
-            yield WEIGHT_TWICE, {**told, "node": node}
+            yield WEIGHT_TWICE, told | {"node": matrix.table.told((label == body).argmax())}
 
 
 def _beside_its_base(start: Start, body: Body) -> Told:
