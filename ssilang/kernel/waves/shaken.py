@@ -32,8 +32,9 @@ FEWER = 0.625  # of the usual cells of a wavelength: five linear ones, where eac
 LOOKED_AT = 2000  # cells of a block
 FEWEST, BOTH_WAYS = 10, 0.1  # points of a record; its values of the lesser sign over the largest
 GRAVITIES = (9.81, 9810.0)  # in metres or millimetres
-SIDEWAYS = ((0, "UX"), (0, "UR"), (1, "UY"))
-ALIKE = (0.75, 6.0)  # impedances of sides over that of their cells; rock beside soil has some
+NORMALS = ((0, "UX"), (0, "UR"), (1, "UY"), (1, "UZ"), (2, "UZ"))
+ALIKE = ((0.75, 6.0), (0.75, np.inf))
+"""Impedances of sides, and of a base, over that of their cells; rock beside soil has some."""
 
 
 def axes_of(problem: "Problem") -> list[str]:
@@ -138,8 +139,10 @@ class Long:
 
 def unlike_sides(
     stiffness: "Matrix", mass: "Matrix", damping: "Matrix"
-) -> tuple[int, float] | None:
+) -> tuple[int, float, bool] | None:
     """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
+
+    The last says that it is one of a base, whose dashpots are softer than the cells above.
 
     A uniform strain s across a face of area A and a translation t tell the impedance of cells of
     length l: `rho V_p A = sqrt(s K s t M t) / l`.
@@ -148,12 +151,13 @@ def unlike_sides(
     dampers = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
     edges = [(b, face_keys(b.nodes)) for b in dampers]
     solids = bordered_solids(stiffness) if edges else []
-    for (block, zone, border), (axis, name) in product(solids, SIDEWAYS):
-        x = block.table.coordinates[block.nodes, axis]
-        if name not in block.unknowns or axis == zone.cells.kind.dimension - 1:
+    for (block, zone, border), (axis, name) in product(solids, NORMALS):
+        x, base = block.table.coordinates[block.nodes, axis], axis == zone.cells.kind.dimension - 1
+        if name not in block.unknowns or block.unknowns.index(name) != axis:
             continue
         for (_, local), own in zip(zone.cells.kind.faces, border, strict=True):
             side = own & (np.ptp(x[:, local], axis=1) < SAME * np.ptp(x, axis=1))
+            side &= (not base) | (x[:, local].mean(axis=1) < x.mean(axis=1))
             keys = face_keys(block.nodes[:, local])
             for edge, beside in edges if side.any() and id(block.raw_nodes) in heavy else ():
                 if not (met := side & np.isin(keys, beside)).any():
@@ -163,8 +167,9 @@ def unlike_sides(
                 wanted = (np.sqrt(np.maximum(np.prod(squares, axis=0), 0.0)) / sizes).sum()
                 on = np.array([u == name for u in edge.unknowns]) * 1.0
                 given = np.einsum("i,nij,j->", on, edge.values[np.isin(beside, keys[met])], on)
-                if (times := given / (wanted or np.inf)) and not ALIKE[0] < times < ALIKE[1]:
-                    return int(block.nodes[met][0, local[0]]), float(times)
+                times = given / (wanted or np.inf)
+                if times and not ALIKE[base][0] < times < ALIKE[base][1]:
+                    return int(block.nodes[met][0, local[0]]), float(times), base
     return None
 
 

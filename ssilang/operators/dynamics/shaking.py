@@ -256,12 +256,12 @@ class _Entering:
 
 
 def sides_unlike(start: Start) -> Told:
-    """Upright sides that absorb waves of another ground than that beside them."""
+    """Sides that absorb waves of another ground than that beside them, a base of a softer one."""
     inputs = start.inputs
     if inputs.mass is not None and inputs.damping is not None:
         found = unlike_sides(inputs.stiffness, inputs.mass, inputs.damping)
         if found is not None:
-            told = {"node": inputs.mass.table.told(found[0]), "times": found[1]}
+            told = {"node": inputs.mass.table.told(found[0]), "times": found[1], "base": found[2]}
             yield "operators.dynamics.sides-unlike", told
 
 

@@ -45,6 +45,8 @@ AGAIN = 5e-3  # of the weight of a mass, that is rounding of g
 SAME_MASS = 0.01  # of a beam
 SAME_PULL = 1e-6  # of what a node weighs by its mass
 TIMES = 10.0  # masses of a body over that of its weight
+HEAVIER = 2.0, 30.0  # weights over that of its mass: ties, and a footing's own, press without one
+IN_FEET = 32.174, 386.09  # ft/s2, in/s2
 UNEQUAL = 300.0  # times the stiffness of other joints under a body
 STIFF = 100.0  # times that of the ground's cells: a macro-element that only lifts and slides
 BRAKED = 5.0  # of sqrt(g / size): damping that a fall from a block's own height hardly begins
@@ -68,10 +70,7 @@ def out_of_balance(start: Start) -> Told:
     loading, T = problem.loading, problem.constraints.T
     if not problem.u.any() or not 0 < loading.forces.size < LARGE:
         return
-    held = problem.K @ problem.u
-    if problem.interface is not None:
-        held = held + problem.interface.J.T @ joint_state(problem).f
-    held, forces = T.T @ held, T.T @ loading.forces
+    held, forces = -(T.T @ _held_at_start(problem)), T.T @ loading.forces
     if problem.contact is not None and problem.contact.G.shape[0] <= FEW_STOPS:
         stops = (T.T @ problem.contact.G.T).toarray()  # whatever they bear
         held, forces = (f - stops @ np.linalg.lstsq(stops, f)[0] for f in (held, forces))
@@ -85,29 +84,37 @@ def out_of_balance(start: Start) -> Told:
 
 
 def weight_of_part(start: Start) -> Told:
-    """Bodies that weigh at most nodes what their mass does, and less at those that got more."""
-    for body in start.bodies():
-        mass, weight = (body.up * f for f in (start.problem.M @ body.up, -start.weight))
+    """Bodies that weigh at some nodes what their mass does, less at others: by loads, by 'DEPL'.
+
+    Nothing at all is less, too, but on bodies that something holds: ground with its structure.
+    """
+    problem = start.problem
+    nodes, table = problem.numbering.nodes, problem.numbering.table
+    forces = [-start.weight, *([_held_at_start(problem)] if problem.u.any() else [])]
+    for body, (rest, force) in product(start.bodies(), enumerate(forces)):
+        mass, weight = body.up * (problem.M @ body.up), body.up * force
         heavy = np.flatnonzero(mass > 0.0)
-        if not len(heavy):
-            continue
         pull = weight[heavy] / mass[heavy]
-        usual = float(np.median(pull))
-        same, less = np.abs(pull - usual) < SAME_PULL * usual, (pull > 0.0) & (pull < usual)
-        less &= pull < (1.0 - AGAIN) * usual
-        known = any(abs(usual / g - 1.0) < 0.01 for g in GRAVITIES)
-        rows = start.problem.numbering.nodes[heavy]
-        heights = start.problem.numbering.table.coordinates[rows, len(start.axes) - 1]
-        if not known or not (same | less).all():
+        usual = float(pull.max(initial=0.0))
+        known = usual * (OFF if rest else SAME_PULL)  # what is held was solved for
+        same, least = np.abs(pull - usual) < known, known if start.holds(body.up) else -known
+        less = (pull > least) & (pull < (1.0 - AGAIN) * usual)
+        if not ((same | less).all() and any(abs(usual / g - 1.0) < 0.01 for g in GRAVITIES)):
             continue
+        heights = table.coordinates[nodes[heavy], len(start.axes) - 1]
         less &= heights > heights.min() + BESIDE * body.size  # ground moves with a footing
         if less.any():
             worst = int(heavy[less][np.argmin(pull[less])])
-            told = {"mass": mass[worst], "weighs": weight[worst] / usual, "count": int(less.sum())}
-            node = start.problem.numbering.nodes[worst]
-            told["node"] = start.problem.numbering.table.told(node)
-            told["share"] = 100.0 * body.weight / (usual * body.mass)
-            yield "operators.dynamics.weight-of-part", told
+            told = {"mass": mass[worst], "weighs": weight[worst] / usual + 0.0, "rest": bool(rest)}
+            told |= {"count": int(less.sum()), "share": 100.0 * weight.sum() / (usual * body.mass)}
+            yield "operators.dynamics.weight-of-part", told | {"node": table.told(nodes[worst])}
+            return
+
+
+def _held_at_start(problem: Problem) -> FloatArray:
+    """Forces (n,) that stiffness and joints exert for the displacements of the start, reversed."""
+    joints, held = problem.interface, problem.K @ problem.u
+    return np.asarray(-held if joints is None else -held - joints.J.T @ joint_state(problem).f)
 
 
 def velocity_of_rest(start: Start) -> Told:
@@ -249,9 +256,13 @@ def bodies_stand(start: Start) -> Told:
         if drops and _are_weights(1.0, weight, mass):
             most, drops = int((-(up @ loading.forces) * start.steady).argmax()), False
             yield "operators.dynamics.weight-dropped", {"name": start.names[most]}
-        if _are_weights(2.0, weight, mass):
-            yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "node": node}
-        if weight > 0.0 and start.touches(-up) and not start.holds(up):
+        stands = weight > 0.0 and start.touches(-up) and not start.holds(up)
+        pull = weight / mass if stands and mass > 0.0 and start.shaking.any() else 0.0
+        heavier = [pull / g for g in GRAVITIES if HEAVIER[0] < pull / g < HEAVIER[1]]
+        heavier *= all(abs(pull / g - 1.0) > 0.01 for g in IN_FEET)
+        for times in [2.0] if _are_weights(2.0, weight, mass) else heavier:
+            yield WEIGHT_TWICE, {"mass": mass, "weight": weight, "times": times, "node": node}
+        if stands:
             times = mass * GRAVITIES[0] / weight
             same = abs(mass - weight) < SAME_PULL * weight and mass != 1.0  # g left out; no unit
             if same or (times > TIMES and start.shaking.any()):
@@ -349,8 +360,8 @@ def weights_twice(
     own, weights = np.bincount(label, mass[: len(label)]), np.bincount(label[nodes], pressing)
     for body in np.flatnonzero(own[: len(weights)] > 0.0):
         if _are_weights(2.0, weights[body], own[body]):
-            node = matrix.table.told((label == body).argmax())
-            yield WEIGHT_TWICE, {"mass": own[body], "weight": weights[body], "node": node}
+            told = {"mass": own[body], "weight": weights[body], "times": 2.0}
+            yield WEIGHT_TWICE, told | {"node": matrix.table.told((label == body).argmax())}
 
 
 def _beside_its_base(start: Start, body: Body) -> Told:

@@ -15,6 +15,9 @@ COMPRESSIBLE = 0.49
 _PURE = ("", "deg", "rad")  # the same in any system
 THICK = {"EPAI": (1, 1.0), "SECT": (2, 10.0)}
 """Parameters that are lengths of a section: their power, how many times the size of a zone."""
+_SOLID, _STOUT = Range(0.01, 10.0), 0.2
+"""Moments of area over the square of the area, of sections with walls; a radius of gyration over
+the length of its beams, from which on such a section is no lattice."""
 _SIZES = Range(high=5000.0)  # m; what soil and structures measure across at most
 
 
@@ -108,6 +111,9 @@ def _odd(
         base = given.get(other.removesuffix("**2"), np.empty(0))
         if base.dtype != float or not base.size or not base.all():
             continue
+        solid = other.endswith("**2") and float(base.min()) / high**2 in _SOLID  # if exchanged
+        if solid and high > (_STOUT * _size(zone)) ** 2 * float(base.max()):
+            usual = Range(usual.low, _SOLID.high * 10.0)
         base = base ** (1 + other.endswith("**2"))
         ratios = (float(ratio) for ratio in (low / np.max(base), high / np.min(base)))
         if (ratio := next((r for r in ratios if r not in usual), None)) is not None:

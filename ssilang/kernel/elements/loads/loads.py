@@ -1,6 +1,6 @@
 """Nodal forces of pressures, tractions, body forces, and of what is spread along beams and bars."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -140,17 +140,24 @@ def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) ->
         Absent values count as zero.
     """
     out = []
+    for zone, part, geometry, mine in _on_sides(faces, model):
+        vectors = boundary.outward(part, geometry, model, mine)
+        p = _face_values(part, geometry, value)
+        forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
+        out.append(_scatter(zone, part, forces))
+    return total(faces.nodes, out)
+
+
+def _on_sides(
+    faces: Mesh, model: Model
+) -> Iterator[tuple[Zone, CellBlock, SurfaceGeometry, boundary.Parents]]:
+    """The faces on each zone of continuous elements, with the cells that they bound."""
     for block in faces.blocks:
         of = boundary.require_parents(block, model)
         for zone, rows in boundary.zones_of_faces(of, model):
             part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
             geometry = boundary.face_geometry(part, zone.mode, harmonic(zone))
-            mine = boundary.Parents(of.zone[rows], of.cell[rows])
-            vectors = boundary.outward(part, geometry, model, mine)
-            p = _face_values(part, geometry, value)
-            forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
-            out.append(_scatter(zone, part, forces))
-    return total(faces.nodes, out)
+            yield zone, part, geometry, boundary.Parents(of.zone[rows], of.cell[rows])
 
 
 def _face_values(
@@ -221,16 +228,11 @@ def traction(
         Gives the thickness DIM3 in plane stress.
     """
     out = []
-    for block in faces.blocks:
-        of = boundary.require_parents(block, model)
-        for zone, rows in boundary.zones_of_faces(of, model):
-            part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
-            geometry = boundary.face_geometry(part, zone.mode, harmonic(zone))
-            w = geometry.measures * _thickness(zone, of.cell[rows], material)
-            forces = np.einsum(
-                "cp,cpd,pk->ckd", w, _vector_values(part, geometry, zone, value), geometry.shapes
-            )
-            out.append(_scatter(zone, part, forces))
+    for zone, part, geometry, mine in _on_sides(faces, model):
+        w = geometry.measures * _thickness(zone, mine.cell, material)
+        vectors = _vector_values(part, geometry, zone, value)
+        forces = np.einsum("cp,cpd,pk->ckd", w, vectors, geometry.shapes)
+        out.append(_scatter(zone, part, forces))
     return total(faces.nodes, out)
 
 
