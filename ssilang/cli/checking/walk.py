@@ -49,7 +49,7 @@ class Checker:
         self.session = session
         self.sound = sound if sound is not None else SoundStatements()
         self.sound.begin(session)
-        self.problems: list[SsiError] = []
+        self.problems: dict[tuple[str, int], SsiError] = {}  # the first of a code and place
         self.types: dict[int, str] = {}  # of what names are given, by where the name stands
         self.entries: dict[int, Any] = {}  # what entries of tables are given, in the same way
         self.phrases = PhraseReader(session, self._report)
@@ -88,24 +88,22 @@ class Checker:
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
         perhaps = (*misspelt_names(script, names, _known_words()), *misspelt_words(script, names))
+        told = {e.span.start for e in self.problems.values() if e.span is not None}
         for problem in perhaps:
-            told = {e.span.start for e in self.problems if e.span is not None}
             if problem.span is not None and problem.span.start not in told:
+                told.add(problem.span.start)
                 self._report(problem)
-        return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
+        return sorted(self.problems.values(), key=lambda e: e.span.start if e.span else 0)
 
     def _report(self, problem: SsiError) -> None:
         self._told += 1
         if self._excused and problem.severity == "error":
             problem.warns = True
             problem.data["in_branch"] = Sentence("in-branch")
+        place = -self._told if problem.span is None else problem.span.start
         if problem.code == "unknown-operator":  # what is read after all
-            self.problems = [
-                e for e in self.problems if (e.code, e.span) != ("not-built-yet", problem.span)
-            ]
-        places = {(e.code, e.span.start) for e in self.problems if e.span is not None}
-        if problem.span is None or (problem.code, problem.span.start) not in places:
-            self.problems.append(problem)
+            self.problems.pop(("not-built-yet", place), None)
+        self.problems.setdefault((problem.code, place), problem)
 
     def _walk(self, nodes: Iterable[tree.Node], scope: Scope) -> None:
         for node in nodes:
