@@ -26,6 +26,7 @@ from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.not_built import put_off
 from ssilang.language.run.operands import Operand
 from ssilang.language.run.phrases import name_as_word, no_result, unended
+from ssilang.language.run.results import results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -192,7 +193,7 @@ class Checker:
 
     def _definition(self, node: tree.Definition, scope: Scope) -> None:
         self._procedures.append(node)
-        self._shadow(node.name, node.span)
+        self._shadow(node.name, node.span, defined=True)
         library, here = self.session.library, node.span.source.path
         theirs = library.standard_files.get(node.name)
         itself = here is not None and theirs is not None and here.resolve() == theirs.resolve()
@@ -300,11 +301,12 @@ class Checker:
                 if isinstance(item, tree.Name) and len(statement.items) == 2:
                     scope.values.pop(item.text, None)
 
-    def _shadow(self, name: str, span: Any) -> None:
+    def _shadow(self, name: str, span: Any, defined: bool = False) -> None:
         found = find_operator(name)
-        if found is None or name in ("C", "D"):
-            return
-        if name == found.name:  # a longer form hides none of what scripts mostly write
+        # a value in the place of what gives none was meant for it (DENS = 0.1); a call of another
+        # operator that a name hides is an error of its own
+        taken = found and (defined or all(results_of(form) == () for form in found.forms))
+        if taken and found and name == found.name:  # a longer form is hardly written
             self._report(SsiError("shadowed-operator", _head(span), name=name))
 
     def _outcome(self, statement: tree.Statement, left: Any) -> Values:
