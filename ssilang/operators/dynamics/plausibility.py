@@ -49,6 +49,7 @@ from ssilang.operators.dynamics.standing import (
     matter_amiss,
     out_of_balance,
     rotary_alone,
+    stops_across,
     stops_turned,
     turns_heavily,
     unequal_joints,
@@ -251,7 +252,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
-    rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
+    rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned, stops_across,
     weight_of_part, mass_of_beam, masses_apart, _mass_missing,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""

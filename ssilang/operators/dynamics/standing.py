@@ -11,6 +11,8 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.graph import chains, entries, parts_of
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
@@ -19,7 +21,7 @@ from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
-from ssilang.kernel.stepping.problem.bodies import bodies_of, held
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Body, Start, Told
 from ssilang.kernel.stepping.problem.problem import Problem, closed_forces
@@ -164,6 +166,26 @@ def stops_turned(start: Start) -> Told:
             told = {"node": nodes[0], "other": nodes[1], "gap": -apart[k]}
             yield "operators.dynamics.stop-turned", told
             return
+
+
+def stops_across(start: Start) -> Told:
+    """Stops of which none acts: no load, no motion of the start moves anything along one."""
+    problem, factors = start.problem, start.factors
+    contact, C = problem.contact, problem.constraints.C
+    if contact is None or not len(contact) or (contact.imposed @ factors.T).max() > 0.0:
+        return
+    rows = [C, contact.G, *([] if problem.interface is None else [problem.interface.J])]
+    linked = abs(problem.K) + abs(problem.M) + abs(problem.C)
+    own = linked.diagonal()
+    scale = sp.diags_array(1.0 / np.sqrt(np.where(own > 0.0, own, 1.0)))
+    linked = sp.csr_array(scale @ linked @ scale)
+    linked.data[linked.data < ROUNDING] = 0.0
+    label = parts_of(problem.numbering.size, entries(linked), *map(chains, map(sp.csr_array, rows)))
+    moved = problem.loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
+    moved |= abs(C.T) @ np.abs(problem.loading.imposed).sum(axis=1) > 0.0
+    if not np.isin(label[contact.G.indices], label[moved]).any() and moved.any():
+        node = problem.numbering.told(abs(contact.G[[0]]).toarray()[0])
+        yield "operators.dynamics.stops-across", {"node": node, "count": len(contact)}
 
 
 def mass_of_both(start: Start) -> Told:
