@@ -63,7 +63,7 @@ def structure(statements: list[tree.Statement], source: Source) -> tree.Script:
     crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
     named = {t.text for s in statements for t in s.targets if isinstance(t, tree.Name)}
     for statement in map(_without_strays, statements):
-        strays += [e for e in _inside(stack, statement) if e.data["word"].upper() not in named]
+        strays += [e for e in _inside(stack, statement) if str(e.data["word"]).upper() not in named]
         word = control_word(statement)
         if word == "FIN" and not any(getattr(i, "items", i) for i in statement.items[1:]):
             word = ""  # FIN alone stops the run, with empty parentheses, too

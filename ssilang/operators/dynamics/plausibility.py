@@ -43,6 +43,7 @@ from ssilang.operators.dynamics.standing import (
     braked,
     footing_too_wide,
     ground_twice,
+    hangs_on_springs,
     mass_of_beam,
     mass_of_both,
     masses_apart,
@@ -253,7 +254,7 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
     rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned, stops_across,
-    weight_of_part, mass_of_beam, masses_apart, _mass_missing,
+    weight_of_part, mass_of_beam, masses_apart, _mass_missing, hangs_on_springs,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (

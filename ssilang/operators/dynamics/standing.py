@@ -35,6 +35,7 @@ from ssilang.kernel.waves.shaken import (
 from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
 from ssilang.operators.matrices.connections import rotary_without_mass
 
+TURNS = ("RX", "RY", "RZ")
 OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
@@ -131,7 +132,7 @@ def turns_heavily(start: Start) -> Told:
         return
     lifts = (numbering.codes == numbering.code(start.axes[-1])).astype(float)
     mass = np.bincount(label, lifts * (problem.M @ lifts))
-    for axis in [a for a in ("RX", "RY", "RZ") if a in numbering.unknowns]:
+    for axis in [a for a in TURNS if a in numbering.unknowns]:
         turn = (numbering.codes == numbering.code(axis)).astype(float)
         inertia = np.bincount(label, turn * (problem.M @ turn))
         body = int((inertia - (FAR_MASS * size) ** 2 * mass).argmax())
@@ -186,6 +187,27 @@ def stops_across(start: Start) -> Told:
     if not np.isin(label[contact.G.indices], label[moved]).any() and moved.any():
         node = problem.numbering.told(abs(contact.G[[0]]).toarray()[0])
         yield "operators.dynamics.stops-across", {"node": node, "count": len(contact)}
+
+
+def hangs_on_springs(start: Start) -> Told:
+    """Bodies that turning springs at their highest node alone hold: a footing's, at the top."""
+    problem, numbering = start.problem, start.problem.numbering
+    if problem.interface is not None or problem.contact is not None:
+        return
+    springs = [b for b in start.inputs.stiffness.blocks if b.raw_nodes.shape[1] == 1]
+    turning = [b for b in springs if not {*TURNS}.isdisjoint(b.unknowns)]
+    if not turning:
+        return
+    at, turn = (np.concatenate([b.nodes[:, 0] for b in bs]) for bs in (springs, turning))
+    still, table = held(problem), numbering.table
+    for body in start.bodies():
+        nodes = np.unique(numbering.nodes[body.own])
+        upwards = 1.0 if body.weight >= 0.0 else -1.0
+        heights = upwards * table.coordinates[nodes, len(start.axes) - 1]
+        borne, below = np.isin(nodes, at), heights < heights.max() - BESIDE * body.size
+        stands = still[body.own].any() or (below & borne).any() or not below.any()
+        if not stands and np.isin(nodes[borne], turn).any():
+            yield "operators.dynamics.hangs-on-springs", {"node": table.told(nodes[borne][0])}
 
 
 def mass_of_both(start: Start) -> Told:
