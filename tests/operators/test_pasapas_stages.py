@@ -276,10 +276,11 @@ def test_loads_in_place_of_entries_stay_in_the_table_whatever_becomes_of_the_run
     R . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MODE' TT TM) ; PASAPAS R ;
     T . 'MODELE' = CHAR 'MODE' TT TM ; T . 'CHARGEMENT' = CHAR 'MECA' F1 E1 ;
     T . 'BLOCAGES_MECANIQUES' = CHAR 'BLOM' B ;
-    T . 'PROCEDURE_PERSO1' = VRAI ; T . 'END' = FAUX ; PASAPAS T ; SEEN = EGA T . 'SEEN' 'CHARGEME' ;
+    T . 'PROCEDURE_PERSO1' = VRAI ; T . 'END' = FAUX ; PASAPAS T ;
+    SEEN = EGA T . 'SEEN' 'CHARGEME' ;
     SUM = MAXI 'ABS' ((R . 'DEPLACEMENTS' . 5) - (T . 'DEPLACEMENTS' . 5)) ;
-    LARGEST = MAXI 'ABS' (R . 'DEPLACEMENTS' . 5) ; T . 'TEMPS_CALCULES' = PROG 3.5 ; T . 'END' = VRAI ;
-    PASAPAS T ;
+    LARGEST = MAXI 'ABS' (R . 'DEPLACEMENTS' . 5) ;
+    T . 'TEMPS_CALCULES' = PROG 3.5 ; T . 'END' = VRAI ; PASAPAS T ;
     """
     )
     result = run_text(text, tmp_path)
