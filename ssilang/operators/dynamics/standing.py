@@ -11,7 +11,7 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.graph import chains, entries, parts_of
+from ssilang.kernel.base.graph import chains, parts_of
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
@@ -176,12 +176,10 @@ def stops_across(start: Start) -> Told:
     if contact is None or not len(contact) or (contact.imposed @ factors.T).max() > 0.0:
         return
     rows = [C, contact.G, *([] if problem.interface is None else [problem.interface.J])]
-    linked = abs(problem.K) + abs(problem.M) + abs(problem.C)
-    own = linked.diagonal()
-    scale = sp.diags_array(1.0 / np.sqrt(np.where(own > 0.0, own, 1.0)))
-    linked = sp.csr_array(scale @ linked @ scale)
-    linked.data[linked.data < ROUNDING] = 0.0
-    label = parts_of(problem.numbering.size, entries(linked), *map(chains, map(sp.csr_array, rows)))
+    linked = sp.coo_array(abs(problem.K) + abs(problem.M) + abs(problem.C))
+    strong = linked.data > ROUNDING * linked.diagonal()[linked.row]
+    pairs = linked.row[strong], linked.col[strong]
+    label = parts_of(problem.numbering.size, pairs, *map(chains, map(sp.csr_array, rows)))
     moved = problem.loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
     moved |= abs(C.T) @ np.abs(problem.loading.imposed).sum(axis=1) > 0.0
     if not np.isin(label[contact.G.indices], label[moved]).any() and moved.any():
@@ -196,14 +194,11 @@ def hangs_on_springs(start: Start) -> Told:
         return
     springs = [b for b in start.inputs.stiffness.blocks if b.raw_nodes.shape[1] == 1]
     turning = [b for b in springs if not {*TURNS}.isdisjoint(b.unknowns)]
-    if not turning:
-        return
-    at, turn = (np.concatenate([b.nodes[:, 0] for b in bs]) for bs in (springs, turning))
+    at, turn = ([n for b in bs for n in b.nodes[:, 0]] for bs in (springs, turning))
     still, table = held(problem), numbering.table
-    for body in start.bodies():
+    for body in start.bodies() if turning else ():
         nodes = np.unique(numbering.nodes[body.own])
-        upwards = 1.0 if body.weight >= 0.0 else -1.0
-        heights = upwards * table.coordinates[nodes, len(start.axes) - 1]
+        heights = table.coordinates[nodes, len(start.axes) - 1] * (1.0 - 2.0 * (body.weight < 0.0))
         borne, below = np.isin(nodes, at), heights < heights.max() - BESIDE * body.size
         stands = still[body.own].any() or (below & borne).any() or not below.any()
         if not stands and np.isin(nodes[borne], turn).any():
