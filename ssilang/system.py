@@ -172,28 +172,16 @@ def limit_memory(n_bytes: int) -> bool:
 def in_bounds(
     work: Callable[[], Any], more: int, longest: float | None, *told: type[Exception]
 ) -> Any:
-    """What a function answers in a fork that holds at most so many bytes more than this process.
+    """What a function answers in a process that holds at most so many bytes more than at its start.
 
     None where it ends, or lasts so many seconds; what it raises of some classes is raised here.
-    Libraries make what a file declares, or end. Where there are no forks it is called as it is.
+    Libraries make what a file declares, or end. Where there are no forks, the function (one of a
+    module, and values that can be pickled) goes to a new Python; some systems bound no memory.
     """
-    if not CAN_FORK:
-        return work()
-
-    def answer() -> None:
-        faulthandler.disable()
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what a library says when it ends
-        status = Path("/proc/self/status")
-        held = re.search(r"VmData:\s*(\d+) kB", status.read_text() if status.is_file() else "")
-        limit_memory((1024 * int(held[1]) if held else 0) + more)
-        try:
-            sender.send(work())
-        except told as problem:
-            sender.send(problem)
-
-    context: Any = importlib.import_module("multiprocessing").get_context("fork")
+    way = "fork" if CAN_FORK else "spawn"
+    context: Any = importlib.import_module("multiprocessing").get_context(way)
     receiver, sender = context.Pipe(duplex=False)
-    worker = context.Process(target=answer, daemon=True)
+    worker = context.Process(target=_answer, args=(sender, work, more, told), daemon=True)
     with warnings.catch_warnings():  # threads: the fork starts no other of this process
         warnings.simplefilter("ignore", DeprecationWarning)
         worker.start()
@@ -208,6 +196,21 @@ def in_bounds(
     if isinstance(found, told):
         raise found
     return found
+
+
+def _answer(
+    sender: Any, work: Callable[[], Any], more: int, told: tuple[type[Exception], ...]
+) -> None:
+    """Send what a function answers, as another process."""
+    faulthandler.disable()
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what a library says when it ends
+    status = Path("/proc/self/status")
+    held = re.search(r"VmData:\s*(\d+) kB", status.read_text() if status.is_file() else "")
+    limit_memory((1024 * int(held[1]) if held else 0) + more)
+    try:
+        sender.send(work())
+    except told as problem:
+        sender.send(problem)
 
 
 def peak_memory() -> float | None:

@@ -33,12 +33,12 @@ def _together(problems: list[SsiError]) -> Iterator[SsiError]:
     """The problems, names that nothing reads in one."""
     unread = [p for p in problems if p.code == "unused-name"]
     for problem in problems:
-        if problem not in unread or len(unread) == 1:
+        if problem.code != "unused-name" or len(unread) == 1:
             yield problem
         elif problem is unread[0]:
             lines = [p.span.source.position(p.span.start)[0] for p in unread if p.span is not None]
             names = [f"{p.data['name']} ({line})" for p, line in zip(unread, lines, strict=True)]
-            yield SsiError("unused-names", problem.span, names=", ".join(names))
+            yield SsiError("unused-names", problem.span, names=tuple(names))
 
 
 def check_source(source: Source, syntax_only: bool = False) -> tuple[list[SsiError], set[str]]:

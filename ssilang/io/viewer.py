@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -209,16 +210,12 @@ def looked_at(path: Path, target: Path | None, wish: Wish) -> None:
     found = chosen_file(path)
     beside = found.parent.glob("*") if found.suffix == ".pvd" else (found,)
     most = _ROOM + _DENSEST * sum(p.stat().st_size for p in beside if p.is_file())
-
-    def look() -> bool:
-        show(path, wish) if target is None else draw(path, target, wish)
-        return True
-
+    look = partial(show, path, wish) if target is None else partial(draw, path, target, wish)
     if in_bounds(look, most, None, InputError, OutputError) is None:
         raise InputError("io.not-viewed-reader-ended", path=found, most=most / 1e6)
 
 
-def show(path: Path, wish: Wish) -> None:
+def show(path: Path, wish: Wish) -> Path:
     """Open a window, with a slider over the instants if there are several; ends when it closes.
 
     Raises
@@ -243,6 +240,7 @@ def show(path: Path, wish: Wish) -> None:
             pointb=(0.75, 0.06),
         )  # fmt: skip
     scene.plotter.show()
+    return found
 
 
 def draw(path: Path, target: Path, wish: Wish) -> Path:

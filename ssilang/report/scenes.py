@@ -10,6 +10,7 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -62,16 +63,15 @@ class _Steps:
 
 
 def guarded_scene(path: Path, most_bytes: int) -> tuple[dict[str, Any], str]:
-    """As `packed_scene`, in a fork where there are any: VTK makes what a file declares, or ends.
+    """As `packed_scene`, in a process of its own: VTK makes what a file declares, or ends.
 
     A few kB may declare more than all memory.
     """
     with suppress(ImportError):  # shared with the forks
         import pyvista  # noqa: F401
     size = sum(p.stat().st_size for p in path.parent.glob("*") if p.is_file())
-    found = in_bounds(
-        lambda: packed_scene(path, most_bytes), _ROOM + _DENSEST * size, _LONGEST, SceneError
-    )
+    look = partial(packed_scene, path, most_bytes)
+    found = in_bounds(look, _ROOM + _DENSEST * size, _LONGEST, SceneError)
     if found is None:
         raise SceneError("report.series-damaged", name=path.name)
     scene: tuple[dict[str, Any], str] = found

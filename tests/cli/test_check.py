@@ -100,7 +100,7 @@ def test_finds(text, code):
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
         ("LENGTH = 3. ; X = MOTS LENGHT 'MANU' ; MESS LENGTH X ;", "perhaps-misspelt"),
-        ("PROG = 0.1 ; MESS PROG ;", "shadowed-operator"),
+        ("DEBP PROG A ; MESS A ; FINP ; PROG 1. ;", "shadowed-operator"),
         ("DEBP @VERIFIE ; FINP ;", "overrides-procedure"),
         ("DEBP P X Y ; Z = MATE X SORT Y YOUM 2. ; FINP Z ; A = P 1 2 ; MESS A ;", "near-word"),
     ],
@@ -214,9 +214,10 @@ def test_springs_by_the_number_of_another_way_and_pulsations_are_told(text, code
         "X = 1. * 3. + 2. ; MESS X ;",
         "X = 3. * 1. / 2. ; MESS X ;",
         "CHARGE = 3. ; MESS CHARGE ;",
+        "ECOU = 3. ; MESS ECOU ;",
     ],
 )
-def test_a_one_by_itself_and_a_long_form_for_a_name_are_not_told(text):
+def test_a_one_by_itself_and_operators_that_nothing_calls_for_names_are_not_told(text):
     assert not [p for p in check_source(Source("test", text))[0] if p.code != "left-to-right"]
 
 

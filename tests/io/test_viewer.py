@@ -191,9 +191,9 @@ def blank_png(side: int) -> bytes:
 
 
 @pytest.mark.skipif(not CAN_FORK, reason="nothing bounds VTK there")
-@pytest.mark.parametrize("ending", ["vtu", "png"])
+@pytest.mark.parametrize(("ending", "forks"), [("vtu", True), ("png", False)])
 @needs_window
-def test_what_takes_all_memory_is_refused(ending, tmp_path) -> None:
+def test_what_takes_all_memory_is_refused(ending, forks, tmp_path) -> None:
     """A picture of 1.6 GB, a cell that says it has 2 10^10 points: none that the file holds.
 
     In a process of its own: a fork of one that has drawn may wait for ever for its threads.
@@ -201,9 +201,10 @@ def test_what_takes_all_memory_is_refused(ending, tmp_path) -> None:
     path, target = tmp_path / f"made.{ending}", tmp_path / "x.png"
     code = (
         "import sys\n"
+        "from ssilang import system\n"
         "from ssilang.cli import main\n"
         "from ssilang.io import viewer\n"
-        "viewer._ROOM, main._silence = 10**9, lambda: None\n"
+        f"viewer._ROOM, main._silence, system.CAN_FORK = 10**9, lambda: None, {forks}\n"
         f"sys.exit(main.main(['view', {str(path)!r}, '-o', {str(target)!r}]))\n"
     )
     for sound in (True, False):

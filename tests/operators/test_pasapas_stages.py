@@ -5,6 +5,9 @@ import pytest
 from script_runs import ran, refused
 from together import together
 
+from ssilang.cli.run import run_text
+from ssilang.kernel.curves.curve import Load
+
 LAYERS = """
 OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
 L0 = DROI 1 (0. 0.) (1. 0.) ; S1 = L0 TRAN 1 (0. 1.) ; L1 = S1 COTE 3 ;
@@ -245,3 +248,31 @@ def test_what_is_stiffer_from_now_on_keeps_what_it_carries(element, given, stiff
     assert find("U").values == pytest.approx([-0.1, -0.1 - 1.0 / 30.0])
     (block,) = find("T").get("CONTRAINTES").get(2).blocks
     assert block.components["EFFX"].mean() == pytest.approx(-2000.0)
+
+
+def test_loads_in_place_of_entries_stay_in_the_table_whatever_becomes_of_the_run(tmp_path):
+    """As parts of CHARGEMENT they give the same; a procedure of the user ends the second run."""
+    text = (
+        LAYERS.replace("{law}", ELASTIC).replace("'SIGY' 1.E9", "")
+        + """
+    DEBP PERSO1 T1*TABLE ; T1 . 'SEEN' = TYPE (T1 . 'MODELE') ; SI T1 . 'END' ; ERRE 'E' ;
+      FINSI ; FINP ;
+    TM . 0 = M1 ; TM . 1 = M1 ET M2 ; B = T . 'BLOCAGES_MECANIQUES' ; R = COPI T ;
+    R . 'CHARGEMENT' = (CHAR 'MECA' F1 E1) ET (CHAR 'MODE' TT TM) ; PASAPAS R ;
+    T . 'MODELE' = CHAR 'MODE' TT TM ; T . 'CHARGEMENT' = CHAR 'MECA' F1 E1 ;
+    T . 'BLOCAGES_MECANIQUES' = CHAR 'BLOM' B ;
+    T . 'PROCEDURE_PERSO1' = VRAI ; T . 'END' = FAUX ; PASAPAS T ;
+    SEEN = EGA T . 'SEEN' 'CHARGEME' ;
+    SUM = MAXI 'ABS' ((R . 'DEPLACEMENTS' . 5) - (T . 'DEPLACEMENTS' . 5)) ;
+    LARGEST = MAXI 'ABS' (R . 'DEPLACEMENTS' . 5) ;
+    T . 'TEMPS_CALCULES' = PROG 3.5 ; T . 'END' = VRAI ; PASAPAS T ;
+    """
+    )
+    result = run_text(text, tmp_path)
+    find = result.session.root.find
+    table = find("T")
+    assert [e.code for e in result.errors] == ["erre"], result.message
+    assert find("SEEN") is True
+    assert find("SUM") <= 1e-12 * find("LARGEST") > 0.0
+    assert all(isinstance(table.get(w), Load) for w in ("MODELE", "BLOCAGES_MECANIQUES"))
+    assert len(table.get("CHARGEMENT").parts) == 1

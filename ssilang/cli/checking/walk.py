@@ -26,6 +26,7 @@ from ssilang.language.run.leftovers import is_call
 from ssilang.language.run.not_built import put_off
 from ssilang.language.run.operands import Operand
 from ssilang.language.run.phrases import name_as_word, no_result, unended
+from ssilang.language.run.results import results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
@@ -49,7 +50,7 @@ class Checker:
         self.session = session
         self.sound = sound if sound is not None else SoundStatements()
         self.sound.begin(session)
-        self.problems: list[SsiError] = []
+        self.problems: dict[tuple[str, int], SsiError] = {}  # the first of a code and place
         self.types: dict[int, str] = {}  # of what names are given, by where the name stands
         self.entries: dict[int, Any] = {}  # what entries of tables are given, in the same way
         self.phrases = PhraseReader(session, self._report)
@@ -88,24 +89,22 @@ class Checker:
             self._report(problem)
         names = frozenset({*self._names, *scope.values, *self.session.library.standard_names})
         perhaps = (*misspelt_names(script, names, _known_words()), *misspelt_words(script, names))
+        told = {e.span.start for e in self.problems.values() if e.span is not None}
         for problem in perhaps:
-            told = {e.span.start for e in self.problems if e.span is not None}
             if problem.span is not None and problem.span.start not in told:
+                told.add(problem.span.start)
                 self._report(problem)
-        return sorted(self.problems, key=lambda e: e.span.start if e.span else 0)
+        return sorted(self.problems.values(), key=lambda e: e.span.start if e.span else 0)
 
     def _report(self, problem: SsiError) -> None:
         self._told += 1
         if self._excused and problem.severity == "error":
             problem.warns = True
             problem.data["in_branch"] = Sentence("in-branch")
+        place = -self._told if problem.span is None else problem.span.start
         if problem.code == "unknown-operator":  # what is read after all
-            self.problems = [
-                e for e in self.problems if (e.code, e.span) != ("not-built-yet", problem.span)
-            ]
-        places = {(e.code, e.span.start) for e in self.problems if e.span is not None}
-        if problem.span is None or (problem.code, problem.span.start) not in places:
-            self.problems.append(problem)
+            self.problems.pop(("not-built-yet", place), None)
+        self.problems.setdefault((problem.code, place), problem)
 
     def _walk(self, nodes: Iterable[tree.Node], scope: Scope) -> None:
         for node in nodes:
@@ -194,7 +193,7 @@ class Checker:
 
     def _definition(self, node: tree.Definition, scope: Scope) -> None:
         self._procedures.append(node)
-        self._shadow(node.name, node.span)
+        self._shadow(node.name, node.span, defined=True)
         library, here = self.session.library, node.span.source.path
         theirs = library.standard_files.get(node.name)
         itself = here is not None and theirs is not None and here.resolve() == theirs.resolve()
@@ -302,11 +301,12 @@ class Checker:
                 if isinstance(item, tree.Name) and len(statement.items) == 2:
                     scope.values.pop(item.text, None)
 
-    def _shadow(self, name: str, span: Any) -> None:
+    def _shadow(self, name: str, span: Any, defined: bool = False) -> None:
         found = find_operator(name)
-        if found is None or name in ("C", "D"):
-            return
-        if name == found.name:  # a longer form hides none of what scripts mostly write
+        # a value in the place of what gives none was meant for it (DENS = 0.1); a call of another
+        # operator that a name hides is an error of its own
+        taken = found and (defined or all(results_of(form) == () for form in found.forms))
+        if taken and found and name == found.name:  # a longer form is hardly written
             self._report(SsiError("shadowed-operator", _head(span), name=name))
 
     def _outcome(self, statement: tree.Statement, left: Any) -> Values:

@@ -103,7 +103,8 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
     moduli = moduli_of(zone, parameters, "RIGIDITE")
     values = family.stiffness_values(zone, moduli, parameters)
     made = element_matrices(zone, family.layout(zone), values, "RIGIDITE")
-    return replace(made, viscous="VISQ" in parameters)
+    dense = "RHO" in parameters and bool(np.any(parameters.raw("RHO")[0]))
+    return replace(made, viscous="VISQ" in parameters, dense=dense)
 
 
 def unlike(given: Iterable[ElementMatrices], zone: Zone, material: CellField) -> float:

@@ -12,9 +12,10 @@ OTHER_FORMULATIONS = {
     "LIQUIDE": "fluids", "NAVIER_STOKES": "fluids", "EULER": "fluids",
     "POREUX": "porous", "DARCY": "porous", "THERMOHYDRIQUE": "porous",
     "THERMIQUE": "heat", "CONVECTION": "heat", "RAYONNEMENT": "heat", "CHANGEMENT_PHASE": "heat",
-    "MAGNETODYNAMIQUE": "electromagnetism", "FISSURE": "fracture",
+    "MAGNETODYNAMIQUE": "electromagnetism", "ELECTROSTATIQUE": "electromagnetism",
+    "FISSURE": "fracture",
     "DIFFUSION": "chemistry", "METALLURGIE": "chemistry",
-    "MELANGE": "mechanics", "FROTTEMENT": "mechanics",
+    "MELANGE": "mechanics", "FROTTEMENT": "mechanics", "CONTRAINTE": "mechanics",
 }  # fmt: skip
 """Formulations that are not built, by their subject; what is not mechanics is out of scope."""
 

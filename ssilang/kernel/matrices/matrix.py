@@ -33,6 +33,8 @@ class ElementMatrices:
     symmetric : bool
     viscous : bool
         Whether its material has a viscosity, which a matrix of damping is made of.
+    dense : bool
+        Whether its material has a density, which a mass is made of.
     """
 
     table: NodeTable
@@ -45,6 +47,7 @@ class ElementMatrices:
     zone: Zone | None = None
     symmetric: bool = True
     viscous: bool = False
+    dense: bool = False
 
     @property
     def nodes(self) -> IntArray:

@@ -61,8 +61,9 @@ def structure(statements: list[tree.Statement], source: Source) -> tree.Script:
     stack = [_Open("", None)]
     strays: list[SsiError] = []
     crossed: set[str] = set()  # openers that were taken as closed: their late ends are forgiven
+    named = {t.text for s in statements for t in s.targets if isinstance(t, tree.Name)}
     for statement in map(_without_strays, statements):
-        strays += _inside(stack, statement)
+        strays += [e for e in _inside(stack, statement) if str(e.data["word"]).upper() not in named]
         word = control_word(statement)
         if word == "FIN" and not any(getattr(i, "items", i) for i in statement.items[1:]):
             word = ""  # FIN alone stops the run, with empty parentheses, too
@@ -132,6 +133,7 @@ def _inside(stack: list[_Open], statement: tree.Statement) -> list[SsiError]:
     for item, after in zip(statement.items[1:], (*statement.items[2:], None), strict=False):
         word = item.text[:4].rstrip() if isinstance(item, tree.Name) else ""
         of_loop = word in of_loops and getattr(after, "text", "").upper() in loops
+        of_loop |= word == "FIN" and after is None and not statement.assigns  # the run's
         if word in ("SINO", "FINS", "FINP", "FINM") or of_loop:
             found.append(SsiError("block-word-inside", item.span, word=item.span.text))
             found[-1].warns = True

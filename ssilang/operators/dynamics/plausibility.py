@@ -43,12 +43,14 @@ from ssilang.operators.dynamics.standing import (
     braked,
     footing_too_wide,
     ground_twice,
+    hangs_on_springs,
     mass_of_beam,
     mass_of_both,
     masses_apart,
     matter_amiss,
     out_of_balance,
     rotary_alone,
+    stops_across,
     stops_turned,
     turns_heavily,
     unequal_joints,
@@ -163,6 +165,19 @@ def _mass_held(start: Start) -> Told:
         yield "operators.dynamics.mass-held", {**told, "node": node}
 
 
+def _mass_missing(start: Start) -> Told:
+    """Cells with a density of which no node has a mass, but for those that other cells have."""
+    numbering, blocks = start.problem.numbering, start.inputs.stiffness.blocks
+    heavy = numbering.nodes[start.problem.M.diagonal() != 0.0]
+    moved = numbering.nodes[~held(start.problem)]
+    for block in (b for b in blocks if b.dense and len(heavy)):
+        others = (b.nodes.ravel() for b in blocks if b.zone and b is not block)
+        own = np.setdiff1d(block.nodes, np.concatenate([heavy[:0], *others]))
+        if np.isin(own, moved).any() and not np.isin(own, heavy).any():
+            told = {"node": numbering.table.told(int(own[0])), "count": len(block.nodes)}
+            yield "operators.dynamics.mass-missing", told
+
+
 def _viscosity_unread(start: Start) -> Told:
     if start.inputs.damping is None and any(b.viscous for b in start.inputs.stiffness.blocks):
         yield "operators.dynamics.viscosity-unread", {}
@@ -238,8 +253,8 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _motion_elsewhere, _motion_against_supports, _imposed_elsewhere, _not_conserved,
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
-    rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned,
-    weight_of_part, mass_of_beam, masses_apart,
+    rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned, stops_across,
+    weight_of_part, mass_of_beam, masses_apart, _mass_missing, hangs_on_springs,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (

@@ -126,9 +126,18 @@ class _Entering:
                 "operators.dynamics.shaken-by-others": shakes and kind in ("VITE", "DEPL"),
                 "operators.dynamics.imposed-by-others": kind in ("VITE", "ACCE") and imposes,
                 "operators.dynamics.weight-unusual": pulls and odd,
+                "operators.dynamics.weight-upward": pulls and self._upward(k),
             }.items():
                 if holds:
                     yield code, told
+
+    def _upward(self, load: int) -> bool:
+        """Whether a load lifts all by its own weight, and all that is held is below."""
+        lift = self.loads[-1, load] * self.start.factors[0, load]
+        numbering, still = self.problem.numbering, held(self.problem)
+        heights = numbering.table.coordinates[numbering.nodes, len(self.axes) - 1]
+        stands = still.any() and heights[still].max() < heights[~still].mean()
+        return bool(stands and any(abs(lift / g - 1.0) < 0.01 for g in GRAVITIES))
 
     def _masses_one_way(self) -> Told:
         """Masses that move along some axes, and do not weigh, or shake, along others."""

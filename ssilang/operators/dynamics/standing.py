@@ -11,6 +11,8 @@ from typing import Any, cast
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.graph import chains, parts_of
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
@@ -19,7 +21,7 @@ from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
-from ssilang.kernel.stepping.problem.bodies import bodies_of, held
+from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held
 from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.plausibility import Body, Start, Told
 from ssilang.kernel.stepping.problem.problem import Problem, closed_forces
@@ -33,6 +35,7 @@ from ssilang.kernel.waves.shaken import (
 from ssilang.language.vocabulary.unit_systems import MATTER, WAVES
 from ssilang.operators.matrices.connections import rotary_without_mass
 
+TURNS = ("RX", "RY", "RZ")
 OTHER_SIDE = "operators.dynamics.held-from-the-other-side"
 WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
@@ -136,7 +139,7 @@ def turns_heavily(start: Start) -> Told:
         return
     lifts = (numbering.codes == numbering.code(start.axes[-1])).astype(float)
     mass = np.bincount(label, lifts * (problem.M @ lifts))
-    for axis in [a for a in ("RX", "RY", "RZ") if a in numbering.unknowns]:
+    for axis in [a for a in TURNS if a in numbering.unknowns]:
         turn = (numbering.codes == numbering.code(axis)).astype(float)
         inertia = np.bincount(label, turn * (problem.M @ turn))
         body = int((inertia - (FAR_MASS * size) ** 2 * mass).argmax())
@@ -171,6 +174,42 @@ def stops_turned(start: Start) -> Told:
             told = {"node": nodes[0], "other": nodes[1], "gap": -apart[k]}
             yield "operators.dynamics.stop-turned", told
             return
+
+
+def stops_across(start: Start) -> Told:
+    """Stops of which none acts: no load, no motion of the start moves anything along one."""
+    problem, factors = start.problem, start.factors
+    contact, C = problem.contact, problem.constraints.C
+    if contact is None or not len(contact) or (contact.imposed @ factors.T).max() > 0.0:
+        return
+    rows = [C, contact.G, *([] if problem.interface is None else [problem.interface.J])]
+    linked = sp.coo_array(abs(problem.K) + abs(problem.M) + abs(problem.C))
+    strong = linked.data > ROUNDING * linked.diagonal()[linked.row]
+    pairs = linked.row[strong], linked.col[strong]
+    label = parts_of(problem.numbering.size, pairs, *map(chains, map(sp.csr_array, rows)))
+    moved = problem.loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
+    moved |= abs(C.T) @ np.abs(problem.loading.imposed).sum(axis=1) > 0.0
+    if not np.isin(label[contact.G.indices], label[moved]).any() and moved.any():
+        node = problem.numbering.told(abs(contact.G[[0]]).toarray()[0])
+        yield "operators.dynamics.stops-across", {"node": node, "count": len(contact)}
+
+
+def hangs_on_springs(start: Start) -> Told:
+    """Bodies that turning springs at their highest node alone hold: a footing's, at the top."""
+    problem, numbering = start.problem, start.problem.numbering
+    if problem.interface is not None or problem.contact is not None:
+        return
+    springs = [b for b in start.inputs.stiffness.blocks if b.raw_nodes.shape[1] == 1]
+    turning = [b for b in springs if not {*TURNS}.isdisjoint(b.unknowns)]
+    at, turn = ([n for b in bs for n in b.nodes[:, 0]] for bs in (springs, turning))
+    still, table = held(problem), numbering.table
+    for body in start.bodies() if turning else ():
+        nodes = np.unique(numbering.nodes[body.own])
+        heights = table.coordinates[nodes, len(start.axes) - 1] * (1.0 - 2.0 * (body.weight < 0.0))
+        borne, below = np.isin(nodes, at), heights < heights.max() - BESIDE * body.size
+        stands = still[body.own].any() or (below & borne).any() or not below.any()
+        if not stands and np.isin(nodes[borne], turn).any():
+            yield "operators.dynamics.hangs-on-springs", {"node": table.told(nodes[borne][0])}
 
 
 def mass_of_both(start: Start) -> Told:

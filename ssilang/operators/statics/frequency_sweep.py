@@ -11,6 +11,7 @@ from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.pasapas_contact import joined_matrix
+from ssilang.operators.statics.pasapas_stages import loads_taken
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def zfre(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
     entries = Entries(call, table, "PASAPAS")
     if isinstance(entries.get("REPRISE"), Table):
         entries.refuse({"REPRISE": "operators.dynamics.not-kept-frequencies"})
-    inputs = _inputs(entries)
+    inputs = _inputs(loads_taken(entries))
     frequencies = _frequencies(entries, inputs)
     tables = {word: Table() for word in _RESULTS}
     for word, results in tables.items():

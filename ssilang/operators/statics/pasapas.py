@@ -39,7 +39,7 @@ from ssilang.operators.statics.pasapas_contact import (
 )
 from ssilang.operators.statics.pasapas_materials import offsets_of
 from ssilang.operators.statics.pasapas_results import RESULTS, ResultTables, Stresses
-from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, stage_of
+from ssilang.operators.statics.pasapas_stages import Reached, Stage, entering, loads_taken, stage_of
 from ssilang.operators.statics.pasapas_steering import (
     ASKED,
     ChangedCalculation,
@@ -66,20 +66,21 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
     entries = Entries(call, table, "PASAPAS")
     start = start_of(entries)
     times, saved = _times(entries, start)
-    plausibility.warn_of_loads(entries, entries.get("CHARGEMENT"), times)
+    work = loads_taken(entries)
+    plausibility.warn_of_loads(entries, work.get("CHARGEMENT"), times)
     if not start.index:
-        warn_of_temperatures(entries, times)
+        warn_of_temperatures(work, times)
     entries.table.set(Mot("CONV"), False)
     entries.table.set(Mot("ERREUR"), True)
-    if stepped_links(entries, times, saved, start.index):
+    if work.has("MODELE") and stepped_links(entries, times, saved, start.index):
         entries.table.set(Mot("CONV"), True)
         entries.table.set(Mot("ERREUR"), False)
         return
-    inner = working_table(entries.table)
+    inner = working_table(work.table)
     tell_parts(inner)
     entries.table.set(Mot("WTABLE"), inner)
-    steered = any(entries.flag(word) for word in (*ASKED, "PROCEDURE_CHARMECA"))
-    work = Entries(call, inner, "PASAPAS") if steered else entries
+    if any(entries.flag(word) for word in (*ASKED, "PROCEDURE_CHARMECA")):
+        work = Entries(call, inner, "PASAPAS")
     start = replace(start, before=stage_of(work, times[[0, 0]]).entries)
     try:
         while len(times) > 1:

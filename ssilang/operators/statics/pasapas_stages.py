@@ -41,6 +41,19 @@ class Stage:
     steps: int
 
 
+def loads_taken(entries: Entries) -> Entries:
+    """The entries, those of STAGED that are loads being parts of CHARGEMENT; the table stays."""
+    words = [word for word, _ in STAGED.values() if isinstance(entries.get(word), Load)]
+    if not words:
+        return entries
+    table, loads = working_table(entries.table), [entries.get(w) for w in ("CHARGEMENT", *words)]
+    for word in words:
+        table.remove(word)
+    parts = (part for load in loads if load is not None for part in load.parts)
+    table.set(Mot("CHARGEMENT"), Load(tuple(parts)))
+    return Entries(entries.call, table, entries.procedure)
+
+
 def stage_of(work: Entries, times: FloatArray) -> Stage:
     """The first stage of times[1:], times[0] being where it starts."""
     load: Load | None = work.get("CHARGEMENT")

@@ -1,5 +1,7 @@
 """PERSO1, REEV_MEC: what procedures of the user see of PASAPAS, and what they change of it."""
 
+from contextlib import suppress
+
 from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.kernel.stepping.times import nearest
@@ -61,7 +63,8 @@ def tell_parts(inner: Table) -> None:
         if zones:
             inner.set(Mot(part), Model(zones))
         if zones and isinstance(material, CellField):
-            inner.set(Mot(values), field_on_model(material, Model(zones)))
+            with suppress(KernelError):  # contact without friction has no characteristics
+                inner.set(Mot(values), field_on_model(material, Model(zones)))
     inner.set(Mot("MEC1"), inner.has("MOD_MEC"))
     inner.set(Mot("MO_TOT"), model)
     inner.set(Mot("MA_TOT"), material)

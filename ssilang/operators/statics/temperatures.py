@@ -13,11 +13,16 @@ NOUGHT = 1e-3  # of the largest temperature: less is none
 
 
 def warn_of_temperatures(entries: Entries, times: FloatArray) -> None:
-    """Warn of temperatures in time that bodies lack, and of a rise from nought at the start."""
+    """Warn of temperatures that bodies lack, that are not used, that rise from nought at once."""
     load, model, material = (entries.get(w) for w in ("CHARGEMENT", "MODELE", "CARACTERISTIQUES"))
-    parts = [p for p in load.parts if p.name.strip() == "T"] if load and model and material else []
+    parts = [p for p in load.parts if p.name.strip() == "T"] if load else []
     fields = [part_at(p, float(times[0])) for p in parts]
-    if not fields or any(not isinstance(f, NodeField) for f in fields):
+    begun = entries.at("TEMPERATURES", 0)
+    if isinstance(begun, NodeField) and all(isinstance(f, NodeField) for f in fields):
+        said, used = (_total(fs, begun.node_ids) for fs in ([begun], fields))
+        if (most := np.abs(said).max(initial=0.0)) * NOUGHT < np.abs(said - used).max(initial=0.0):
+            entries.warn("operators.statics.temperatures-unused", most=most)
+    if not (fields and model and material) or any(not isinstance(f, NodeField) for f in fields):
         return
     given = {n: v.dtype for b in material.blocks for n, v in b.components.items()}
     if not EXPANDS & given.keys() and np.dtype(object) not in given.values():
@@ -27,7 +32,8 @@ def warn_of_temperatures(entries: Entries, times: FloatArray) -> None:
         told = {"count": len(lost), "node": fields[0].table.told(int(lost[0]))}
         entries.warn("operators.statics.temperature-missing", **told)
     later = [part_at(p, float(times[-1])) for p in parts]
-    first, last = (_largest(fs, _risen(model, material)) for fs in (fields, later))
+    risen = _risen(model, material)
+    first, last = (float(np.abs(_total(fs, risen)).max(initial=0.0)) for fs in (fields, later))
     if first > NOUGHT * max(first, last) and first != last:
         entries.warn("operators.statics.warm-from-the-start", first=first, last=last)
 
@@ -58,7 +64,6 @@ def _expanding(model: Model, material: CellField) -> Iterable[tuple[Zone, ZoneFi
             yield zone, seen
 
 
-def _largest(fields: list[NodeField], nodes: IntArray) -> float:
-    """The largest sum of temperatures at nodes (n,), by magnitude."""
-    total = sum((f.values_at("T", nodes) for f in fields), np.zeros(len(nodes)))
-    return float(np.abs(total).max(initial=0.0))
+def _total(fields: list[NodeField], nodes: IntArray) -> FloatArray:
+    """The sums of temperatures at nodes (n,)."""
+    return sum((f.values_at("T", nodes) for f in fields), np.zeros(len(nodes)))

@@ -1,6 +1,8 @@
 """Checks of a text that was changed: what is not read again is what it was."""
 
+import io
 import os
+import time
 from pathlib import Path
 
 import pytest
@@ -12,8 +14,9 @@ from ssilang.cli.check import check_source
 from ssilang.cli.checking import walk
 from ssilang.cli.checking.sound import SoundStatements
 from ssilang.cli.editor.problems import Findings, find_problems
-from ssilang.cli.run import run_text
-from ssilang.language.text.source import Source
+from ssilang.cli.run import RunOptions, make_session, run_text
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.source import Source, Span
 
 ROOT = Path(__file__).parents[3]
 DECK = """OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ;
@@ -171,3 +174,17 @@ def test_a_name_is_of_a_type_where_it_is_so_whichever_way_is_taken(between, sure
     assert told == (["wrong-argument"] if sure else [])
     if not sure:
         assert run_text(text).exit_code == 0
+
+
+def test_many_problems_take_a_time_each():
+    def seconds(count):
+        source = Source("script", "x" * count)
+        checker = walk.Checker(make_session(source, RunOptions(), io.StringIO()))
+        problems = [SsiError("unused-name", Span(source, i, i + 1), name="X") for i in range(count)]
+        start = time.process_time()
+        for problem in problems:
+            checker._report(problem)
+        assert len(checker.problems) == count
+        return time.process_time() - start
+
+    assert seconds(4_000) < 40.0 * seconds(400)  # 100 times where each looks through all before

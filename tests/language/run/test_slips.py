@@ -91,6 +91,8 @@ def test_an_else_of_no_condition_is_refused(fails):
         ("REPE B 2 ; ITER = 'ITER' ; Y = ITER ITER ; FIN B ;", []),
         ("DEBP F A*ENTIER ; Y = A «FINP» Y ; FINP Y ; Z = F 3 ;", ["FINP"]),
         ("SI VRAI ; MESS 'SINON' ; FINSI ; B = 'FIN' ; MESS B ;", []),
+        ("MESS 2\n«FIN» ;", ["FIN"]),
+        ("FIN = 3. ; MESS FIN ; X = PROG 1. FIN ; FIN ;", []),
         ("T = TABL ; T . FIN = 2 ; REPE B 1 ; X = T . FIN B ; FIN B ;", []),
     ],
 )
