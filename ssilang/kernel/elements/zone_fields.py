@@ -182,6 +182,10 @@ class ZoneField:
         uniform = len(found) > 1 and found.shape[1] == 1 and (found == found[0, 0]).all()
         return found[:1] if uniform else found
 
+    def each(self, name: str, default: float | None = None) -> FloatArray:
+        """Values (n_cells,), one a cell: at its first point where they vary."""
+        return np.broadcast_to(self.at(name, "GRAVITE", default)[:, 0], (len(self.zone.cells),))
+
     def matrix(self, names: tuple[str, ...], support: Support) -> FloatArray:
         """Several components side by side, zero where absent, (n_cells, len(names), n_points)."""
         n = len(self.zone.cells)

@@ -427,8 +427,8 @@ def _body_force(
     parameters = zone_field(zone, material)
     if ELEMENTS[zone.element].family in ("plate", "mindlin"):
         shapes = shape_functions(zone.cells.cell_type, support_rule(zone.element, "MASSE").points)
-        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (len(zone.cells),))
-        w = family_of(zone).weights(zone, parameters, "MASSE") * h[:, None]
+        h = parameters.each("EPAI")[:, None]
+        w = family_of(zone).weights(zone, parameters, "MASSE") * h
         values = _density_values(zone, density, names, shapes, slice(0, len(zone.cells)))
         return _scatter(zone, zone.cells, np.einsum("cp,cpd,pk->ckd", w, values, shapes))
     if not boundary.is_solid(zone):

@@ -72,10 +72,7 @@ def points_of(zone: Zone, support: Support) -> FloatArray:
 
 def polar_frames(x: FloatArray, centre: FloatArray) -> FloatArray:
     """Frames (..., 3, 3), rows: radius in the plane, its quarter turn, z."""
-    radius = (x - centre) * [1.0, 1.0, 0.0]
-    r = unit(radius)
-    z = np.broadcast_to(np.array([0.0, 0.0, 1.0]), r.shape)
-    return np.stack([r, np.cross(z, r), z], axis=-2)
+    return cylindrical_frames(x, centre, centre + np.array([0.0, 0.0, 1.0]))
 
 
 def cylindrical_frames(x: FloatArray, centre: FloatArray, on_axis: FloatArray) -> FloatArray:

@@ -159,17 +159,9 @@ def _sampled_shear(brick: _Brick, points: FloatArray) -> FloatArray:
 class SolidShell(family.ElementFamily):
     """Shell on bricks, with translations only."""
 
-    def layout(self, zone: Zone) -> family.Layout:
-        """Translations, node by node."""
-        return family.node_major_layout(zone, _KINEMATICS.unknowns)
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """EPXX ... in global axes, then those that hold the brick."""
-        return (*_KINEMATICS.strains, *(f"GH0{i + 1}" for i in range(_HELD)))
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """SMXX ... in global axes, then those that hold the brick."""
-        return (*_KINEMATICS.stresses, *(f"SH0{i + 1}" for i in range(_HELD)))
+    # in global axes, then those that hold the brick
+    strains = (*_KINEMATICS.strains, *(f"GH0{i + 1}" for i in range(_HELD)))
+    stresses = (*_KINEMATICS.stresses, *(f"SH0{i + 1}" for i in range(_HELD)))
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Plane stress in the surface, E across it, shear; turned to global axes.
