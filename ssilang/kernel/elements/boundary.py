@@ -10,14 +10,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
+from ssilang.kernel.elements.family import Layout, element_matrices
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
-from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.elements.zone_fields import ZoneField, rows_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 # points that integrate two shape functions of the face times a linear field
@@ -39,27 +40,18 @@ def face_rule(cell_type: str) -> Rule:
     return quadrature(REFERENCE_CELLS[cell_type].shape, _POINTS[cell_type])
 
 
-def _keys(nodes: IntArray) -> np.ndarray:
-    rows = np.ascontiguousarray(np.sort(nodes, axis=1))
-    return rows.view([("", rows.dtype)] * rows.shape[1]).ravel()
-
-
 def parents(faces: CellBlock, model: Model) -> Parents:
     """Cells of a model on which faces lie (the first found)."""
     zone = np.full(len(faces), -1, dtype=np.int64)
     cell = np.full(len(faces), -1, dtype=np.int64)
-    wanted = _keys(faces.connectivity)
     for number, part in enumerate(model.zones):
         sides = [s for kind, s in part.cells.kind.faces if kind == faces.cell_type]
         if not sides or not len(part.cells):
             continue
         table = np.concatenate([part.cells.connectivity[:, list(s)] for s in sides])
         owner = np.tile(np.arange(len(part.cells)), len(sides))
-        keys = _keys(table)
-        order = np.argsort(keys, kind="stable")
-        place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
-        rows = order[place]
-        found = (keys[rows] == wanted) & (zone < 0)
+        rows = rows_of(table, faces.connectivity)
+        found = (rows >= 0) & (zone < 0)
         zone[found], cell[found] = number, owner[rows[found]]
     return Parents(zone, cell)
 
@@ -168,12 +160,6 @@ def _damping(
     D = across[:, None, None, None] * (np.eye(d) - outer) + along[:, None, None, None] * outer
     N = geometry.shapes
     values = np.einsum("cp,pa,pb,cpij->caibj", geometry.measures, N, N, D, optimize=True)
-    return ElementMatrices(
-        part.nodes,
-        part.raw,
-        np.repeat(np.arange(k), d),
-        names * k,
-        tuple(dual_of(n) for n in names) * k,
-        values.reshape(len(part), k * d, k * d),
-        "AMORTISSEMENT",
-    )
+    layout = Layout(part.nodes, part.raw, np.repeat(np.arange(k), d), names * k)
+    flat = values.reshape(len(part), k * d, k * d)
+    return element_matrices(zone, layout, flat, "AMORTISSEMENT", keep_zone=False)

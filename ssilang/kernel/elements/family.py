@@ -44,8 +44,7 @@ class Layout:
         out = np.zeros((len(nodes), len(self.unknowns)))
         for name in dict.fromkeys(self.unknowns):
             columns = [i for i, u in enumerate(self.unknowns) if u == name]
-            at = nodes[:, self.local[columns]]
-            out[:, columns] = field.values_at(name, at.ravel()).reshape(at.shape)
+            out[:, columns] = field.values_at(name, nodes[:, self.local[columns]])
         return out
 
     def scatter(self, vectors: FloatArray) -> NodeField:

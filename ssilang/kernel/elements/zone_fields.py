@@ -15,22 +15,23 @@ from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.mesh.combine import row_keys
 from ssilang.kernel.mesh.mesh import CellBlock
-
-
-def cell_keys(cells: CellBlock) -> NDArray[np.void]:
-    """One comparable key a cell: its nodes in increasing order, shape (n_cells,)."""
-    nodes = np.ascontiguousarray(np.sort(cells.connectivity, axis=1))
-    return nodes.view([("", nodes.dtype)] * nodes.shape[1]).ravel()
 
 
 def cell_rows(inside: CellBlock, wanted: CellBlock) -> IntArray:
     """Row in `inside` of each cell of `wanted`, -1 where there is none, shape (n_wanted,)."""
-    if inside.cell_type != wanted.cell_type or not len(inside) or not len(wanted):
+    if inside.cell_type != wanted.cell_type:
         return np.full(len(wanted), -1)
-    keys = cell_keys(inside)
+    return rows_of(inside.connectivity, wanted.connectivity)
+
+
+def rows_of(inside: IntArray, wanted: IntArray) -> IntArray:
+    """Row (m,) of a table (n, k) with the nodes of each of other rows (m, k), -1 for none."""
+    if not len(inside) or not len(wanted):
+        return np.full(len(wanted), -1)
+    keys, probe = row_keys(inside), row_keys(wanted)
     order = np.argsort(keys, kind="stable")
-    probe = cell_keys(wanted)
     place = np.minimum(np.searchsorted(keys, probe, sorter=order), len(keys) - 1)
     rows = order[place]
     return np.where(keys[rows] == probe, rows, -1)

@@ -297,7 +297,9 @@ class FibreBeam(Timoshenko):
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Linear interpolation; fibres off the line tie translations to rotations."""
         frame = beam_frame(zone, parameters)
-        local = np.kron(_LINEAR / 6, section_of_beam(parameters).mass) * frame.lengths[:, None, None]
+        local = (
+            np.kron(_LINEAR / 6, section_of_beam(parameters).mass) * frame.lengths[:, None, None]
+        )
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
     def _squared_radii(self, zone: Zone, parameters: ZoneField) -> FloatArray:
