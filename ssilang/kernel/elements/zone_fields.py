@@ -15,6 +15,7 @@ from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.mesh.cells import LINEAR_CELLS
 from ssilang.kernel.mesh.combine import row_keys
 from ssilang.kernel.mesh.mesh import CellBlock
 
@@ -37,15 +38,9 @@ def rows_of(inside: IntArray, wanted: IntArray) -> IntArray:
     return np.where(keys[rows] == probe, rows, -1)
 
 
-_LINEAR_OF = {
-    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8",
-    "PY13": "PYR5",
-}  # fmt: skip
-
-
 def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> list[FloatArray]:
     """Richest basis that the source points determine, at source and target points."""
-    for name in (cell_type, _LINEAR_OF.get(cell_type, cell_type)):
+    for name in (cell_type, LINEAR_CELLS.get(cell_type, cell_type)):
         at_source = shape_functions(name, source)
         # points above one another, as those across thick shells, determine no more than one does
         if np.linalg.matrix_rank(at_source) == len(REFERENCE_CELLS[name].nodes):

@@ -4,7 +4,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.kernel.mesh.cells import CELL_TYPES, LINEAR_CELLS, POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 
@@ -84,30 +84,16 @@ def signed_volumes(block: CellBlock) -> FloatArray:
 
     Positive when the faces of `CELL_TYPES` point outwards.
     """
-    corners = _LINEAR[block.cell_type]
     points = block.coordinates[:, list(block.kind.corners)]
     points = points - points[:, :1]
     total = np.zeros(len(block))
-    for _, face in CELL_TYPES[corners].faces:
+    for _, face in CELL_TYPES[LINEAR_CELLS[block.cell_type]].faces:
         part = points[:, list(face)]
         centre = part.mean(axis=1)
         following = np.roll(part, -1, axis=1)
         triple = np.einsum("nij,nij->n", np.cross(part, following), centre[:, None] + 0 * part)
         total += triple / 6.0
     return total
-
-
-_LINEAR = {
-    "TET4": "TET4",
-    "TE10": "TET4",
-    "PYR5": "PYR5",
-    "PY13": "PYR5",
-    "PRI6": "PRI6",
-    "PR15": "PRI6",
-    "CUB8": "CUB8",
-    "CU20": "CUB8",
-    "CU27": "CUB8",
-}
 
 
 def orient(mesh: Mesh, space_dimension: int) -> Mesh:
