@@ -45,10 +45,7 @@ def _joined(a: NodeValues, b: NodeValues, factor: float) -> NodeValues:
     if a.nodes is b.nodes or np.array_equal(a.nodes, b.nodes):
         return NodeValues(a.nodes, a.values + factor * b.values)
     nodes = np.union1d(a.nodes, b.nodes)
-    values = np.zeros(len(nodes))
-    values[np.searchsorted(nodes, a.nodes)] = a.values
-    values[np.searchsorted(nodes, b.nodes)] += factor * b.values
-    return NodeValues(nodes, values)
+    return NodeValues(nodes, a.at(nodes) + factor * b.at(nodes))
 
 
 def added(a: NodeField, b: NodeField, factor: float = 1.0) -> NodeField:
@@ -100,10 +97,7 @@ def _merged(table: NodeTable, name: str, a: NodeValues, b: NodeValues, check: bo
         told |= {"both": table.told(both[k])}
         raise FieldError("kernel.fields.component-field-node", **told)
     nodes = np.union1d(a.nodes, b.nodes)
-    values = np.zeros(len(nodes))
-    values[np.searchsorted(nodes, b.nodes)] = b.values
-    values[np.searchsorted(nodes, a.nodes)] = a.values
-    return NodeValues(nodes, values)
+    return NodeValues(nodes, np.where(np.isin(nodes, a.nodes), a.at(nodes), b.at(nodes)))
 
 
 def _combined(a: NodeValues, b: NodeValues, function: Callable[[Any, Any], Any]) -> NodeValues:
