@@ -32,8 +32,11 @@ _FLIPS: dict[str, tuple[int, ...]] = {
     "TRI7": (*_polygon_flip(6), 6),
     "QUA9": (*_polygon_flip(8), 8),
 }
-# faces: bottom, top, then those around, and the middle
-_FLIPS["CU27"] = (*_FLIPS["CU20"], 20, 21, 25, 24, 23, 22, 26)
+# complete volumes: the nodes in the middles of the faces follow these, the last one stays
+for _name, _whole in (("TE10", "TE15"), ("PY13", "PY19"), ("PR15", "PR21"), ("CU20", "CU27")):
+    _order, _faces = _FLIPS[_name], [set(face) for _, face in CELL_TYPES[_name].faces]
+    _turned = [len(_order) + _faces.index({_order[i] for i in face}) for face in _faces]
+    _FLIPS[_whole] = (*_order, *_turned, len(_order) + len(_faces))
 
 
 def flipped_order(cell_type: str) -> tuple[int, ...]:
