@@ -467,7 +467,9 @@ def test_models_of_a_table_pasapas_are_the_tables_of_the_other_form(tmp_path):
     assert (root.find("N"), root.find("Y")) == (0, pytest.approx(0.21))
 
 
-def test_pasapas_steps_models_of_links(tmp_path):
+@pytest.mark.parametrize(("first", "of_first"), [("", ""), ("1.E-4", "1 2")])
+def test_pasapas_steps_models_of_links(first, of_first, tmp_path):
+    """Results of the first step hold those of the start too."""
     root = run(
         MASS
         + LINE.format(line="DROI 3 (2. 0.) (-1. 0.)")
@@ -480,18 +482,18 @@ def test_pasapas_steps_models_of_links(tmp_path):
         T = TABL 'PASAPAS' ; T . 'MODELE' = M1 ET M2 ET L ; T . 'CARACTERISTIQUES' = A ET AL ;
         T . 'VITESSES' = TABL ; T . 'VITESSES' . 0 = TI . 'VITESSE' ; T . 'DYNAMIQUE' = VRAI ;
         T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-4 0.15 ;
-        T . 'TEMPS_SAUVES' = PROG 0. 'PAS' 6.E-3 0.15 ; PASAPAS T ;
-        S = EXTR (T . 'VARIABLES_INTERNES' . 17) 'SLIA' 3 1 1 ;
+        T . 'TEMPS_SAUVES' = PROG 0. {first} 6.E-3 'PAS' 6.E-3 0.15 ; PASAPAS T ;
+        N = DIME (T . 'TEMPS') ; S = EXTR (T . 'VARIABLES_INTERNES' . (N - 9)) 'SLIA' 3 1 1 ;
         X = EXTR (S . 'FORCE_DE_CHOC_NORMALE') 1 ;
         Y = EXTR (S . 'CHPOINT_FORCE_DE_CHOC' . 1) P 'NORM' ;
-        E = MAXI ((T . 'VITESSES' . 25) - V) 'ABS' ;
+        E = MAXI ((T . 'VITESSES' . (N - 1)) - V) 'ABS' ;
         L0 = R . L1 . 'FORCE_DE_CHOC_NORMALE' ; LF = PROG ;
-        REPE b ((DIME (T . 'TEMPS')) - 1) ;
+        REPE b (N - 1) ;
           S = EXTR (T . 'VARIABLES_INTERNES' . &b) 'SLIA' 3 1 1 ;
           LF = LF ET (S . 'FORCE_DE_CHOC_NORMALE') ;
         FIN b ;
-        LW = EXTR L0 (LECT 1 'PAS' 60 1501) ; D = MAXI (LF - LW) 'ABS' ;
-        """,
+        LW = EXTR L0 (LECT {of_first} 61 'PAS' 60 1501) ; D = MAXI (LF - LW) 'ABS' ;
+        """.replace("{first}", first).replace("{of_first}", of_first),
         tmp_path,
     )
     assert root.find("D") < 1e-9

@@ -413,7 +413,7 @@ def test_pressure_in_large_displacements_is_that_of_charmeca(tmp_path):
 
 
 @pytest.mark.parametrize(("law", "large"), [("", False), ("", True), ("PLASTIQUE PARFAIT", True)])
-def test_strains_of_large_displacements_are_not_kept_which_is_told(law, large, tmp_path):
+def test_strains_of_large_displacements_are_those_of_green_and_lagrange(law, large, tmp_path):
     script = f"""OPTI DIME 3 ELEM CUB8 ;
     S = ((DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.)) ; V = S VOLU 1 TRAN (0. 0. 1.) ;
     M = MODE V MECANIQUE ELASTIQUE ISOTROPE {law} ; A = MATE M YOUN 10. NU 0. {law and "SIGY 5."} ;
@@ -421,10 +421,10 @@ def test_strains_of_large_displacements_are_not_kept_which_is_told(law, large, t
     T . BLOCAGES_MECANIQUES = P ET (BLOQ UZ S) ET (BLOQ UX UY V) ;
     T . CHARGEMENT = CHAR DIMP (DEPI P 0.1) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;
     T . TEMPS_CALCULES = PROG 0. 1. ; T . MES_SAUVEGARDES = TABL ;
-    T . MES_SAUVEGARDES . DEFTO = VRAI ; T . GRANDS_DEPLACEMENTS = {"VRAI" if large else "FAUX"} ;
-    PASAPAS T ; MESS (EXIS T DEFORMATIONS) ;"""
+    {large and "T . GRANDS_DEPLACEMENTS = VRAI ;" or "T . MES_SAUVEGARDES . DEFTO = VRAI ;"}
+    PASAPAS T ; MESS (MAXI (EXCO EPZZ (T . DEFORMATIONS . 1))) ' ' (TYPE (T . WTABLE . FOR0)) ;"""
     result = ran(script, output_directory=tmp_path)
     assert result.exit_code == 0, result.message
-    codes = [w.code for w in result.session.warnings]
-    assert ("operators.statics.strains-of-large-displacements" in codes) is large
-    assert result.output.split()[-1] == ("FAUX" if large else "VRAI")
+    *_, strain, configuration = result.output.split()
+    assert float(strain) == pytest.approx(0.1 + 0.5 * 0.1**2 if large else 0.1)
+    assert configuration == "CONFIGUR"

@@ -36,9 +36,14 @@ def expected(r, t, z, n):
 @together("n", [0, 1, 3, -2])
 @together("upright", [False, True])
 def test_fields_in_space(n, upright):
-    script = PLANE + (
-        f"T . 'REDRESSE' = {'VRAI' if upright else 'FAUX'} ; T . 'ANGLES' = PROG 0. PAS 30. 180. ;"
-        f"T . 'ELIM' = 1.E-8 ; FOUR2TRI T {n} ; M = T . 'MAILLAGE_3D' ;"
+    """The harmonic 3 by the older form."""
+    angles, scalars = "(PROG 0. PAS 30. 180.) ;", PLANE
+    call = f"T . 'ANGLES' = {angles} FOUR2TRI T {n} ; M = T . 'MAILLAGE_3D' ;"
+    if n == 3:
+        scalars = PLANE.replace("CHPO_SYME", "CHAMPS_POINTS_SYMETRIQUES")
+        call = f"MO = MODE S1 'MECANIQUE' 'ELASTIQUE' ; M = FOUR2TRI MO T {n} {angles}"
+    script = scalars + (
+        f"T . 'REDRESSE' = {'VRAI' if upright else 'FAUX'} ; T . 'ELIM' = 1.E-8 ; {call}"
         "U = T . 'DEPLACEMENTS_3D' . 1 ; A = T . 'CHPO_SYME_3D' . 1 ; B = T . 'CHPO_ANTI_3D' . 1 ;"
         "H = T . 'ANGLE_3D' ;"
     )

@@ -128,8 +128,8 @@ def mass_terms(harmonics: int) -> FloatArray:
     return np.asarray(D @ D)
 
 
-Samples = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-"""Forces (N, m) and the derivatives of -f (N, m, m) at motions (N, m) of a few unknowns."""
+Samples = Callable[[FloatArray, float], tuple[FloatArray, FloatArray]]
+"""Forces (N, m) and the derivatives of -f (N, m, m) at motions (N, m) of a few unknowns, and t."""
 CURVE_STEP = 1e-6
 
 
@@ -148,6 +148,7 @@ class FrequencyProblem:
     # (2 H + 1, m) where the coefficients of the unknowns with nonlinear forces stand in U
     places: IntArray
     samples: Samples | None = None
+    timed: bool = False  # the samples change with t
     size: float = 0.0
     parts: tuple[FloatArray, FloatArray, FloatArray] = field(init=False)
 
@@ -171,8 +172,10 @@ class FrequencyProblem:
         linear = Z @ u
         R, J = linear - load, Z
         if self.samples is not None:
-            force, tangent = self._nonlinear(u)
+            force, tangent = self._nonlinear(u, t)
             R, J = R - force, Z + tangent
+            if self.timed:
+                load_rate = load_rate + (self._nonlinear(u, t + h)[0] - force) / h
         self.size = max(float(np.linalg.norm(load)), float(np.linalg.norm(linear)))
         return R, J, rate * ((C + 2 * w * M) @ u) - load_rate
 
@@ -180,13 +183,13 @@ class FrequencyProblem:
         """Coefficients (2 H + 1, m) of the unknowns with nonlinear forces."""
         return np.asarray((self.T @ u)[self.places])
 
-    def sampled(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def sampled(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray]:
         """Forces and stiffnesses at the instants of the basis."""
         assert self.samples is not None
-        return self.samples(self.basis.values @ self.coefficients(u))
+        return self.samples(self.basis.values @ self.coefficients(u), t)
 
-    def _nonlinear(self, u: FloatArray) -> tuple[FloatArray, FloatArray]:
-        f, k = self.sampled(u)
+    def _nonlinear(self, u: FloatArray, t: float) -> tuple[FloatArray, FloatArray]:
+        f, k = self.sampled(u, t)
         b, n = self.basis, self.T.shape[0]
         force = np.zeros(n)
         np.add.at(force, self.places, b.back @ f)

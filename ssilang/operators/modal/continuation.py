@@ -27,16 +27,17 @@ class Sampled:
 
     TAB1 . 'DEP_NL' holds the motion at equal instants of a period, a LISTCHPO ('CALC_CHPO' =
     VRAI) or one LISTREEL an unknown; the procedure sets 'FNL_T' alike and 'KNL_T' . i . j, the
-    LISTREEL of - dF_i/dx_j.
+    LISTREEL of - dF_i/dx_j. 'TIME' holds the pseudo-time.
     """
 
     def __init__(self, entries: Entries, point: Point, names: list[str]) -> None:
         self.entries, self.point, self.names = entries, point, names
         self.fields = entries.flag("CALC_CHPO")
 
-    def __call__(self, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, motion: FloatArray, time: float) -> tuple[FloatArray, FloatArray]:
         """f (N, m) and -df/dx (N, m, m)."""
         table, count = self.entries.table, motion.shape
+        table.set(Mot("TIME"), float(time))
         table.set(Mot("DEP_NL"), self._given(motion))
         call_user(self.entries.call, "CHARMECA", table)
         force = self._forces(self.entries.needed("FNL_T"), count)
@@ -139,6 +140,10 @@ def continue_harmonics(entries: Entries) -> None:
     names = known_names(entries)
     problem = _problem(entries, names)
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
+    if problem.samples is not None:
+        still = np.ones((len(problem.basis.values), problem.places.shape[1]))
+        ends = [problem.samples(still, float(t))[0] for t in (times.min(), times.max())]
+        problem.timed = bool((ends[0] != ends[1]).any())
     tracer = Tracer(problem, lengths_of(entries))
     begin = _begin(entries, problem, float(times[0]))
     if begin.way is None:
@@ -400,7 +405,7 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
         stiffness = np.broadcast_to(k, (len(problem.basis.values), *k.shape))
         if at:
             stiffness = k + np.einsum(
-                "ia,tij,jb->tab", rows_of, problem.sampled(point.u)[1], rows_of
+                "ia,tij,jb->tab", rows_of, problem.sampled(point.u, point.t)[1], rows_of
             )
         damping = np.broadcast_to(c, stiffness.shape)
         w = problem.frequency(point.t)

@@ -16,7 +16,7 @@ def stepped_links(
 
     `first` is the number of the result that it goes on from, which stays. The results of a link
     asked for (SORT) stand in VARIABLES_INTERNES, a table at SLIA: their value at the instant, in
-    the first result also that of the start before it, which fields of an initial state have not.
+    that of the first step also that of the start, which fields of an initial state have not.
     """
     model: Model | None = entries.get("MODELE")
     if model is None or not any(is_link(z) for z in model.zones):
@@ -37,7 +37,8 @@ def stepped_links(
         entry = results.get(int(step) + 1)
         assert isinstance(entry, Table)
         of_links = {
-            id(z): _at_step(results.get(k), int(step), begun=number == 1) for z, _, k in named
+            id(z): _at_step(results.get(k), int(step), begun=number == step == 1)
+            for z, _, k in named
         }
         blocks = tuple(_block(z, of_links.get(id(z))) for z in model.zones)
         values = {

@@ -75,11 +75,11 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
         entries.table.set(Mot("CONV"), True)
         entries.table.set(Mot("ERREUR"), False)
         return
-    work = entries
-    if any(entries.flag(word) for word in (*ASKED, "PROCEDURE_CHARMECA")):
-        work = Entries(call, working_table(entries.table), "PASAPAS")
-        tell_parts(work.table)
-        entries.table.set(Mot("WTABLE"), work.table)
+    inner = working_table(entries.table)
+    tell_parts(inner)
+    entries.table.set(Mot("WTABLE"), inner)
+    steered = any(entries.flag(word) for word in (*ASKED, "PROCEDURE_CHARMECA"))
+    work = Entries(call, inner, "PASAPAS") if steered else entries
     start = replace(start, before=stage_of(work, times[[0, 0]]).entries)
     try:
         while len(times) > 1:
@@ -112,15 +112,10 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
 
 
 def _strained(given: Entries, finite: bool) -> CellField | None:
-    """The material field where MES_SAUVEGARDES asks for strains, None where it does not."""
+    """The material field where strains are kept: where asked for, and in large displacements."""
     asked = given.inside("MES_SAUVEGARDES")
-    if asked is None or not asked.flag("DEFTO"):
-        return None
-    if finite:
-        given.warn("operators.statics.strains-of-large-displacements")
-        return None
-    material: CellField = given.needed("CARACTERISTIQUES")
-    return material
+    kept = finite or (asked is not None and asked.flag("DEFTO"))
+    return cast("CellField", given.needed("CARACTERISTIQUES")) if kept else None
 
 
 def _stretch(
@@ -167,8 +162,9 @@ def _stretch(
         warn_of_weight(entries.call, inputs.stiffness, zones, nodes, pressing)
     strained = _strained(given, bool(finite))
     results = ResultTables(
-        entries.table, saved, stresses, dynamic, number, zones, strained, given.get("CHARGEMENT")
-    )
+        entries.table, saved, stresses, dynamic, number, zones, strained, given.get("CHARGEMENT"),
+        bool(finite),
+    )  # fmt: skip
     reached = Reached(results, len(times))
     observers: list[Observer] = [results, reached]
     kept = work.get("TEMPS_SAUVEGARDES")

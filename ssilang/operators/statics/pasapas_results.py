@@ -1,6 +1,7 @@
 """The tables that PASAPAS fills."""
 
 from ssilang.kernel.elements.families import family_of, strain, stress
+from ssilang.kernel.elements.results.integrals import green_strain, has_second_order
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.statics.thermal_load import ThermalStress, free_terms
 from ssilang.operators.prelude import *
@@ -69,8 +70,9 @@ class ResultTables:
 
     `number` is that of the initial state; what the table already holds there is kept. Fields in
     cells come in the order of `zones`, the model's, which a script's EXTR counts. DEFORMATIONS
-    is filled with the linear strains, less those that `load` gives (T, DEFI), where `material`
-    is given, TEMPERATURES with the temperatures of `load` where it has some.
+    is filled with strains, less those that `load` gives (T, DEFI), where `material` is given:
+    the linear ones or, with `finite`, those of Green-Lagrange, which beams and shells have none of.
+    TEMPERATURES is filled with the temperatures of `load` where it has some.
     """
 
     table: Table
@@ -81,6 +83,7 @@ class ResultTables:
     zones: tuple[Zone, ...] = ()
     material: CellField | None = None
     load: Load | None = None
+    finite: bool = False
     _free: dict[int, list[tuple[FloatArray, Any]]] = field(default_factory=dict, repr=False)
     _last: "tuple[Snapshot, dict[str, Any]] | None" = field(default=None, repr=False)
 
@@ -116,8 +119,10 @@ class ResultTables:
             snapshot.plastic_strains or CellField((), "DEFORMATIONS INELASTIQUES")
         )
         if self.material is not None:
-            bodies = (z for z in self.zones if not is_joint(z) and family_of(z).strain_names(z))
-            strains = [self._strain(z, self.material, u, snapshot.time) for z in bodies]
+            bodies = (z for z in self.zones if not is_joint(z) and z.formulation == "MECANIQUE")
+            seen = (z for z in bodies if has_second_order(z) or not self.finite)
+            strained = (z for z in seen if family_of(z).strain_names(z))
+            strains = [self._strain(z, self.material, u, snapshot.time) for z in strained]
             jumps = snapshot.jumps.blocks if snapshot.jumps else ()
             values["DEFORMATIONS"] = self._in_order(CellField((*strains, *jumps), "DEFORMATIONS"))
         if self.dynamic:
@@ -131,7 +136,7 @@ class ResultTables:
     def _strain(
         self, zone: Zone, material: CellField, displacement: NodeField, time: float
     ) -> CellFieldBlock:
-        found = strain(zone, displacement, material)
+        found = (green_strain if self.finite else strain)(zone, displacement, material)
         parts = dict(found.components)
         if id(zone) not in self._free:  # the same at all instants
             self._free[id(zone)] = free_terms(self.load, zone, material)

@@ -75,9 +75,9 @@ def test_slopes_of_a_balance_in_motion_and_in_time_are_those_of_differences():
     times = np.array([0.0, 1.0, 2.0])
     loading = Loading(rng.standard_normal((n, m)), np.zeros((0, m)),
                       ((times, times**2), (times, 3.0 - times)))  # fmt: skip
-    cubic = lambda q: (-(q**3), 3.0 * q[:, :, None] ** 2 * np.eye(m))  # noqa: E731
+    cubic = lambda q, t: (-t * q**3, 3.0 * t * q[:, :, None] ** 2 * np.eye(m))  # noqa: E731
     problem = FrequencyProblem(None, K, C, M, T, loading, lambda t: 1.0 + t * t, basis, places,
-                               cubic)  # fmt: skip
+                               cubic, timed=True)  # fmt: skip
     u, t, h = rng.standard_normal(4), 1.4, 1e-6
     R, J, rate = problem.at(u, t)
     for j, step in enumerate(h * np.eye(4)):
@@ -89,7 +89,7 @@ def test_slopes_of_a_balance_in_motion_and_in_time_are_those_of_differences():
     F = loading.forces @ [2.2, 1.6]  # between the points of its curves
     f = np.zeros(n)
     q = basis.values @ U[places]
-    f[places] = basis.back @ -(q**3)
+    f[places] = basis.back @ (-t * q**3)
     np.testing.assert_allclose(R, T.T @ ((K + w * C + w * w * M) @ U - F - f), rtol=1e-10)
 
 

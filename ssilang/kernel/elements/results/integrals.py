@@ -52,6 +52,11 @@ def integrals(
     return total
 
 
+def has_second_order(zone: Zone) -> bool:
+    """Whether a zone's strains of second order are known."""
+    return is_solid(zone) or ELEMENTS[zone.element].family == "bar"
+
+
 def green_strain(
     zone: Zone, displacement: NodeField, material: CellField | None = None
 ) -> CellFieldBlock:
@@ -60,7 +65,7 @@ def green_strain(
     values = family.strain_values(zone, displacement, zone_field(zone, material))
     if is_solid(zone):
         values = values + second_order_strain(zone, displacement)
-    elif ELEMENTS[zone.element].family == "bar":
+    elif has_second_order(zone):
         values = values + 0.5 * bar_stretch(zone, displacement)[:, None] ** 2
     else:
         raise FieldError("kernel.elements.element-no-strains-second", element=zone.element)
