@@ -145,22 +145,30 @@ class Table:
         """A table of values at 1, 2 ..."""
         return cls.of(dict(enumerate(values, start=1)), subtype)
 
+    def _key(self, index: object) -> tuple[object, ...]:
+        """Key of an index, or that by which an object went before it was merged with another."""
+        key = key_of(index)
+        if key[0] == "O" and key not in self._items:
+            former = ((*key[:2], identity) for identity in getattr(index, "former", ()))
+            return next((k for k in former if k in self._items), key)
+        return key
+
     def get(self, index: object, default: object = None) -> object:
         """Value at an index, `default` if there is none."""
-        pair = self._items.get(key_of(index))
+        pair = self._items.get(self._key(index))
         return default if pair is None else pair[1]
 
     def set(self, index: object, value: object) -> None:
         """Create or replace a value."""
-        self._items[key_of(index)] = (index, value)
+        self._items[self._key(index)] = (index, value)
 
     def has(self, index: object) -> bool:
         """Whether the index exists."""
-        return key_of(index) in self._items
+        return self._key(index) in self._items
 
     def remove(self, index: object) -> None:
         """Forget an index; nothing happens if it does not exist."""
-        self._items.pop(key_of(index), None)
+        self._items.pop(self._key(index), None)
 
     def indices(self) -> list[object]:
         """Indices, in order of creation; no value is made for them."""

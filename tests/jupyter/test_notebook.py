@@ -28,6 +28,7 @@ CELLS = {
     "list": "L ;",
     "curve": "EVOL 'MANU' 'T' (PROG 0. 1. 2.) 'U' (PROG 0. 4. 1.) ;",
     "draws": "DESS (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ; MESS 'drawn' ;",
+    "draws lines": "OPTI 'TRAC' 'SVG' ; DESS (EVOL 'MANU' (PROG 0. 1.) (PROG 2. 1.)) ;",
     "fails": "X = 1. ;\nY = X + ABSENT ;",
     "unread": "X = (1. ;\nZ = 3 ) ;",
     "goes on": "MESS X LENGTH ;",
@@ -173,6 +174,9 @@ def test_pictures_stand_where_they_were_drawn(ran):
     assert base64.b64decode(picture["data"]["image/png"]) == file.read_bytes()
     assert picture["data"]["text/plain"] == file.name
     assert text["text"] == "drawn\n"
+    (lines,) = found["draws lines"]
+    drawn = (folder / "results/notebook" / lines["data"]["text/plain"]).read_text("utf-8")
+    assert lines["data"]["image/svg+xml"] == drawn
 
 
 def test_errors_have_their_place_in_the_cell_and_the_session_goes_on(ran):

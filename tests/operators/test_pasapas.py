@@ -421,7 +421,7 @@ def test_strains_of_large_displacements_are_those_of_green_and_lagrange(law, lar
     T . BLOCAGES_MECANIQUES = P ET (BLOQ UZ S) ET (BLOQ UX UY V) ;
     T . CHARGEMENT = CHAR DIMP (DEPI P 0.1) (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;
     T . TEMPS_CALCULES = PROG 0. 1. ; T . MES_SAUVEGARDES = TABL ;
-    {large and "T . GRANDS_DEPLACEMENTS = VRAI ;" or "T . MES_SAUVEGARDES . DEFTO = VRAI ;"}
+    {(large and "T . GRANDS_DEPLACEMENTS = VRAI ;") or "T . MES_SAUVEGARDES . DEFTO = VRAI ;"}
     PASAPAS T ; MESS (MAXI (EXCO EPZZ (T . DEFORMATIONS . 1))) ' ' (TYPE (T . WTABLE . FOR0)) ;"""
     result = ran(script, output_directory=tmp_path)
     assert result.exit_code == 0, result.message

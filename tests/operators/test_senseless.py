@@ -397,6 +397,8 @@ def test_a_motion_that_its_scheme_takes_leaves_all_of_its_energy_out_of_balance(
     session = run_text(script, output_directory=tmp_path).session
     (calculation,) = session.statistics["calculations"]
     assert calculation["energy_imbalance"] == pytest.approx(1.0, rel=1e-3)
+    (cause,) = calculation["energy_imbalance_from"]
+    assert "scheme" in cause
 
 
 def test_free_motions_have_no_frequency(tmp_path: Path) -> None:

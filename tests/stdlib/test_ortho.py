@@ -41,8 +41,8 @@ def test_axes_in_space():
 def test_a_ring_of_hoops_is_stiff_along_them():
     """First axis along the circle: V1 is (-y, x) / r at each point, in the line's sense."""
     worst = found(
-        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = CERC 40 (1. 0.) (0. 0.) (0. 1.) ; "
-        "S = L REGL 1 (CERC 40 (1.02 0.) (0. 0.) (0. 1.02)) ; "
+        "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; L = CERC 400 (1. 0.) (0. 0.) (0. 1.) ; "
+        "S = L REGL 1 (CERC 400 (1.002 0.) (0. 0.) (0. 1.002)) ; "
         "T N B = @FRENET L ; "
         f"MA MO = @ORTHO S L T N 0. {VALUES} ; "
         "X Y = COOR S ; R = ((X * X) + (Y * Y)) ** 0.5 ; "

@@ -148,8 +148,7 @@ class Stage:
         *_, low, high = plotter.renderer.ComputeVisiblePropBounds()
         if not low <= high:  # nothing is there
             low, high = 0.0, 0.0
-        margin = 0.05 * (high - low) + 0.05
-        low, high = low - margin, high + margin
+        low, high = low - 0.05, high + 0.05
         camera = plotter.camera
         camera.position, camera.focal_point, camera.up = (0, 0, high), (0, 0, low), (0, 1, 0)
         camera.clipping_range = (0.0, high - low)

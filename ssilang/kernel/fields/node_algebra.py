@@ -25,13 +25,11 @@ def rebuilt(
 
 def applied(field: NodeField, function: Function) -> NodeField:
     """The field of the values of a function `array -> array` on each component."""
-    return rebuilt(
-        field,
-        {
-            k: NodeValues(v.nodes, np.asarray(function(v.values), dtype=float))
-            for k, v in field.components.items()
-        },
-    )
+    made = {
+        k: NodeValues(v.nodes, np.asarray(function(v.values), dtype=float))
+        for k, v in field.components.items()
+    }
+    return rebuilt(field, made)
 
 
 def common_nature(a: Nature, b: Nature) -> Nature:
@@ -50,15 +48,13 @@ def _joined(a: NodeValues, b: NodeValues, factor: float) -> NodeValues:
 
 def added(a: NodeField, b: NodeField, factor: float = 1.0) -> NodeField:
     """`a + factor * b`, over the union of their supports."""
-    a, b = a.after_merges(), b.after_merges()
     made = dict(a.components)
     for name, part in b.components.items():
         mine = made.get(name)
-        made[name] = (
-            NodeValues(part.nodes, factor * part.values)
-            if mine is None
-            else _joined(mine, part, factor)
-        )
+        if mine is None:
+            made[name] = NodeValues(part.nodes, factor * part.values)
+        else:
+            made[name] = _joined(mine, part, factor)
     nature = common_nature(a.nature, b.nature)
     if not a.components or not b.components:
         nature = (a if a.components else b).nature
@@ -73,7 +69,6 @@ def united(a: NodeField, b: NodeField, check: bool = True) -> NodeField:
     FieldError
         If two values differ at a node of two fields that are not DISCRET (with `check`).
     """
-    a, b = a.after_merges(), b.after_merges()
     if a.components and b.components and a.nature != b.nature:
         told = {"nature": a.nature or "INDETERMINE", "nature_2": b.nature or "INDETERMINE"}
         raise FieldError("kernel.fields.fields-natures-cannot-joined", **told)
@@ -96,8 +91,8 @@ def _merged(table: NodeTable, name: str, a: NodeValues, b: NodeValues, check: bo
         told = {"name": name, "values": a.values[ia[k]], "values_2": b.values[ib[k]]}
         told |= {"both": table.told(both[k])}
         raise FieldError("kernel.fields.component-field-node", **told)
-    nodes = np.union1d(a.nodes, b.nodes)
-    return NodeValues(nodes, np.where(np.isin(nodes, a.nodes), a.at(nodes), b.at(nodes)))
+    new = np.isin(b.nodes, a.nodes, invert=True)
+    return _joined(a, NodeValues(b.nodes[new], b.values[new]), 1.0)
 
 
 def _combined(a: NodeValues, b: NodeValues, function: Callable[[Any, Any], Any]) -> NodeValues:
@@ -117,7 +112,6 @@ def multiplied(a: NodeField, b: NodeField, divide: bool = False) -> NodeField:
     FieldError
         If neither rule applies, or a divisor is zero.
     """
-    a, b = a.after_merges(), b.after_merges()
     if divide and any(np.any(v.values == 0) for v in b.components.values()):
         raise FieldError("kernel.fields.field-divide-zero")
     run = np.divide if divide else np.multiply
@@ -182,7 +176,6 @@ def renamed(field: NodeField, old: Iterable[str], new: Iterable[str]) -> NodeFie
 
 def restricted(field: NodeField, nodes: IntArray) -> NodeField:
     """The field at those of `nodes` where it is defined."""
-    field = field.after_merges()
     wanted = np.unique(nodes)
     made: dict[str, NodeValues] = {}
     for name, part in field.components.items():

@@ -1,12 +1,13 @@
 """Fields given at nodes (CHPOINT): one sparse vector per component."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Literal
+from dataclasses import dataclass
+from typing import Any, Literal, cast
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.mesh.nodes import NodeTable
 
 Nature = Literal["", "DIFFUS", "DISCRET"]
@@ -25,6 +26,23 @@ class NodeValues:
             return np.full(nodes.shape, default)
         place = np.minimum(np.searchsorted(self.nodes, nodes), len(self.nodes) - 1)
         return np.where(self.nodes[place] == nodes, self.values[place], default)
+
+
+class _Current:
+    """Components of a field, on the nodes that survive merges (ELIM) whenever they are read."""
+
+    def __get__(self, field: "NodeField | None", owner: type) -> Mapping[str, NodeValues]:
+        if field is None:
+            raise AttributeError  # dataclasses read it as: there is no default
+        held, version = field.__dict__, field.table.version
+        found: Mapping[str, NodeValues] = held["components"]
+        if held.get("merges", 0) != version:
+            found = {name: field.surviving(name, part) for name, part in found.items()}
+            held.update(components=found, merges=version)
+        return found
+
+    def __set__(self, field: "NodeField", components: Mapping[str, NodeValues]) -> None:
+        field.__dict__.update(components=components, merges=0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +65,7 @@ class NodeField:
     """
 
     table: NodeTable
-    components: Mapping[str, NodeValues]
+    components: Mapping[str, NodeValues] = cast("Any", _Current())
     nature: Nature = ""
     title: str = ""
 
@@ -79,28 +97,26 @@ class NodeField:
         part = self.components.get(name)
         return np.full(nodes.shape, default) if part is None else part.at(nodes, default)
 
-    def after_merges(self) -> "NodeField":
-        """The field on the nodes that survive merges (ELIM); itself if none of its nodes is gone.
+    def surviving(self, name: str, part: NodeValues) -> NodeValues:
+        """A component on the nodes that survive merges; discrete values of one node add up.
 
-        Of two values on nodes that became one, discrete ones add up; of others the one of the
-        surviving node is kept.
+        Raises
+        ------
+        FieldError
+            If two values of a field that is not DISCRET differ at a node.
         """
-        if self.table.version == 0:
-            return self
-        made = {name: self._surviving(part) for name, part in self.components.items()}
-        if all(made[name] is part for name, part in self.components.items()):
-            return self
-        return replace(self, components=made)
-
-    def _surviving(self, part: NodeValues) -> NodeValues:
         now = self.table.resolve(part.nodes)
         if np.array_equal(now, part.nodes):
             return part
-        # survivors first, so that their values are those kept
-        order = np.argsort(now != part.nodes, kind="stable")
-        nodes, first, place = np.unique(now[order], return_index=True, return_inverse=True)
-        values = part.values[order][first]
+        order = np.lexsort((now != part.nodes, now))  # survivors first: their values are kept
+        nodes, first, counts = np.unique(now[order], return_index=True, return_counts=True)
+        given = part.values[order]
         if self.nature == "DISCRET":
-            weights = part.values[order]
-            values = np.asarray(np.bincount(place.ravel(), weights, len(nodes)), dtype=float)
-        return NodeValues(nodes, values)
+            return NodeValues(nodes, np.add.reduceat(given, first))
+        kept = np.repeat(given[first], counts)
+        apart = np.abs(given - kept) > 1e-6 * np.maximum(abs(given), abs(kept))
+        for k in np.flatnonzero(apart):
+            told = {"name": name, "values": kept[k], "values_2": given[k]}
+            told["both"] = self.table.told(now[order][k])
+            raise FieldError("kernel.fields.merged-values-differ", **told)
+        return NodeValues(nodes, given[first])

@@ -25,8 +25,6 @@ def stacked(
 
     Multipliers (LX) never count.
     """
-    if not fields:
-        raise FieldError("kernel.fields.no-field-decompose")
     known = [n for n in fields[0].components if n not in ("LX", "FLX")]
     if names is not None:
         known = [n for n in known if n in names]

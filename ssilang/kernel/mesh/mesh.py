@@ -24,7 +24,12 @@ class Point:
     @property
     def identity(self) -> int:
         """What tells points apart where they serve as indices: two points of one node are one."""
-        return self.number
+        return self.node if self.nodes.version else self.number
+
+    @property
+    def former(self) -> IntArray:
+        """Numbers of all nodes that became one with its own."""
+        return np.flatnonzero(self.nodes.resolve(np.arange(len(self.nodes))) == self.node)
 
     @property
     def node(self) -> int:

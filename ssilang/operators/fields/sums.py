@@ -1,5 +1,7 @@
 """RESU XTY XTX COMB SOMT: sums over fields; COLI: combinations; DFOU: a harmonic at an angle."""
 
+from collections import defaultdict
+
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.zone_fields import n_points
 from ssilang.kernel.fields import cell_algebra, node_algebra
@@ -59,9 +61,8 @@ def xty_of_lists(
     """Scalar products of the fields of two lists."""
     names = paired_names(call, left, right)
     if len(first) != len(second):
-        raise call.error(
-            "operators.fields.field-counts-differ", second, n_first=len(first), n_second=len(second)
-        )
+        told = {"n_first": len(first), "n_second": len(second)}
+        raise call.error("operators.fields.field-counts-differ", second, **told)
     pairs: Any = zip(first.values, second.values, strict=True)
     return ListReel([_product(a, b, *names) for a, b in pairs])
 
@@ -167,9 +168,8 @@ def _combine_fields(
 
 def _combined(call: Call, objects: list[Any], factors: list[float]) -> Any:
     if not objects or len(objects) != len(factors):
-        raise call.error(
-            "operators.lists.coefficient-count", n_objects=len(objects), n_factors=len(factors)
-        )
+        told = {"n_objects": len(objects), "n_factors": len(factors)}
+        raise call.error("operators.lists.coefficient-count", **told)
     if all(isinstance(o, ListReel) for o in objects):
         if len({len(o) for o in objects}) > 1:
             raise call.error("operators.lists.lengths-differ")
@@ -209,19 +209,15 @@ def dfou(
 ) -> NodeField | CellField:
     """Sum a harmonic."""
     n = workspace(call.session).fourier
+    if workspace(call.session).mode is not Mode.FOURIER:
+        call.warn("operators.fields.no-harmonic-here", harmonic=n)
     turn = np.radians(abs(n) * angle)
     even, odd = (np.cos(turn), np.sin(turn)) if n >= 0 else (np.sin(turn), np.cos(turn))
     if n == 0:
         odd = 1.0  # harmonic 0: uniform stretching and uniform torsion, uncoupled
-
-    def factor(name: str) -> float:
-        return float(odd if name in _ODD else even)
-
+    factor = defaultdict(lambda: even, dict.fromkeys(_ODD, odd))
     if isinstance(field, NodeField):
-        made = {k: NodeValues(v.nodes, factor(k) * v.values) for k, v in field.components.items()}
+        made = {k: NodeValues(v.nodes, factor[k] * v.values) for k, v in field.components.items()}
         return replace(field, components=made)
-    blocks = tuple(
-        replace(b, components={k: factor(k) * v for k, v in b.components.items()})
-        for b in field.blocks
-    )
-    return replace(field, blocks=blocks)
+    parts = [{k: factor[k] * v for k, v in b.components.items()} for b in field.blocks]
+    return replace(field, blocks=tuple(map(cell_algebra.rebuilt, field.blocks, parts)))

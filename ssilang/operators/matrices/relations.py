@@ -48,8 +48,7 @@ def _sums(call: Call, sense: int) -> Matrix:
 
 def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     """The term by unknowns: one list of terms for each relation that it makes."""
-    if term.support is None:
-        raise call.error("operators.matrices.term-without-mesh")
+    assert term.support is not None
     mode = workspace(call.session).mode
     nodes = nodes_of(term.support)
     groups = {"DEPL": made.in_space(mode), "ROTA": made.rotations(mode)}

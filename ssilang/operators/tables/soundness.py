@@ -86,7 +86,7 @@ def _nodes_of(field: Field, own: set[int]) -> list[Any]:
     if isinstance(field, CellField):
         inside = any(id(b.cells) in own for b in field.blocks)
         return [] if inside else [b.cells.connectivity for b in field.blocks]
-    return [part.nodes for part in field.after_merges().components.values()]
+    return [part.nodes for part in field.components.values()]
 
 
 def _numbers_in(value: object) -> list[Any]:

@@ -1,7 +1,9 @@
 """Nodal fields made before nodes were merged."""
 
 import numpy as np
+import pytest
 
+from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_algebra import added, restricted
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -28,21 +30,23 @@ def test_a_field_is_found_on_the_surviving_nodes() -> None:
     assert np.array_equal(restricted(b, np.array([1])).components["UX"].values, [20.0])
 
 
-def test_a_field_on_both_keeps_the_survivor_or_adds_up() -> None:
+def test_discrete_values_of_one_node_add_up_and_others_must_agree() -> None:
     table, _, _ = two_lines()
-    for nature, expected in (("DIFFUS", [5.0, 6, 7]), ("DISCRET", [13.0, 15, 17])):
-        both = np.array([8.0, 9, 10])
-        given = NodeField.of(
-            table,
-            np.arange(6),
-            {"FX": np.concatenate([[5.0, 6, 7], both])},
-            nature,  # type: ignore[arg-type]
-        )
-        assert np.array_equal(given.after_merges().components["FX"].values, expected)
+    for nature, second, expected in (
+        ("DIFFUS", [5.0, 6, 7], [5.0, 6, 7]),
+        ("DISCRET", [8.0, 9, 10], [13.0, 15, 17]),
+        ("DIFFUS", [5.0, 6, 7.1], None),
+        ("", [5.0, 6.1, 7], None),
+    ):
+        values = np.concatenate([[5.0, 6, 7], second])
+        given = NodeField.of(table, np.arange(6), {"FX": values}, nature)  # type: ignore[arg-type]
+        if expected is None:
+            with pytest.raises(FieldError, match="ELIM made one"):
+                _ = given.components
+        else:
+            assert np.array_equal(given.components["FX"].values, expected)
 
 
 def test_a_field_without_merged_nodes_is_itself() -> None:
-    table, a, _ = two_lines()
-    assert a.after_merges() is a
-    assert NodeTable().version == 0
-    assert table.version == 1
+    _, a, _ = two_lines()
+    assert a.components["UX"] is a.components["UX"]

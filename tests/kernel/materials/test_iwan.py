@@ -69,11 +69,13 @@ def test_first_loading_goes_through_the_points_of_the_curve_and_straight_between
 
 @together("beyond", [-0.5, 0.0, 2.0])
 def test_the_last_part_slips_by_what_goes_beyond_the_curve(beyond: float) -> None:
-    point, gamma = Point(curve()), STRAINS[-1] * (1.0 + beyond)
-    plastic = np.array([[0, 0, 0, gamma - point.shear(gamma) / G, 0, 0]])
+    """Sheared in three planes at once."""
+    point, way = Point(curve()), np.array([0, 0, 0, 0.6, -0.48, 0.64])
+    strain = STRAINS[-1] * (1.0 + beyond) * way
+    plastic = (strain - point.go(strain) / G)[None]
     assert point.law.slid is not None
     found = point.law.slid(point.parameters, point.stress, plastic, point.variables)
-    assert found[0] == pytest.approx([0, 0, max(beyond, 0.0), 0, 0], abs=1e-12)
+    assert found[0] == pytest.approx(max(beyond, 0.0) * way[[0, 1, 3, 4, 5]], abs=1e-12)
 
 
 def test_one_step_goes_where_many_go() -> None:

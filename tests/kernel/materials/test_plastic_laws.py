@@ -15,6 +15,7 @@ from ssilang.kernel.materials.plastic import cone
 from ssilang.kernel.materials.plastic.held_stress import respond_held
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
+from ssilang.kernel.plasticity.fibre_points import FibreGroup
 
 M = 60
 CURVE = Curve((CurvePart(np.array([0.0, 0.01, 0.1]), np.array([1.0, 2.0, 3.0])),))
@@ -385,3 +386,13 @@ def test_work_is_stored_or_lost_and_never_won(name: str) -> None:
             assert (gone >= -2e-4 * moved - 1e-12).all()
             before, lost = after, lost + gone
     assert (lost > 0.05 * moved).mean() > 0.3
+
+
+def test_fibres_yield_by_the_shear_that_they_have_a_share_of() -> None:
+    """Far beyond yield along y they stay elastic: of that shear no part is theirs."""
+    values = {"YOUN": np.full(1, 200.0), "NU": np.full(1, 0.25), "SIGY": np.ones(1)}
+    law, shares = PLASTIC_LAWS["PARFAIT"], np.array([[0.0, 0.5]])
+    group = FibreGroup(None, law, PointParameters(values, {}), shares)  # type: ignore[arg-type]
+    strain = np.array([[[2e-3, 0, 0, 1.0, 3e-3, 0]]])
+    after, *_ = group.respond(np.zeros((1, 1, 6)), strain, np.zeros((1, 1, len(law.variables))))
+    assert after[0, 0] == pytest.approx([0.4, 0, 0, 0, 0.5 * 80.0 * 3e-3, 0], abs=1e-12)

@@ -41,7 +41,7 @@ from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.rests.reduced import run as reduced
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome
-from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.run import Integration, integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
 # steps are many and problems small as they are: nothing is gained by making them smaller
@@ -89,8 +89,12 @@ def run(awkward, rule, lost=None):
                 integrate(problem, [recorder], full_newton=rule == "full Newton")
             assert recorder.closed
             return failed.value.data, problem.times, len(recorder.snapshots)
-        history = integrate(problem, [recorder, few], full_newton=rule == "full Newton")
+        steps = Integration(problem, [recorder, few], full_newton=rule == "full Newton")
+        history, end = steps.run(), steps.motion
     check_chosen(few, recorder)
+    jumps = problem.interface.J @ end.u  # from where any other loop goes on
+    near(end.delta, jumps, np.abs(jumps).max(), 1e-10)
+    near(end.f, joint_forces(problem.interface, end.t), np.abs(end.f).max())
     assert history.loop == choose.rule_named(rule.partition(",")[0]).loop
     return problem, problem.times, history.energies, recorder.snapshots
 
@@ -118,14 +122,19 @@ def joints_at(interface, u, state):
     t, new = np.zeros_like(w), np.zeros((len(w), N_STATE))
     D = np.zeros((*w.shape, w.shape[1]))
     respond(interface.codes, w, state, interface.parameters, t, new, D)
-    force = np.zeros(delta.shape)
-    for p, pairs in enumerate(interface.pairs):
-        for k, pair in enumerate(pairs):
-            B = interface.B[p][:, k * delta.shape[1] : (k + 1) * delta.shape[1]]
-            force[pair] += interface.weights[p] * B.T @ t[p]
     points = (interface.codes, w, t, new, interface.parameters)
     energies = energies_of_points(*points) @ interface.weights
-    return w, t, new, interface.J.T @ force.ravel(), energies
+    return w, t, new, interface.J.T @ joint_forces(interface, t), energies
+
+
+def joint_forces(interface, t):
+    """Forces on the jumps at the joints' nodes."""
+    d = interface.dimension
+    force = np.zeros((interface.J.shape[0] // d, d))
+    for p, pairs in enumerate(interface.pairs):
+        for k, pair in enumerate(pairs):
+            force[pair] += interface.weights[p] * interface.B[p][:, k * d : (k + 1) * d].T @ t[p]
+    return force.ravel()
 
 
 def check_fields(problem, now):

@@ -210,8 +210,8 @@ def frenet_frames(line: Mesh) -> tuple[IntArray, FloatArray]:
     """Nodes (n,) of one or several lines and their frames (n, 3, 3): rows t, n, b.
 
     At inner nodes the tangent and the normal are those of the circle through a node and its two
-    neighbours; at a free end the tangent is that of the circle through the last three nodes.
-    Where a line is straight the binormal is as near as can be to the z axis.
+    neighbours; at a free end the tangent is the cell's direction, and the binormal the neighbour's
+    as far as it is across. Where a line is straight the binormal is the nearest to the z axis.
 
     Raises
     ------
@@ -226,7 +226,13 @@ def frenet_frames(line: Mesh) -> tuple[IntArray, FloatArray]:
     u, v = xyz[ids] - xyz[before[ids]], xyz[after[ids]] - xyz[ids]
     tangent, bend = _circle(u[both], v[both])
     frames[both, 0], frames[both, 1] = tangent, bend
-    _ends(frames, ids, before, after, xyz, ~both)
+    ends = ids[~both]
+    other = np.maximum(before, after)[ends]
+    chord = np.where(before[ends, None] < 0, 1.0, -1.0) * (xyz[other] - xyz[ends])
+    chord /= np.linalg.norm(chord, axis=1, keepdims=True)
+    near = frames[np.searchsorted(ids, other)]
+    frames[~both, 0] = chord
+    frames[~both, 1] = np.cross(np.cross(near[:, 0], near[:, 1]), chord)
     # Normals made orthogonal and unit, binormals from them.
     t, n = frames[:, 0], frames[:, 1]
     n -= (n * t).sum(axis=1, keepdims=True) * t
@@ -268,26 +274,3 @@ def _circle(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray]:
     tangent = u / h**2 + v / k**2
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
     return tangent, v / k - u / h
-
-
-def _ends(
-    frames: FloatArray,
-    ids: IntArray,
-    before: IntArray,
-    after: IntArray,
-    xyz: FloatArray,
-    free: np.ndarray,
-) -> None:
-    """Fill the frames of free ends: tangents mirrored in the chord, the neighbour's bend."""
-    for row in np.flatnonzero(free).tolist():
-        node = ids[row]
-        first = before[node] < 0
-        other = after[node] if first else before[node]
-        chord = (xyz[other] - xyz[node]) * (1.0 if first else -1.0)
-        chord /= np.linalg.norm(chord)
-        near = frames[np.searchsorted(ids, other)]
-        if not near[0].any():  # a line of one cell
-            frames[row, 0] = chord
-            continue
-        frames[row, 0] = 2.0 * (near[0] @ chord) * chord - near[0]
-        frames[row, 1] = near[1]

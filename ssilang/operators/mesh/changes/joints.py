@@ -6,17 +6,22 @@ from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.prelude import *
 
 
-def _joint(session: Session, first: Mesh, second: Mesh, distance: float | None, part: bool) -> Mesh:
+def _joint(
+    session: Session, first: Mesh, second: Mesh, third: Mesh | None, far: float | None, part: bool
+) -> Mesh:
     ws = workspace(session)
+    if third is not None:
+        raise MeshError("operators.mesh.joint-of-three")
     if np.isin(first.node_ids, second.node_ids).all():
         session.warn("operators.mesh.joint-on-itself", None)
-    near = tolerance_of(ws, distance, ws.nodes.coordinates[first.node_ids])
+    near = tolerance_of(ws, far, ws.nodes.coordinates[first.node_ids])
     return joint_mesh(first, second, max(near, 1e-300), part)
 
 
 _PART = flag(
     "part", "PART", en="cells that face each other without fitting are left out, not refused"
 )
+_THIRD = opt("third", "MAILLAGE", en="a third, of porous joints, which is refused")
 
 
 @operator("RACC", family="mesh", full_name="RACCORD")
@@ -25,15 +30,13 @@ def racc(
     distance: float | None = DISTANCE,
     first: Mesh = Arg("MAILLAGE", en="line"),
     second: Mesh = Arg("MAILLAGE", en="line that faces it"),
-    between: Mesh | None = Opt("MAILLAGE", en="line between, of porous joints, which is refused"),
+    third: Mesh | None = _THIRD,
     part: bool = _PART,
 ) -> Mesh:
     """Joints between lines."""
-    if between is not None:
-        raise MeshError("operators.mesh.joint-of-three-lines")
     if first.dimension > 1:
         raise MeshError("operators.mesh.lines-wanted")
-    return _joint(session, first, second, distance, part)
+    return _joint(session, first, second, third, distance, part)
 
 
 @operator("LIAI", family="mesh", full_name="LIAISON")
@@ -42,12 +45,13 @@ def liai(
     distance: float | None = DISTANCE,
     first: Mesh = Arg("MAILLAGE", en="surface"),
     second: Mesh = Arg("MAILLAGE", en="surface that faces it"),
+    third: Mesh | None = _THIRD,
     part: bool = _PART,
 ) -> Mesh:
     """Joints between surfaces."""
     if first.dimension < 2:
         raise MeshError("operators.mesh.surfaces-wanted")
-    return _joint(session, first, second, distance, part)
+    return _joint(session, first, second, third, distance, part)
 
 
 @operator("GENJ", family="mesh")

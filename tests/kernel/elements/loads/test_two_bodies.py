@@ -214,6 +214,9 @@ def test_sides_loaded_by_a_field_are_the_outer_ones_that_it_covers(mode):
     inside = NodeField.of(b.nodes, b.ids[[1, 2]], {"SCAL": b.p[:2]}, "DIFFUS")
     with pytest.raises(MeshError, match="outer"):
         loads.loaded_faces(b.model, inside)
+    line = CellBlock.make(b.nodes, "SEG2", b.ids[[[1, 2]]])  # of a field in cells: its own, once
+    held = [CellFieldBlock(line, {n: np.ones((1, 1))}, "NOEUD", "") for n in ("A", "B")]
+    assert loads.loaded_faces(b.model, CellField(tuple(held), "")).blocks == (line,)
 
 
 # --- what a field in cells says on a zone --------------------------------------------------

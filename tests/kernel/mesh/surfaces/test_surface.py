@@ -1,6 +1,7 @@
 """Surfaces inside contours: area, conformity, holes, degree, curved charts, sizes."""
 
 import math
+from collections import Counter
 
 import numpy as np
 import pytest
@@ -19,7 +20,13 @@ from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import reversed_line, surface_normals
 from ssilang.kernel.mesh.queries.measure import total_measure
 from ssilang.kernel.mesh.surfaces.charts import plane_chart, sphere_chart
-from ssilang.kernel.mesh.surfaces.surface import _convex, _pairs, contour_chart_data, fill_surface
+from ssilang.kernel.mesh.surfaces.surface import (
+    _convex,
+    _pairs,
+    contour_chart_data,
+    fill_surface,
+    join_triangles,
+)
 
 
 def square(nodes: NodeTable, side: float, cuts: int, quadratic: bool = False) -> Mesh:
@@ -112,6 +119,33 @@ def test_polygons_that_turn_one_way_alone_are_convex() -> None:
         assert _convex(corners.copy()) == convex
         seen.add(convex)
     assert seen == {True, False}
+
+
+@together("seed", range(3))
+def test_a_regular_net_becomes_the_hexagons_around_its_first_node(seed: int) -> None:
+    """Nineteen hexagons side by side, their nodes in any order but for the first inner one."""
+    rng, steps = np.random.default_rng(seed), [(1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1)]
+    ways = range(-2, 3)
+    middles = [(i - j, i + 2 * j) for i in ways for j in ways if abs(i + j) < 3]
+    around = [[(i + a, j + b) for a, b in steps] for i, j in middles]
+    times = Counter(corner for ring in around for corner in ring)
+    edge, inner = ([c for c in times if (times[c] < 3) == side] for side in (True, False))
+    rng.shuffle(edge)
+    later = [*inner, *middles[1:]]
+    rng.shuffle(later)
+    names = [*edge, middles[0], *later]
+    names = [(int(i), int(j)) for i, j in names]
+    number = {name: k for k, name in enumerate(names)}
+    net = [
+        [m, ring[k - 1], ring[k]] for m, ring in zip(middles, around, strict=True) for k in range(6)
+    ]
+    rng.shuffle(net)
+    triangles = np.array([[number[tuple(map(int, n))] for n in t] for t in net])
+    points = np.array([[i + 0.5 * j, 0.75**0.5 * j] for i, j in names])
+    made = join_triangles(points, triangles, len(edge))
+    assert set(made) == {6}
+    wanted = {frozenset(number[n] for n in ring) for ring in around}
+    assert {frozenset(row) for row in made[6].tolist()} == wanted
 
 
 def test_triangles_with_a_common_side_make_one_quadrangle_each() -> None:

@@ -39,6 +39,14 @@ def test_unknowns_that_meet_nothing_are_free_beside_the_other_free_motions():
     assert np.abs(found.work(b)).max() > 0.1
 
 
+def test_work_on_free_motions_is_the_same_in_any_units():
+    units, b = sp.diags_array(2.0 ** np.arange(-12, 13, 3)), np.arange(9.0)
+    plain = invert(sp.csr_array(chain(9)), True)
+    other = invert(sp.csr_array(units @ chain(9) @ units), True)
+    assert np.abs(plain.work(b)) > 0.1
+    np.testing.assert_allclose(np.abs(other.work(units @ b)), np.abs(plain.work(b)), rtol=1e-9)
+
+
 @together("count", [1, 11])
 def test_free_motions_without_symmetry(count):
     """More than are looked for at first, too."""
