@@ -10,14 +10,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
+from ssilang.kernel.elements.family import Layout, element_matrices
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
-from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.elements.zone_fields import rows_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 # points that integrate two shape functions of the face times a linear field
@@ -39,27 +40,18 @@ def face_rule(cell_type: str) -> Rule:
     return quadrature(REFERENCE_CELLS[cell_type].shape, _POINTS[cell_type])
 
 
-def _keys(nodes: IntArray) -> np.ndarray:
-    rows = np.ascontiguousarray(np.sort(nodes, axis=1))
-    return rows.view([("", rows.dtype)] * rows.shape[1]).ravel()
-
-
 def parents(faces: CellBlock, model: Model) -> Parents:
     """Cells of a model on which faces lie (the first found)."""
     zone = np.full(len(faces), -1, dtype=np.int64)
     cell = np.full(len(faces), -1, dtype=np.int64)
-    wanted = _keys(faces.connectivity)
     for number, part in enumerate(model.zones):
         sides = [s for kind, s in part.cells.kind.faces if kind == faces.cell_type]
         if not sides or not len(part.cells):
             continue
         table = np.concatenate([part.cells.connectivity[:, list(s)] for s in sides])
         owner = np.tile(np.arange(len(part.cells)), len(sides))
-        keys = _keys(table)
-        order = np.argsort(keys, kind="stable")
-        place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
-        rows = order[place]
-        found = (keys[rows] == wanted) & (zone < 0)
+        rows = rows_of(table, faces.connectivity)
+        found = (rows >= 0) & (zone < 0)
         zone[found], cell[found] = number, owner[rows[found]]
     return Parents(zone, cell)
 
@@ -135,7 +127,7 @@ def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Mat
         YOUN, NU, RHO.
     """
     blocks = [
-        _damping(zone, faces, rows, of_cells, zone_field(zone, material))
+        _damping(zone, faces, rows, of_cells, material)
         for faces in boundary.blocks
         for of in (require_parents(faces, model),)
         for zone, rows in zones_of_faces(of, model)
@@ -144,18 +136,22 @@ def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Mat
     return Matrix(boundary.nodes, tuple(blocks), (), "AMORTISSEMENT")
 
 
-def _at_cells(parameters: ZoneField, name: str, cells: IntArray) -> FloatArray:
-    values = parameters.at(name, "GRAVITE")
-    n = len(parameters.zone.cells)
-    return np.broadcast_to(values.mean(axis=1), (n,))[cells]
+def wave_speeds(zone: Zone, material: CellField) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Speeds of pressure and of shear waves, and density, of each cell of a zone (n,)."""
+    parameters, shape = zone_field(zone, material), (len(zone.cells),)
+    young, poisson, density = (
+        np.broadcast_to(parameters.at(name, "GRAVITE").mean(axis=1), shape)
+        for name in ("YOUN", "NU", "RHO")
+    )
+    shear = young / (2 * (1 + poisson))
+    primary = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+    return np.sqrt(primary / density), np.sqrt(shear / density), density
 
 
 def _damping(
-    zone: Zone, faces: CellBlock, rows: IntArray, cells: IntArray, parameters: ZoneField
+    zone: Zone, faces: CellBlock, rows: IntArray, cells: IntArray, material: CellField
 ) -> ElementMatrices:
-    young, poisson, density = (_at_cells(parameters, n, cells) for n in ("YOUN", "NU", "RHO"))
-    shear = young / (2 * (1 + poisson))
-    primary = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
+    primary, shear, density = (of[cells] for of in wave_speeds(zone, material))
     part = CellBlock.make(faces.nodes, faces.cell_type, faces.raw[rows])
     geometry = face_geometry(part, zone.mode, harmonic(zone))
     normal = geometry.normals / geometry.measures[..., None]
@@ -164,16 +160,10 @@ def _damping(
     full = np.zeros((*normal.shape[:2], d))
     full[..., : normal.shape[-1]] = normal
     outer = np.einsum("cpi,cpj->cpij", full, full)
-    along, across = np.sqrt(density * primary), np.sqrt(density * shear)
+    along, across = density * primary, density * shear
     D = across[:, None, None, None] * (np.eye(d) - outer) + along[:, None, None, None] * outer
     N = geometry.shapes
     values = np.einsum("cp,pa,pb,cpij->caibj", geometry.measures, N, N, D, optimize=True)
-    return ElementMatrices(
-        part.nodes,
-        part.raw,
-        np.repeat(np.arange(k), d),
-        names * k,
-        tuple(dual_of(n) for n in names) * k,
-        values.reshape(len(part), k * d, k * d),
-        "AMORTISSEMENT",
-    )
+    layout = Layout(part.nodes, part.raw, np.repeat(np.arange(k), d), names * k)
+    flat = values.reshape(len(part), k * d, k * d)
+    return element_matrices(zone, layout, flat, "AMORTISSEMENT", keep_zone=False)

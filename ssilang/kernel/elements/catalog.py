@@ -8,10 +8,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.shapes.polygons import SIDES
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
-from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, ReferenceCell
+from ssilang.kernel.elements.shapes.reference import (
+    REFERENCE_CELLS,
+    ReferenceCell,
+    shape_functions,
+)
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode
 
@@ -158,6 +163,12 @@ GENERIC_ELEMENTS: dict[str, dict[str, str]] = {
 
 LOCKING = {"QUA4": True, "CUB8": True, "TRI3": False, "TET4": False, "PRI6": False, "PYR5": False}
 """Elements too stiff for nearly incompressible matter; whether the mean volume change cures it."""
+
+
+def support_shapes(element: str, support: Support) -> FloatArray:
+    """Shape functions (n_points, n_nodes) of an element's reference cell at a support's points."""
+    kind = ELEMENTS[element]
+    return shape_functions(kind.reference or kind.cell_type, support_rule(element, support).points)
 
 
 def register_element(kind: ElementKind) -> None:

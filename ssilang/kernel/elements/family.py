@@ -3,8 +3,6 @@
 A family gives its strain operator and its elastic moduli at integration points; stiffness,
 strain, stress, internal forces are then the same few lines for all. Arrays are
 (n_cells, n_strains, n_points, ...): one strain component is a contiguous (n_cells, n_points).
-
-What the shells share: nodes that move and turn, strains and stresses with fixed names.
 """
 
 from abc import ABC, abstractmethod
@@ -46,8 +44,7 @@ class Layout:
         out = np.zeros((len(nodes), len(self.unknowns)))
         for name in dict.fromkeys(self.unknowns):
             columns = [i for i, u in enumerate(self.unknowns) if u == name]
-            at = nodes[:, self.local[columns]]
-            out[:, columns] = field.values_at(name, at.ravel()).reshape(at.shape)
+            out[:, columns] = field.values_at(name, nodes[:, self.local[columns]])
         return out
 
     def scatter(self, vectors: FloatArray) -> NodeField:
@@ -85,19 +82,28 @@ class StrainOperator:
 
 
 class ElementFamily(ABC):
-    """Behaviour shared by the elements of one family."""
+    """Behaviour shared by the elements of one family.
 
-    @abstractmethod
+    Attributes
+    ----------
+    strains, stresses : tuple of str
+        Names of the components, in the order of the strain operator's rows.
+    """
+
+    strains: ClassVar[tuple[str, ...]] = ()
+    stresses: ClassVar[tuple[str, ...]] = ()
+
     def layout(self, zone: Zone) -> Layout:
-        """Rows of the element vectors."""
+        """Rows of the element vectors: translations, node by node."""
+        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
 
-    @abstractmethod
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Components that EPSI gives."""
+        return self.strains
 
-    @abstractmethod
     def stress_names(self, zone: Zone) -> tuple[str, ...]:
         """Components that SIGM gives."""
+        return self.stresses
 
     @abstractmethod
     def strain_operator(
@@ -228,26 +234,9 @@ def cell_block(
     return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
 
 
-class ShellFamily(ElementFamily):
-    """Shell whose nodes carry translations and rotations.
-
-    Attributes
-    ----------
-    strains, stresses : tuple of str
-        Names of the components, in the order of the strain operator's rows.
-    """
-
-    strains: ClassVar[tuple[str, ...]]
-    stresses: ClassVar[tuple[str, ...]]
+class TurningFamily(ElementFamily):
+    """Beams and shells, whose nodes carry translations and rotations."""
 
     def layout(self, zone: Zone) -> Layout:
         """Translations then rotations, node by node."""
         return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """Strains and curvatures, or strains of the points across."""
-        return self.strains
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """Forces and moments per length, or stresses of the points across."""
-        return self.stresses

@@ -38,14 +38,6 @@ class StrainlessFamily(ElementFamily):
 
     refusal: str  # code of the error where strains are asked for
 
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """None."""
-        return ()
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """None."""
-        return ()
-
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
     ) -> StrainOperator:

@@ -15,36 +15,32 @@ from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_functions
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.mesh.cells import LINEAR_CELLS
+from ssilang.kernel.mesh.combine import row_keys
 from ssilang.kernel.mesh.mesh import CellBlock
-
-
-def cell_keys(cells: CellBlock) -> NDArray[np.void]:
-    """One comparable key a cell: its nodes in increasing order, shape (n_cells,)."""
-    nodes = np.ascontiguousarray(np.sort(cells.connectivity, axis=1))
-    return nodes.view([("", nodes.dtype)] * nodes.shape[1]).ravel()
 
 
 def cell_rows(inside: CellBlock, wanted: CellBlock) -> IntArray:
     """Row in `inside` of each cell of `wanted`, -1 where there is none, shape (n_wanted,)."""
-    if inside.cell_type != wanted.cell_type or not len(inside) or not len(wanted):
+    if inside.cell_type != wanted.cell_type:
         return np.full(len(wanted), -1)
-    keys = cell_keys(inside)
+    return rows_of(inside.connectivity, wanted.connectivity)
+
+
+def rows_of(inside: IntArray, wanted: IntArray) -> IntArray:
+    """Row (m,) of a table (n, k) with the nodes of each of other rows (m, k), -1 for none."""
+    if not len(inside) or not len(wanted):
+        return np.full(len(wanted), -1)
+    keys, probe = row_keys(inside), row_keys(wanted)
     order = np.argsort(keys, kind="stable")
-    probe = cell_keys(wanted)
     place = np.minimum(np.searchsorted(keys, probe, sorter=order), len(keys) - 1)
     rows = order[place]
     return np.where(keys[rows] == probe, rows, -1)
 
 
-_LINEAR_OF = {
-    "SEG3": "SEG2", "TRI6": "TRI3", "QUA8": "QUA4", "TE10": "TET4", "PR15": "PRI6", "CU20": "CUB8",
-    "PY13": "PYR5",
-}  # fmt: skip
-
-
 def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> list[FloatArray]:
     """Richest basis that the source points determine, at source and target points."""
-    for name in (cell_type, _LINEAR_OF.get(cell_type, cell_type)):
+    for name in (cell_type, LINEAR_CELLS.get(cell_type, cell_type)):
         at_source = shape_functions(name, source)
         # points above one another, as those across thick shells, determine no more than one does
         if np.linalg.matrix_rank(at_source) == len(REFERENCE_CELLS[name].nodes):
@@ -181,6 +177,10 @@ class ZoneField:
         found = carry(values, self.zone.element, source, support)
         uniform = len(found) > 1 and found.shape[1] == 1 and (found == found[0, 0]).all()
         return found[:1] if uniform else found
+
+    def each(self, name: str, default: float | None = None) -> FloatArray:
+        """Values (n_cells,), one a cell: at its first point where they vary."""
+        return np.broadcast_to(self.at(name, "GRAVITE", default)[:, 0], (len(self.zone.cells),))
 
     def matrix(self, names: tuple[str, ...], support: Support) -> FloatArray:
         """Several components side by side, zero where absent, (n_cells, len(names), n_points)."""

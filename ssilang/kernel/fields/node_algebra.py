@@ -43,10 +43,7 @@ def _joined(a: NodeValues, b: NodeValues, factor: float) -> NodeValues:
     if a.nodes is b.nodes or np.array_equal(a.nodes, b.nodes):
         return NodeValues(a.nodes, a.values + factor * b.values)
     nodes = np.union1d(a.nodes, b.nodes)
-    values = np.zeros(len(nodes))
-    values[np.searchsorted(nodes, a.nodes)] = a.values
-    values[np.searchsorted(nodes, b.nodes)] += factor * b.values
-    return NodeValues(nodes, values)
+    return NodeValues(nodes, a.at(nodes) + factor * b.at(nodes))
 
 
 def added(a: NodeField, b: NodeField, factor: float = 1.0) -> NodeField:

@@ -21,9 +21,9 @@ class NodeValues:
     values: FloatArray
 
     def at(self, nodes: IntArray, default: float = 0.0) -> FloatArray:
-        """Values at `nodes` (m,), `default` where the component is not defined."""
+        """Values at `nodes`, in their shape, `default` where the component is not defined."""
         if len(self.nodes) == 0:
-            return np.full(len(nodes), default)
+            return np.full(nodes.shape, default)
         place = np.minimum(np.searchsorted(self.nodes, nodes), len(self.nodes) - 1)
         return np.where(self.nodes[place] == nodes, self.values[place], default)
 
@@ -93,9 +93,9 @@ class NodeField:
         return np.unique(np.concatenate(parts)) if parts else np.empty(0, dtype=np.int64)
 
     def values_at(self, name: str, nodes: IntArray, default: float = 0.0) -> FloatArray:
-        """Values of component `name` at `nodes` (m,); `default` where absent."""
+        """Values of component `name` at `nodes`, in their shape; `default` where absent."""
         part = self.components.get(name)
-        return np.full(len(nodes), default) if part is None else part.at(nodes, default)
+        return np.full(nodes.shape, default) if part is None else part.at(nodes, default)
 
     def surviving(self, name: str, part: NodeValues) -> NodeValues:
         """A component on the nodes that survive merges; discrete values of one node add up.

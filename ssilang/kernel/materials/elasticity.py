@@ -20,6 +20,9 @@ KEPT: dict[Mode, tuple[int, ...]] = {
     Mode.UNIDIMENSIONAL: (0, 1, 2),
 }
 
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+"""Axes of the six components of a symmetric tensor, in their order."""
+
 
 def check_isotropic(young: FloatArray, poisson: FloatArray) -> None:
     """Refuse moduli that no stable material has.
@@ -111,17 +114,12 @@ def strain_rotation(axes: FloatArray) -> FloatArray:
     axes : array (..., 3, 3)
         Unit vectors as rows.
     """
-    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
     T = np.zeros((*axes.shape[:-2], 6, 6))
-    for row, (i, j) in enumerate(pairs):
+    for row, (i, j) in enumerate(PAIRS):
         a, b = axes[..., i, :], axes[..., j, :]
-        factor = 1.0 if i == j else 2.0
-        for column, (k, m) in enumerate(pairs):
-            if k == m:
-                T[..., row, column] = factor * a[..., k] * b[..., k]
-            else:
-                mixed = a[..., k] * b[..., m] + a[..., m] * b[..., k]
-                T[..., row, column] = factor / 2 * mixed
+        factor = 0.5 if i == j else 1.0
+        for column, (k, m) in enumerate(PAIRS):
+            T[..., row, column] = factor * (a[..., k] * b[..., m] + a[..., m] * b[..., k])
     return T
 
 

@@ -11,32 +11,23 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
+from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices import matrix
 from ssilang.kernel.mesh.nodes import NodeTable
 
 _ROUNDING = 1e-14  # of the largest coefficient: what a sum of others leaves
-_PLANE: tuple[tuple[str, ...], tuple[str, ...]] = (("UX", "UY"), ("RZ",))
-_UNKNOWNS: dict[Mode, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    Mode.PLANE_STRAIN: _PLANE,
-    Mode.PLANE_STRESS: _PLANE,
-    Mode.GENERALISED_PLANE_STRAIN: _PLANE,
-    Mode.AXISYMMETRIC: (("UR", "UZ"), ("RT",)),
-    Mode.FOURIER: (("UR", "UZ", "UT"), ("RT",)),
-    Mode.THREE_DIMENSIONAL: (("UX", "UY", "UZ"), ("RX", "RY", "RZ")),
-    Mode.UNIDIMENSIONAL: (("UX",), ()),
-}
 
 
 def translations(mode: Mode) -> tuple[str, ...]:
     """Names of the displacement unknowns ('DEPL')."""
-    return _UNKNOWNS[mode][0]
+    return NODE_TRANSLATIONS[mode]
 
 
 def rotations(mode: Mode) -> tuple[str, ...]:
     """Names of the rotation unknowns ('ROTA')."""
-    return _UNKNOWNS[mode][1]
+    return NODE_ROTATIONS[mode]
 
 
 def in_space(mode: Mode) -> tuple[str, ...]:

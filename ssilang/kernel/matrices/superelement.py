@@ -29,6 +29,7 @@ from ssilang.kernel.matrices.assembly import (
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.solvers.cholesky.elimination import Elimination, eliminate
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
+from ssilang.kernel.statics.linear import saddle_point
 from ssilang.kernel.statics.linear_motion import singular, tied
 
 LARGEST = 6000  # masters; the condensed matrix is full
@@ -120,11 +121,7 @@ def _made(
     elimination = eliminate(C)
     saddle = np.flatnonzero(~elimination.eliminated)
     T = elimination.T
-    reduced = sp.csr_array(T.T @ K @ T)
-    if len(saddle):
-        below = C[saddle] @ T
-        reduced = sp.csr_array(sp.block_array([[reduced, below.T], [below, None]], format="csr"))
-    inverse = invert(reduced, is_symmetric(matrix))
+    inverse = invert(saddle_point(K, rows, T, saddle), is_symmetric(matrix))
     if inverse.singular:
         motions = T @ inverse.kernel[: len(elimination.masters)]
         bodies = tied(numbering, rows.C, K)

@@ -10,6 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import Term, across, joined, relation_rows, rows_from_table
+from ssilang.kernel.mesh.changes.degree import known_middles
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -142,36 +143,17 @@ def middle_nodes(mesh: Mesh, unknowns: Sequence[str]) -> Relations:
     MeshError
         If the mesh has no quadratic cell.
     """
-    edges = [np.empty((0, 3), dtype=np.int64)]
-    for block in mesh.blocks:
-        for corners in _edges(block.cell_type):
-            edges.append(block.connectivity[:, corners])
-    triples = np.concatenate(edges)
-    if len(triples) == 0:
+    edges = known_middles(mesh)
+    if len(edges) == 0:
         raise MeshError("kernel.matrices.no-middle-node-mesh")
-    _, first = np.unique(triples[:, 1], return_index=True)
-    a, middle, b = triples[np.sort(first)].T
+    _, first = np.unique(edges[:, 2], return_index=True)
+    a, b, middle = edges[np.sort(first)].T
     return joined(
         [
             relation_rows(mesh.nodes, [Term(1.0, u, middle), Term(-0.5, u, a), Term(-0.5, u, b)])
             for u in unknowns
         ]
     )
-
-
-def _edges(cell_type: str) -> list[tuple[int, int, int]]:
-    """Local (end, middle, end) of the edges of a cell type, none for linear ones."""
-    from ssilang.kernel.mesh.cells import CELL_TYPES
-
-    kind = CELL_TYPES[cell_type]
-    if kind.degree != 2 or kind.joint:
-        return []
-    if kind.dimension == 1:
-        return [(0, 1, 2)]
-    if kind.dimension == 2:
-        n = kind.n_nodes
-        return [(i, i + 1, (i + 2) % n) for i in range(0, n, 2)]
-    return [tuple(face[i] for i in edge) for name, face in kind.faces for edge in _edges(name)]  # type: ignore[misc]
 
 
 def hooked(

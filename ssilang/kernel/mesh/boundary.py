@@ -10,6 +10,7 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.mesh.orientation import surface_normals
 
 
 def faces_of(mesh: Mesh, dimension: int) -> dict[str, tuple[IntArray, IntArray]]:
@@ -238,9 +239,7 @@ def _skin_edges(skin: Mesh) -> tuple[IntArray, np.ndarray, IntArray]:
     """End nodes (n, 2), unit normals of the face (n, 3) and middle node or -1 (n,) of all edges."""
     rows, normals, middles = [], [], []
     for block in skin.blocks:
-        corners = block.coordinates[:, list(block.kind.corners)]
-        rays = corners - corners[:, :1]
-        area = np.cross(rays[:, 1:-1], rays[:, 2:]).sum(axis=1)
+        area = surface_normals(block)
         unit = area / np.maximum(np.linalg.norm(area, axis=1), 1e-300)[:, None]
         for _, face in block.kind.faces:
             rows.append(block.connectivity[:, [face[0], face[-1]]])

@@ -219,6 +219,16 @@ CELL_TYPES: dict[str, CellType] = {
 }
 
 
+LINEAR_CELLS: dict[str, str] = {
+    c.name: linear.name
+    for c in CELL_TYPES.values()
+    for linear in CELL_TYPES.values()
+    if linear.degree == 1 and linear.dimension == c.dimension and not (linear.joint or c.joint)
+    and linear.n_nodes == len(c.corners)
+}  # fmt: skip
+"""The linear cell on the corners of each cell but joints."""
+
+
 def many_noded(family: str, n_nodes: int) -> str:
     """Name of a cell of any number of nodes that only carries matrices ('SUPE5', 'MULT2').
 

@@ -91,8 +91,13 @@ def take(mesh: Mesh, chosen: Callable[[CellBlock], BoolArray | IntArray]) -> Mes
 
 def cell_keys(block: CellBlock, ordered: bool = False) -> NDArray[np.void]:
     """A key for each cell (n,), equal on the same nodes, in the same order too if `ordered`."""
-    table = block.connectivity if ordered else np.sort(block.connectivity, axis=1)
-    return np.ascontiguousarray(table).view([("", table.dtype)] * table.shape[1]).ravel()
+    return row_keys(block.connectivity, ordered)
+
+
+def row_keys(nodes: IntArray, ordered: bool = False) -> NDArray[np.void]:
+    """The same for rows (n, k) of nodes."""
+    table = np.ascontiguousarray(nodes if ordered else np.sort(nodes, axis=1))
+    return table.view([("", table.dtype)] * table.shape[1]).ravel()
 
 
 def intersection(first: Mesh, second: Mesh) -> Mesh:

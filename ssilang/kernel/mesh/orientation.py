@@ -4,7 +4,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES
+from ssilang.kernel.mesh.cells import CELL_TYPES, LINEAR_CELLS, POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 
@@ -32,8 +32,11 @@ _FLIPS: dict[str, tuple[int, ...]] = {
     "TRI7": (*_polygon_flip(6), 6),
     "QUA9": (*_polygon_flip(8), 8),
 }
-# faces: bottom, top, then those around, and the middle
-_FLIPS["CU27"] = (*_FLIPS["CU20"], 20, 21, 25, 24, 23, 22, 26)
+# complete volumes: the nodes in the middles of the faces follow these, the last one stays
+for _name, _whole in (("TE10", "TE15"), ("PY13", "PY19"), ("PR15", "PR21"), ("CU20", "CU27")):
+    _order, _faces = _FLIPS[_name], [set(face) for _, face in CELL_TYPES[_name].faces]
+    _turned = [len(_order) + _faces.index({_order[i] for i in face}) for face in _faces]
+    _FLIPS[_whole] = (*_order, *_turned, len(_order) + len(_faces))
 
 
 def flipped_order(cell_type: str) -> tuple[int, ...]:
@@ -84,30 +87,16 @@ def signed_volumes(block: CellBlock) -> FloatArray:
 
     Positive when the faces of `CELL_TYPES` point outwards.
     """
-    corners = _LINEAR[block.cell_type]
     points = block.coordinates[:, list(block.kind.corners)]
     points = points - points[:, :1]
     total = np.zeros(len(block))
-    for _, face in CELL_TYPES[corners].faces:
+    for _, face in CELL_TYPES[LINEAR_CELLS[block.cell_type]].faces:
         part = points[:, list(face)]
         centre = part.mean(axis=1)
         following = np.roll(part, -1, axis=1)
         triple = np.einsum("nij,nij->n", np.cross(part, following), centre[:, None] + 0 * part)
         total += triple / 6.0
     return total
-
-
-_LINEAR = {
-    "TET4": "TET4",
-    "TE10": "TET4",
-    "PYR5": "PYR5",
-    "PY13": "PYR5",
-    "PRI6": "PRI6",
-    "PR15": "PRI6",
-    "CUB8": "CUB8",
-    "CU20": "CUB8",
-    "CU27": "CUB8",
-}
 
 
 def orient(mesh: Mesh, space_dimension: int) -> Mesh:

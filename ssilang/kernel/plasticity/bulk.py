@@ -14,6 +14,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
+from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import Numbering, assemble_terms, block_indices
@@ -342,9 +343,7 @@ def without_stiffness(zone: Zone) -> ElementMatrices:
     layout = family_of(zone).layout(zone)
     k = len(layout.unknowns)
     zeros = np.zeros((len(layout.raw_nodes), k, k))
-    return ElementMatrices(
-        layout.table, layout.raw_nodes, layout.local, layout.unknowns, layout.duals, zeros
-    )
+    return element_matrices(zone, layout, zeros, "RIGIDITE", keep_zone=False)
 
 
 # --- fields ----------------------------------------------------------------------------------

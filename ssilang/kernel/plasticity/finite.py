@@ -16,8 +16,7 @@ from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of, integration_weights, moduli_of
-from ssilang.kernel.elements.results.tensors import as_components, as_tensor
-from ssilang.kernel.elements.solids.kinematics import harmonic
+from ssilang.kernel.elements.solids.kinematics import as_components, as_tensor, harmonic
 from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField

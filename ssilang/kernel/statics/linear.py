@@ -217,7 +217,7 @@ def _prepare(matrix: Matrix, numbering: assembly.Numbering, options: SolveOption
     elimination = eliminate(rows.C, lawful & options.eliminate)
     left = ~elimination.eliminated & equality
     saddle, contact = np.flatnonzero(left), np.flatnonzero(~equality)
-    reduced = _saddle_point(K, rows, elimination.T, saddle)
+    reduced = saddle_point(K, rows, elimination.T, saddle)
     symmetric = assembly.is_symmetric(matrix)
     if options.stabilise:
         reduced = stabilised(reduced, len(elimination.masters))
@@ -249,9 +249,10 @@ def _associated_rows(rows: assembly.ConstraintRows) -> BoolArray:
     return same
 
 
-def _saddle_point(
+def saddle_point(
     K: sp.csr_array, rows: assembly.ConstraintRows, T: sp.csr_array, saddle: IntArray
 ) -> sp.csr_array:
+    """K (n, n) on the motions u = T z, with the saddle rows of the conditions below."""
     reduced = sp.csr_array(T.T @ K @ T)
     if len(saddle) == 0:
         return reduced

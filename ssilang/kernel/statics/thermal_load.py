@@ -131,8 +131,8 @@ def _between_sides(
     if not is_joint(zone) or isinstance(field, CellField):
         return field
     joints = joint_cells(zone, zone_field(zone, material))
-    sides = [field.values_at("T", side.ravel()) for side in (joints.upper, joints.lower)]
-    mean = (sides[0] + sides[1]).reshape(joints.upper.shape) / 2 @ joints.shape.T
+    sides = field.values_at("T", joints.upper) + field.values_at("T", joints.lower)
+    mean = sides / 2 @ joints.shape.T
     block = CellFieldBlock(zone.cells, {"T": mean}, "STRESSES", zone.element, zone.constituent)
     return CellField((block,))
 

@@ -27,6 +27,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.elements.zone_fields import rows_of
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.elements import is_joint
@@ -64,8 +65,8 @@ class Yielding:
 
 def yielding_outside(model: Model, inside: Mesh) -> Yielding | None:
     """Cells of laws that are not linear among those that are not cells of a mesh."""
-    kept = {key for block in inside.blocks for key in _keys(block.connectivity)}
-    return _yielding(model, lambda nodes: np.array([k not in kept for k in _keys(nodes)], bool))
+    kept = [block.connectivity for block in inside.blocks]
+    return _yielding(model, lambda nodes: ~_among(nodes, kept))
 
 
 def yielding_at(model: Model, edge: Mesh) -> Yielding | None:
@@ -182,17 +183,12 @@ def elements_of(ground: Ground, cells: Mesh) -> Share:
     FieldError
         If some cells have no element of the ground.
     """
-    wanted = {key for block in cells.blocks for key in _keys(block.connectivity)}
-    found = {
-        key for b in ground.stiffness.blocks for key in _keys(b.nodes) if key in wanted
-    }  # fmt: skip
-    if len(found) < len(wanted):
-        raise FieldError("kernel.waves.cells-without-elements", count=len(wanted - found))
-
-    def kept(nodes: IntArray) -> BoolArray:
-        return np.array([key in wanted for key in _keys(nodes)], bool)
-
-    return _share(ground, kept)
+    wanted = [block.connectivity for block in cells.blocks]
+    known = [block.nodes for block in ground.stiffness.blocks]
+    lost = sum(int((~_among(nodes, known)).sum()) for nodes in wanted)
+    if lost:
+        raise FieldError("kernel.waves.cells-without-elements", count=lost)
+    return _share(ground, lambda nodes: _among(nodes, wanted))
 
 
 def elements_at(ground: Ground, edge: Mesh) -> Share:
@@ -202,15 +198,14 @@ def elements_at(ground: Ground, edge: Mesh) -> Share:
 
 def elements_with(ground: Ground, nodes: IntArray) -> Share:
     """The share of the elements that have one of some nodes (n,)."""
-
-    def kept(of: IntArray) -> BoolArray:
-        return np.asarray(np.isin(of, nodes).any(axis=1))
-
-    return _share(ground, kept)
+    return _share(ground, lambda of: np.asarray(np.isin(of, nodes).any(axis=1)))
 
 
-def _keys(nodes: IntArray) -> list[bytes]:
-    return [row.tobytes() for row in np.sort(nodes.astype(np.int64), axis=1)]
+def _among(nodes: IntArray, others: list[IntArray]) -> BoolArray:
+    """Which rows (n, k) have the nodes of a row of the others, in any order."""
+    own = [of for of in others if of.shape[1] == nodes.shape[1]]
+    found = rows_of(np.concatenate([nodes[:0], *own]), nodes)
+    return np.asarray(found >= 0, bool)
 
 
 def _share(ground: Ground, kept: Callable[[IntArray], BoolArray]) -> Share:

@@ -25,8 +25,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, MaterialError, MeshError
+from ssilang.kernel.elements.boundary import wave_speeds
 from ssilang.kernel.elements.catalog import ELEMENTS
-from ssilang.kernel.elements.family import node_major_layout, per_cell
+from ssilang.kernel.elements.family import element_matrices, node_major_layout, per_cell
 from ssilang.kernel.elements.solids.kinematics import SOLID_KINEMATICS
 from ssilang.kernel.elements.solids.solid import zone_geometry
 from ssilang.kernel.elements.solids.solid_moduli import solid_moduli, symmetry_of
@@ -37,7 +38,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.matrices.relations import blocked
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.plasticity.points import is_plastic
-from ssilang.kernel.waves.resolution import longest_sides, pressure_speed
+from ssilang.kernel.waves.resolution import longest_sides
 
 HISTORIES = ("HXX", "HYY", "HXY")
 """Their inertia is negative."""
@@ -167,7 +168,7 @@ def matched_layer(
     longest = max(float(longest_sides(z).max()) for z in model.zones)
     cells = float(thick[thick > 0].min() / longest)
     wanted = suited_reflection(cells) if reflection is None else reflection
-    speed = max(float(pressure_speed(z, material).max()) for z in model.zones)
+    speed = max(float(wave_speeds(z, material)[0].max()) for z in model.zones)
     stretching = Stretching(low, high, below, above, speed, wanted)
     parts = [_blocks(zone, zone_field(zone, material), stretching) for zone in model.zones]
     K, M, C = ([b for part in parts for b in part[kind]] for kind in range(3))
@@ -213,10 +214,7 @@ def _blocks(
     layout = node_major_layout(zone, SOLID_KINEMATICS[zone.mode].unknowns)
     found: list[list[ElementMatrices]] = []
     for kind, of_nodes, of_histories in zip(kinds, inertia, histories.values(), strict=True):
-        block = ElementMatrices(
-            layout.table, layout.raw_nodes, layout.local, layout.unknowns, layout.duals, of_nodes,
-            kind,
-        )  # fmt: skip
+        block = element_matrices(zone, layout, of_nodes, kind, keep_zone=False)
         found.append([block, histories.block(layout.raw_nodes, of_histories, kind)])
     return found[0], found[1], found[2]
 

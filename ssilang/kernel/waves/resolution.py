@@ -5,8 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import Matrix
@@ -53,18 +51,6 @@ def _edges(kind: CellType) -> set[tuple[int, int]]:
         for i, j in zip(contour, contour[1:] + contour[:1], strict=True)
         if i != j
     }
-
-
-def pressure_speed(zone: Zone, material: CellField) -> FloatArray:
-    """Speed of pressure waves of each cell (m/s)."""
-    parameters = zone_field(zone, material)
-    n = len(zone.cells)
-    young, poisson, density = (
-        np.broadcast_to(parameters.at(name, "GRAVITE").mean(axis=1), (n,))
-        for name in ("YOUN", "NU", "RHO")
-    )
-    modulus = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
-    return np.sqrt(modulus / density)
 
 
 #: a face whose middle lies so far above its cell's, as a share of the way, is the surface's

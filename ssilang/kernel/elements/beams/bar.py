@@ -27,17 +27,8 @@ def _geometry(
 class Bar(family.ElementFamily):
     """Normal force EFFX = YOUN SECT EPSS along the line."""
 
-    def layout(self, zone: Zone) -> family.Layout:
-        """Translations, node by node."""
-        return family.node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """EPSS."""
-        return ("EPSS",)
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """EFFX, a force."""
-        return ("EFFX",)
+    strains = ("EPSS",)
+    stresses = ("EFFX",)
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """YOUN SECT."""

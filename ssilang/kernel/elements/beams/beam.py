@@ -17,7 +17,6 @@ from ssilang.kernel.elements.beams.beam_frame import (
 )
 from ssilang.kernel.elements.beams.fibre_section import section_of_beam
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -28,6 +27,8 @@ FORCES = ("EFFX", "EFFY", "EFFZ", "MOMX", "MOMY", "MOMZ")
 
 # bending planes: (deflection row, rotation row, sign of the rotation, moment of inertia, shear)
 _PLANES = ((1, 5, 1.0, 5, 1), (2, 4, -1.0, 4, 2))
+# of what is linear between two nodes: products of slopes, and of shapes times 6, over the length
+_DIFFERENCE, _LINEAR = np.array([[1.0, -1.0], [-1.0, 1.0]]), np.array([[2.0, 1.0], [1.0, 2.0]])
 # coefficients of one bending plane, rows and columns v1 t1 v2 t2
 _BENDING = np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]], float)
 _ROTARY_SHEAR = np.array([[0, 0, 0, 0], [0, 1, 0, -1], [0, 0, 0, 0], [0, -1, 0, 1]], float)
@@ -55,9 +56,8 @@ def local_stiffness(section: Section, lengths: FloatArray) -> FloatArray:
     n, L = len(lengths), lengths
     values = np.broadcast_to(section.values, (n, 6))
     K = np.zeros((n, 12, 12))
-    pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
-    for row, modulus in ((0, 0), (3, 3)):
-        _place(K, [row, row + 6], (values[:, modulus] / L)[:, None, None] * pair)
+    for row in (0, 3):
+        _place(K, [row, row + 6], (values[:, row] / L)[:, None, None] * _DIFFERENCE)
     for v, t, sign, bending, shear in _PLANES:
         phi = section.shear_ratio(L, bending, shear)[:, None, None]
         scale = values[:, bending, None, None] / L[:, None, None] ** _LENGTH_POWERS
@@ -92,16 +92,10 @@ def to_global(local: FloatArray, T: FloatArray) -> FloatArray:
     return np.swapaxes(T, 1, 2) @ local @ T
 
 
-class _LineBeam(family.ElementFamily):
+class _LineBeam(family.TurningFamily):
     """What both beams share."""
 
     shear_default = "rigid"
-
-    def layout(self, zone: Zone) -> family.Layout:
-        """Translations then rotations, node by node."""
-        return family.node_major_layout(
-            zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode]
-        )
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Lengthening, shears, twist, curvatures."""
@@ -133,13 +127,8 @@ class _LineBeam(family.ElementFamily):
 
     def linear_mass(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, FloatArray]:
         """Mass per length and mass moment per length (x, y, z), (n_cells, 1) and (n_cells, 3)."""
-        n = len(zone.cells)
-
-        def value(name: str, default: float | None = None) -> FloatArray:
-            return np.broadcast_to(parameters.at(name, "GRAVITE", default)[:, 0], (n,))
-
-        rho, area = value("RHO"), value("SECT")
-        iy, iz = value("INRY", 0.0), value("INRZ")
+        rho, area = parameters.each("RHO"), parameters.each("SECT")
+        iy, iz = parameters.each("INRY", 0.0), parameters.each("INRZ")
         return rho * area, rho[:, None] * np.stack([iy + iz, iy, iz], axis=1)
 
 
@@ -210,9 +199,8 @@ class Beam(_LineBeam):
         linear, moments = self.linear_mass(zone, parameters)
         local = _plane_blocks(_HERMITE_MASS, L, linear * L / 420)
         local += _plane_blocks(_SLOPES, L, moments[:, 2] / (30 * L), moments[:, 1] / (30 * L))
-        pair = np.array([[2.0, 1.0], [1.0, 2.0]])
         for row, scale in ((0, linear), (3, moments[:, 0])):
-            _place(local, [row, row + 6], (scale * L / 6)[:, None, None] * pair)
+            _place(local, [row, row + 6], (scale * L / 6)[:, None, None] * _LINEAR)
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
@@ -220,7 +208,7 @@ class Beam(_LineBeam):
         frame = beam_frame(zone, parameters)
         scale = stress[:, 0].mean(axis=1) / (30 * frame.lengths)
         local = _plane_blocks(_SLOPES, frame.lengths, scale)
-        _place(local, [0, 6], 30 * scale[:, None, None] * np.array([[1.0, -1.0], [-1.0, 1.0]]))
+        _place(local, [0, 6], 30 * scale[:, None, None] * _DIFFERENCE)
         return to_global(keep(local, zone), frame.rotation(zone))
 
 
@@ -252,9 +240,8 @@ class Timoshenko(_LineBeam):
         linear, moments = self.linear_mass(zone, parameters)
         scales = np.hstack([np.repeat(linear[:, None], 3, axis=1), moments])
         local = np.zeros((len(linear), 12, 12))
-        pair = np.array([[2.0, 1.0], [1.0, 2.0]])
         for row in range(6):
-            block = (scales[:, row] * frame.lengths / 6)[:, None, None] * pair
+            block = (scales[:, row] * frame.lengths / 6)[:, None, None] * _LINEAR
             _place(local, [row, row + 6], block)
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
@@ -263,22 +250,19 @@ class Timoshenko(_LineBeam):
         frame = beam_frame(zone, parameters)
         scale = (stress[:, 0, 0] / frame.lengths)[:, None, None]
         local = np.zeros((len(scale), 12, 12))
-        pair = np.array([[1.0, -1.0], [-1.0, 1.0]])
         for v in (0, 1, 2):
-            _place(local, [v, v + 6], scale * pair)
+            _place(local, [v, v + 6], scale * _DIFFERENCE)
         radii = self._squared_radii(zone, parameters)
         for column, r in enumerate((4, 5)):
-            _place(local, [r, r + 6], scale * radii[:, column, None, None] * pair)
+            _place(local, [r, r + 6], scale * radii[:, column, None, None] * _DIFFERENCE)
         return to_global(keep(local, zone), frame.rotation(zone))
 
     def _squared_radii(self, zone: Zone, parameters: ZoneField) -> FloatArray:
         """Squared radii of gyration about y and z, (n_cells, 2); zero where no section is known."""
-        n = len(zone.cells)
         if "SECT" not in parameters:
-            return np.zeros((n, 2))
-        area = parameters.at("SECT", "GRAVITE")[:, 0]
-        inertia = [parameters.at(name, "GRAVITE", 0.0)[:, 0] for name in ("INRY", "INRZ")]
-        return np.stack([np.broadcast_to(i / area, (n,)) for i in inertia], axis=1)
+            return np.zeros((len(zone.cells), 2))
+        inertia = [parameters.each(name, 0.0) for name in ("INRY", "INRZ")]
+        return np.stack(inertia, axis=1) / parameters.each("SECT")[:, None]
 
 
 def section_of(moduli: FloatArray, zone: Zone) -> Section:
@@ -313,8 +297,9 @@ class FibreBeam(Timoshenko):
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
         """Linear interpolation; fibres off the line tie translations to rotations."""
         frame = beam_frame(zone, parameters)
-        pair = np.array([[2.0, 1.0], [1.0, 2.0]]) / 6
-        local = np.kron(pair, section_of_beam(parameters).mass) * frame.lengths[:, None, None]
+        local = (
+            np.kron(_LINEAR / 6, section_of_beam(parameters).mass) * frame.lengths[:, None, None]
+        )
         return to_global(keep(local, zone), frame.rotation(zone)), self.layout(zone)
 
     def _squared_radii(self, zone: Zone, parameters: ZoneField) -> FloatArray:

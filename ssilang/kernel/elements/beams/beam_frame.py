@@ -46,15 +46,13 @@ def _default_side(along: FloatArray) -> FloatArray:
 def _given_side(zone: Zone, parameters: ZoneField) -> FloatArray | None:
     if zone.mode is not Mode.THREE_DIMENSIONAL:
         return None
-    n = len(zone.cells)
     if "VECT" in parameters:
         values = parameters.raw("VECT")[0]
         flat = np.asarray(values, dtype=object).reshape(len(values), -1)[:, 0]
         rows = [point.coordinates for point in flat]
-        return np.broadcast_to(np.array(rows, dtype=float), (n, 3))
+        return np.broadcast_to(np.array(rows, dtype=float), (len(zone.cells), 3))
     if "VX" in parameters:
-        columns = [parameters.at(name, "GRAVITE", 0.0)[:, 0] for name in ("VX", "VY", "VZ")]
-        return np.stack([np.broadcast_to(c, (n,)) for c in columns], axis=1)
+        return np.stack([parameters.each(name, 0.0) for name in ("VX", "VY", "VZ")], axis=1)
     return None
 
 

@@ -45,17 +45,12 @@ def fibre_places(zone: Zone, support: Support) -> tuple[FloatArray, FloatArray]:
 class Fibre(ElementFamily):
     """Cells of a section: they have places, areas and stresses, and no unknowns of their own."""
 
+    strains = STRAINS
+    stresses = STRESSES
+
     def layout(self, zone: Zone) -> Layout:
         """There is none."""
         raise FieldError("kernel.elements.element-describes-section-beam", element=zone.element)
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """Along the beam, and the two shears."""
-        return STRAINS
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """Along the beam, and the two shears."""
-        return STRESSES
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice

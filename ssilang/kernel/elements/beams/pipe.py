@@ -22,12 +22,11 @@ def pipe_parameters(zone: Zone, parameters: ZoneField, bends: bool = True) -> Zo
     """
     if "EPAI" not in parameters or "SECT" in parameters:
         return parameters
-    n = len(zone.cells)
-    h, outer = (_column(parameters, name, n) for name in ("EPAI", "RAYO"))
+    h, outer = parameters.each("EPAI"), parameters.each("RAYO")
     inner, mean = outer - h, outer - h / 2
     area = np.pi * (outer**2 - inner**2)
     inertia = np.pi / 4 * (outer**4 - inner**4)
-    bend = _column(parameters, "RACO", n, 0.0)
+    bend = parameters.each("RACO", 0.0)
     ratio = h * bend / mean**2
     curved = bends & (bend > 0)
     flexible = np.where(curved, np.maximum(1.65 / np.where(bend > 0, ratio, 1.0), 1.0), 1.0)
@@ -38,17 +37,12 @@ def pipe_parameters(zone: Zone, parameters: ZoneField, bends: bool = True) -> Zo
     return ZoneField(zone, (*parameters.parts, (block, None)))
 
 
-def _column(parameters: ZoneField, name: str, n: int, default: float | None = None) -> FloatArray:
-    return np.broadcast_to(parameters.at(name, "GRAVITE", default)[:, 0], (n,))
-
-
 def pressure_forces(zone: Zone, parameters: ZoneField) -> FloatArray:
     """Element vectors (n_cells, 12) of the inner pressure PRES on closed ends: p pi r^2."""
-    n = len(zone.cells)
-    h, outer, pressure = (_column(parameters, name, n) for name in ("EPAI", "RAYO", "PRES"))
+    h, outer, pressure = (parameters.each(name) for name in ("EPAI", "RAYO", "PRES"))
     push = pressure * np.pi * (outer - h) ** 2
     axis = beam_frame(zone, parameters).axes[:, 0]
-    vectors = np.zeros((n, 12))
+    vectors = np.zeros((len(h), 12))
     vectors[:, :3], vectors[:, 6:9] = -push[:, None] * axis, push[:, None] * axis
     return vectors
 

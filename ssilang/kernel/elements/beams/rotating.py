@@ -33,9 +33,8 @@ _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
 def cross_matrix(w: FloatArray) -> FloatArray:
-    """W (3, 3) with W u = w x u."""
-    x, y, z = w
-    return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    """W (..., 3, 3) with W u = w x u, w (..., 3)."""
+    return np.cross(np.eye(3), w[..., None, :])
 
 
 def inertia_coupling(
@@ -139,13 +138,10 @@ def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> E
         raise FieldError("kernel.elements.corotational-damping-beams-space", element=zone.element)
     parameters = zone_field(zone, material)
     axes = beam_frame(zone, parameters).axes
-    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE", 1.0)[:, 0], len(axes))
     turn = np.zeros((len(axes), *damping.values.shape[1:]))
-    w = speed[:, None] * axes[:, 0]
+    W = cross_matrix(parameters.each("OMEG", 1.0)[:, None] * axes[:, 0])
     for start in range(0, turn.shape[1], 3):
-        for i, j, c, sign in ((0, 1, 2, -1), (1, 0, 2, 1), (0, 2, 1, 1), (2, 0, 1, -1),
-                              (1, 2, 0, -1), (2, 1, 0, 1)):  # fmt: skip
-            turn[:, start + i, start + j] = sign * w[:, c]
+        turn[:, start : start + 3, start : start + 3] = W
     values = -damping.values @ turn
     return replace(damping, values=values, kind="RIGIDITE", zone=None, symmetric=False)
 
@@ -167,9 +163,8 @@ def gyroscopic(zone: Zone, material: CellField) -> ElementMatrices:
     family, parameters = family_of(zone), zone_field(zone, material)
     frame = beam_frame(zone, parameters)
     _, moments = family.linear_mass(zone, parameters)  # type: ignore[attr-defined]
-    speed = np.broadcast_to(parameters.at("OMEG", "GRAVITE", 1.0)[:, 0], len(frame.lengths))
     local = np.zeros((len(frame.lengths), 12, 12))
-    scale = speed * moments[:, 0] * frame.lengths
+    scale = parameters.each("OMEG", 1.0) * moments[:, 0] * frame.lengths
     for s, w in zip(0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS, strict=True):
         _, R = _shapes(float(s), frame.lengths, name != "timoshenko")
         y, z = R[:, 1], R[:, 2]

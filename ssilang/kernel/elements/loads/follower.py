@@ -5,11 +5,14 @@ the interpolated geometry, straight and without moments in COQ2. In a Fourier se
 with cos, UT with sin.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.boundary import face_rule
+from ssilang.kernel.elements.family import element_matrices, node_major_layout
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
 from ssilang.kernel.elements.solids.solid import circumference
@@ -17,7 +20,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
-from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
+from ssilang.kernel.matrices.matrix import ElementMatrices
 
 REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
 
@@ -92,17 +95,9 @@ def _dimension(zone: Zone) -> int:
 def _matrices(zone: Zone, values: FloatArray, unsymmetric: bool) -> ElementMatrices:
     if not unsymmetric:
         values = 0.5 * (values + np.swapaxes(values, 1, 2))
-    names = NODE_TRANSLATIONS[zone.mode]
-    k, d = zone.cells.kind.n_nodes, len(names)
-    return ElementMatrices(
-        zone.cells.nodes,
-        zone.cells.raw,
-        np.repeat(np.arange(k), d),
-        names * k,
-        tuple(dual_of(n) for n in names) * k,
-        values,
-        symmetric=not unsymmetric,
-    )
+    layout = node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+    made = element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)
+    return replace(made, symmetric=not unsymmetric)
 
 
 def _at_points(zone: Zone, pressure: NodeField | CellField) -> FloatArray:
@@ -112,7 +107,7 @@ def _at_points(zone: Zone, pressure: NodeField | CellField) -> FloatArray:
     nodes = zone.cells.connectivity
     if isinstance(pressure, NodeField):
         name = next(iter(pressure.components), "")
-        values = pressure.values_at(name, nodes.ravel()).reshape(nodes.shape) @ shapes.T
+        values = pressure.values_at(name, nodes) @ shapes.T
     else:
         seen = zone_field(zone, pressure)
         raw = seen.raw(seen.names[0] if seen.names else "")[0].astype(float)

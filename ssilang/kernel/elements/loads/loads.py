@@ -63,7 +63,7 @@ def _densities(zone: Zone, names: tuple[str, ...], value: FloatArray | NodeField
     for i, name in enumerate(names):
         axis = "XYZ".index(name[1]) if name[1] in "XYZ" else i
         if isinstance(value, NodeField):
-            out[..., axis] = value.values_at(name, nodes.ravel()).reshape(nodes.shape)
+            out[..., axis] = value.values_at(name, nodes)
         elif name[0] == "F":
             out[..., axis] = value[axis]
     return out
@@ -166,9 +166,10 @@ def _face_values(
     """Values (n, points) of a scalar on faces."""
     shape = (len(part), len(geometry.shapes))
     if isinstance(value, NodeField):
-        return _at_nodes(part, value, _only(tuple(value.components))) @ geometry.shapes.T
+        name = _only(tuple(value.components))
+        return value.values_at(name, part.connectivity) @ geometry.shapes.T
     if isinstance(value, CellField):
-        out = np.zeros((len(part), len(geometry.shapes)))
+        out = np.zeros(shape)
         for block in value.blocks:
             rows = cell_rows(block.cells, part)
             found = rows >= 0
@@ -185,11 +186,6 @@ def _only(names: tuple[str, ...]) -> str:
     if len(names) != 1:
         raise FieldError("kernel.elements.pressure-component-field", names=names)
     return names[0]
-
-
-def _at_nodes(part: CellBlock, field: NodeField, name: str) -> FloatArray:
-    nodes = part.connectivity
-    return field.values_at(name, nodes.ravel()).reshape(nodes.shape)
 
 
 def _to_face_points(
@@ -259,7 +255,7 @@ def _vector_values(
     columns = []
     for name, unknown in zip(names, NODE_TRANSLATIONS[zone.mode], strict=True):
         given = name if name in value.components else unknown
-        columns.append(_at_nodes(part, value, given) @ geometry.shapes.T)
+        columns.append(value.values_at(given, part.connectivity) @ geometry.shapes.T)
     return np.stack(columns, axis=-1)
 
 
@@ -429,8 +425,8 @@ def _body_force(
     parameters = zone_field(zone, material)
     if ELEMENTS[zone.element].family in ("plate", "mindlin"):
         shapes = shape_functions(zone.cells.cell_type, support_rule(zone.element, "MASSE").points)
-        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (len(zone.cells),))
-        w = family_of(zone).weights(zone, parameters, "MASSE") * h[:, None]
+        h = parameters.each("EPAI")[:, None]
+        w = family_of(zone).weights(zone, parameters, "MASSE") * h
         values = _density_values(zone, density, names, shapes, slice(0, len(zone.cells)))
         return _scatter(zone, zone.cells, np.einsum("cp,cpd,pk->ckd", w, values, shapes))
     if not boundary.is_solid(zone):
@@ -453,9 +449,7 @@ def _density_values(
     """Volume forces (n, points, d) at the points of 'MASSE'."""
     if isinstance(density, NodeField):
         nodes = zone.cells.connectivity[cells]
-        columns = [
-            density.values_at(n, nodes.ravel()).reshape(nodes.shape) @ shapes.T for n in names
-        ]
+        columns = [density.values_at(n, nodes) @ shapes.T for n in names]
         return np.stack(columns, axis=-1)
     seen = zone_field(zone, density)
     if not any(n in seen for n in names):

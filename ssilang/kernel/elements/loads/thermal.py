@@ -5,13 +5,12 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.beams.fibre_section import section_of_beam
-from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_rule
+from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_shapes
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.tensors import as_components
-from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.thick_shell import ACROSS
+from ssilang.kernel.elements.solids.kinematics import as_components
 from ssilang.kernel.elements.solids.solid_moduli import material_axes, symmetry_of
-from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
@@ -34,20 +33,18 @@ SKINS = ("TINF", "TSUP")
 
 def temperature(zone: Zone, field: NodeField | CellField, name: str = "T") -> FloatArray:
     """Temperature (n_cells, n_points) at the points of 'STRESSES'."""
-    rule = support_rule(zone.element, "STRESSES")
     if isinstance(field, CellField):
         seen = zone_field(zone, field)
         chosen = name if name in seen.names else (seen.names or (name,))[0]
         values = seen.at(chosen, "STRESSES")
-        return np.broadcast_to(values, (len(zone.cells), len(rule)))
+        return np.broadcast_to(values, (len(zone.cells), n_points(zone.element, "STRESSES")))
     if name not in field.components:
         raise FieldError(
             "kernel.elements.field-no-component", name=name, components=field.components
         )
-    kind = ELEMENTS[zone.element]
-    nodes = zone.cells.connectivity
-    values = field.values_at(name, nodes.ravel()).reshape(nodes.shape)
-    return values @ shape_functions(kind.reference or kind.cell_type, rule.points).T
+    return (
+        field.values_at(name, zone.cells.connectivity) @ support_shapes(zone.element, "STRESSES").T
+    )
 
 
 def refuse_expanding(joints: list[Zone], material: CellField | None) -> None:
@@ -188,7 +185,7 @@ def given_strain(zone: Zone, field: CellField) -> FloatArray:
     Components that the field lacks, and all on zones that it does not cover, are zero.
     """
     seen, names = zone_field(zone, field), family_of(zone).strain_names(zone)
-    shape = (len(zone.cells), len(support_rule(zone.element, "STRESSES")))
+    shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
     columns = [np.broadcast_to(seen.at(n, "STRESSES", 0.0), shape) for n in names]
     return np.stack(columns, axis=1)
 

@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.catalog import ELEMENTS, support_shapes
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results import tensors
-from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.shells.thick_shell import ThickShell
+from ssilang.kernel.elements.solids.kinematics import as_components
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.elements.solids.solid_moduli import material_axes
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -64,18 +64,13 @@ def fixed_frame(first: FloatArray, second: FloatArray | None) -> FloatArray:
 
 def points_of(zone: Zone, support: Support) -> FloatArray:
     """Coordinates (n_cells, n_points, 3) of the points of a support."""
-    kind = ELEMENTS[zone.element]
-    rule = support_rule(zone.element, support)
-    shapes = shape_functions(kind.reference or kind.cell_type, rule.points)
+    shapes = support_shapes(zone.element, support)
     return np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates)
 
 
 def polar_frames(x: FloatArray, centre: FloatArray) -> FloatArray:
     """Frames (..., 3, 3), rows: radius in the plane, its quarter turn, z."""
-    radius = (x - centre) * [1.0, 1.0, 0.0]
-    r = unit(radius)
-    z = np.broadcast_to(np.array([0.0, 0.0, 1.0]), r.shape)
-    return np.stack([r, np.cross(z, r), z], axis=-2)
+    return cylindrical_frames(x, centre, centre + np.array([0.0, 0.0, 1.0]))
 
 
 def cylindrical_frames(x: FloatArray, centre: FloatArray, on_axis: FloatArray) -> FloatArray:
@@ -164,7 +159,7 @@ def seen_in(zone: Zone, field: CellField, frames: FloatArray) -> CellFieldBlock:
     T, support, strains = tensors.tensor(zone, field)
     turned = frames @ T @ np.swapaxes(frames, -1, -2)
     names = tensors.names_seen(zone, field)[0]
-    values = tensors.as_components(turned, len(names), strains)
+    values = as_components(turned, len(names), strains)
     return cell_block(zone, names, values, support)
 
 
@@ -296,7 +291,7 @@ def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:
     mean = np.zeros((len(nodes), 3))
     for i, name in enumerate(("RX", "RY", "RZ")):
         if name in motion.components:
-            mean[:, i] = motion.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
+            mean[:, i] = motion.values_at(name, nodes).mean(axis=1)
     plain = Rotation.from_rotvec(mean)
     if zone.element != "JOI1":
         return plain.as_matrix()

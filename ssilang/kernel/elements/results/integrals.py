@@ -48,7 +48,7 @@ def integrals(
     if material is not None and across is not None:
         if family == "pipe":
             parameters = pipe_parameters(zone, parameters)
-        total = total * np.broadcast_to(parameters.at(across, "GRAVITE")[:, 0], total.shape)
+        total = total * parameters.each(across)
     return total
 
 

@@ -7,9 +7,8 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.frames import strains_or_stresses
+from ssilang.kernel.elements.results.frames import shell_frames, strains_or_stresses
 from ssilang.kernel.elements.results.tensors import components_at_home
-from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Zone
@@ -64,17 +63,7 @@ def shell_tensor(
 
 def in_global_axes(zone: Zone, T: FloatArray) -> FloatArray:
     """Tensors (n_cells, n_points, 3, 3) of a thin shell's own frame, in the axes of the mesh."""
-    family = ELEMENTS[zone.element].family
-    if family == "meridian":
-        x = zone.cells.coordinates
-        along = (x[:, 1] - x[:, 0])[:, :2]
-        along = along / np.linalg.norm(along, axis=1, keepdims=True)
-        frames = np.zeros((len(x), 3, 3))  # rows: along the line, around, normal
-        frames[:, 0, :2] = along
-        frames[:, 1, 2] = 1.0
-        frames[:, 2, 0], frames[:, 2, 1] = along[:, 1], -along[:, 0]
-    else:
-        frames = flat_frames(zone)[0]
+    frames = shell_frames(zone)
     return np.einsum("cki,cpkl,clj->cpij", frames, T, frames)
 
 

@@ -8,8 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.catalog import support_rule, support_shapes
 from ssilang.kernel.elements.zone_fields import carry, cell_rows, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
@@ -92,9 +91,7 @@ def cells_of_nodal(
     """
     blocks = []
     for zone in model.zones:
-        kind = ELEMENTS[zone.element]
-        points = support_rule(zone.element, target).points
-        shapes = shape_functions(kind.reference or kind.cell_type, points)
+        shapes = support_shapes(zone.element, target)
         half = shapes.shape[1]
         components = {}
         for name, values in _at_cell_nodes(zone.cells, field).items():
@@ -130,7 +127,7 @@ def _at_cell_nodes(cells: CellBlock, field: NodeField) -> dict[str, FloatArray]:
     out = {}
     for name, part in field.components.items():
         if np.isin(nodes, part.nodes).any():
-            out[name] = part.at(nodes.ravel()).reshape(nodes.shape)
+            out[name] = part.at(nodes)
     return out
 
 
@@ -141,9 +138,7 @@ def point_coordinates(field: CellField) -> list[tuple[CellFieldBlock, FloatArray
         if block.support == "NOEUD" or not block.element:
             out.append((block, block.cells.coordinates))
             continue
-        kind = ELEMENTS[block.element]
-        points = support_rule(block.element, block.support).points
-        shapes = shape_functions(kind.reference or kind.cell_type, points)
+        shapes = support_shapes(block.element, block.support)
         corners = block.cells.coordinates
         half = shapes.shape[1]
         if corners.shape[1] == 2 * half:

@@ -16,7 +16,7 @@ from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
-from ssilang.kernel.elements.solids.gradients import PAIRS
+from ssilang.kernel.elements.solids.kinematics import as_tensor
 from ssilang.kernel.elements.zone_fields import ZoneField, carry, none_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.materials.model import Mode, Zone
@@ -56,22 +56,6 @@ def tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support, bool]:
     names, strains = names_seen(zone, field)
     values, support = components_at_home(zone, field, names)
     return as_tensor(values, strains), support, strains
-
-
-def as_tensor(values: FloatArray, strains: bool) -> FloatArray:
-    """Tensors (n, p, 3, 3) from components (n, 4 or 6, p); shear strains are halved."""
-    n, m, p = values.shape
-    T = np.zeros((n, p, 3, 3))
-    for row, (i, j) in enumerate(PAIRS[:m]):
-        factor = 0.5 if strains and i != j else 1.0
-        T[..., i, j] = T[..., j, i] = factor * values[:, row]
-    return T
-
-
-def as_components(T: FloatArray, n_components: int, strains: bool) -> FloatArray:
-    """Components (n, n_components, p) of tensors (n, p, 3, 3)."""
-    rows = [T[..., i, j] * (2.0 if strains and i != j else 1.0) for i, j in PAIRS[:n_components]]
-    return np.stack(rows, axis=1)
 
 
 def principal(zone: Zone, T: FloatArray, ordered: bool) -> FloatArray:

@@ -13,7 +13,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import Layout, ShellFamily, StrainOperator
+from ssilang.kernel.elements.family import Layout, StrainOperator, TurningFamily
 from ssilang.kernel.elements.shapes.quadrature import Rule
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.shells.shell_section import (
@@ -72,7 +72,7 @@ def _normals(frames: FloatArray, count: int) -> FloatArray:
     return np.repeat(frames[:, None, 2], count, axis=1)
 
 
-class FlatShell(ShellFamily):
+class FlatShell(TurningFamily):
     """Shell of flat cells: a family adds its moduli, and what bends it."""
 
     @abstractmethod
@@ -121,10 +121,8 @@ class FlatShell(ShellFamily):
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """By the shapes of the cell: RHO EPAI of translations, RHO EPAI^3 / 12 of rotations."""
         frames, local = flat_frames(zone)
-        n = len(frames)
         rule = support_rule(zone.element, "MASSE")
-        rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
-        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
+        rho, h = parameters.each("RHO"), parameters.each("EPAI")
         N = shape_functions(zone.cells.cell_type, rule.points)
         w = surface_slopes(zone, local, rule)[1] * (rho * h)[:, None]
         scalar = np.einsum("cp,pa,pb->cab", w, N, N)

@@ -9,11 +9,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.catalog import support_rule
-from ssilang.kernel.elements.family import (
-    Layout,
-    ShellFamily,
-    StrainOperator,
-)
+from ssilang.kernel.elements.family import Layout, StrainOperator, TurningFamily
 from ssilang.kernel.elements.shells.shell_section import offset, section_moduli
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.elements.solids.solid import circumference
@@ -91,7 +87,7 @@ class _Meridian:
         return (harmonic_number * self.w + nr * self.v) / r
 
 
-class MeridianShell(ShellFamily):
+class MeridianShell(TurningFamily):
     """COQ2."""
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:

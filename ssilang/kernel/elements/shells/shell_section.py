@@ -160,8 +160,8 @@ def offset(zone: Zone, parameters: ZoneField) -> FloatArray | None:
     """Distance (n,) of the middle surface from the mesh along the normals; None: it lies there."""
     if "EXCE" not in parameters:
         return None
-    e = parameters.at("EXCE", "GRAVITE")[:, 0]
-    return np.broadcast_to(e, (len(zone.cells),)) if e.any() else None
+    e = parameters.each("EXCE")
+    return e if e.any() else None
 
 
 def strains_off_mesh(B: FloatArray, zone: Zone, parameters: ZoneField, cells: slice) -> FloatArray:
@@ -193,6 +193,11 @@ def by_node(
     return inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, normals)
 
 
+def crossed(v: FloatArray) -> FloatArray:
+    """Matrices (..., 3, 3) of theta -> theta x v."""
+    return np.cross(v[..., None, :], np.eye(3))
+
+
 def inertia_off_mesh(
     values: FloatArray, zone: Zone, parameters: ZoneField, normals: FloatArray
 ) -> FloatArray:
@@ -206,9 +211,7 @@ def inertia_off_mesh(
     v = normals * e[:, None, None]
     n, k = v.shape[:2]
     arm = np.broadcast_to(np.eye(6), (n, k, 6, 6)).copy()
-    for row, column, axis, sign in ((0, 4, 2, 1), (0, 5, 1, -1), (1, 5, 0, 1), (1, 3, 2, -1),
-                                    (2, 3, 1, 1), (2, 4, 0, -1)):  # fmt: skip
-        arm[..., row, column] = sign * v[..., axis]
+    arm[..., :3, 3:] = crossed(v)
     blocks = values.reshape(n, k, 6, k, 6)
     turned: FloatArray = np.einsum("cari,carbs,cbsj->caibj", arm, blocks, arm, optimize=True)
     return turned.reshape(n, 6 * k, 6 * k)

@@ -35,7 +35,7 @@ from ssilang.kernel.elements.solids.solid import Solid, geometric_scalar, strain
 from ssilang.kernel.elements.solids.solid_moduli import symmetry_of
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.materials.elasticity import rotated_moduli
+from ssilang.kernel.materials.elasticity import PAIRS, rotated_moduli
 from ssilang.kernel.materials.model import Mode, Zone
 
 _KINEMATICS = SOLID_KINEMATICS[Mode.THREE_DIMENSIONAL]
@@ -122,10 +122,7 @@ def _covariant_shear(brick: _Brick, axis: int, points: FloatArray) -> tuple[Floa
     along, across = steps[:, :, axis], steps[:, :, 2]
     rows = np.einsum("pk,cpj->cpkj", reference[:, :, axis], across)
     rows += np.einsum("pk,cpj->cpkj", reference[:, :, 2], along)
-    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
-    on_strain = [
-        (along[..., i] * across[..., j] + along[..., j] * across[..., i]) for i, j in pairs
-    ]
+    on_strain = [along[..., i] * across[..., j] + along[..., j] * across[..., i] for i, j in PAIRS]
     return rows, np.stack(on_strain, axis=-1)
 
 
@@ -148,10 +145,8 @@ def _sampled_shear(brick: _Brick, points: FloatArray) -> FloatArray:
         sides = _covariant_shear(brick, axis, places)[0].reshape(n, p, 2, 8, 3).mean(axis=2)
         change = _without_linear(sides - here, brick).reshape(n, p, 24)
         a, b = inverse[..., axis], inverse[..., 2]
-        for row, (i, j) in enumerate(((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))):
-            share = (
-                a[..., i] * b[..., j] if i == j else a[..., i] * b[..., j] + a[..., j] * b[..., i]
-            )
+        for row, (i, j) in enumerate(PAIRS):
+            share = a[..., i] * b[..., j] + (i != j) * a[..., j] * b[..., i]
             added[:, row] += share[..., None] * change
     return added
 
@@ -159,17 +154,9 @@ def _sampled_shear(brick: _Brick, points: FloatArray) -> FloatArray:
 class SolidShell(family.ElementFamily):
     """Shell on bricks, with translations only."""
 
-    def layout(self, zone: Zone) -> family.Layout:
-        """Translations, node by node."""
-        return family.node_major_layout(zone, _KINEMATICS.unknowns)
-
-    def strain_names(self, zone: Zone) -> tuple[str, ...]:
-        """EPXX ... in global axes, then those that hold the brick."""
-        return (*_KINEMATICS.strains, *(f"GH0{i + 1}" for i in range(_HELD)))
-
-    def stress_names(self, zone: Zone) -> tuple[str, ...]:
-        """SMXX ... in global axes, then those that hold the brick."""
-        return (*_KINEMATICS.stresses, *(f"SH0{i + 1}" for i in range(_HELD)))
+    # in global axes, then those that hold the brick
+    strains = (*_KINEMATICS.strains, *(f"GH0{i + 1}" for i in range(_HELD)))
+    stresses = (*_KINEMATICS.stresses, *(f"SH0{i + 1}" for i in range(_HELD)))
 
     def moduli(self, zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
         """Plane stress in the surface, E across it, shear; turned to global axes.

@@ -45,16 +45,6 @@ def fibres(zone: Zone, cells: slice = slice(None)) -> FloatArray:
     return normal / size
 
 
-def _crossed(v: FloatArray) -> FloatArray:
-    """Matrices (..., 3, 3) of theta -> theta x v."""
-    out = np.zeros((*v.shape, 3))
-    x, y, z = np.moveaxis(v, -1, 0)
-    out[..., 0, 1], out[..., 0, 2] = z, -y
-    out[..., 1, 0], out[..., 1, 2] = -z, x
-    out[..., 2, 0], out[..., 2, 1] = y, -x
-    return out
-
-
 def _areas(zone: Zone, rule: Rule) -> FloatArray:
     """Shares (n, p) of the middle surface."""
     reference = shape_gradients(zone.cells.cell_type, rule.points)
@@ -62,7 +52,7 @@ def _areas(zone: Zone, rule: Rule) -> FloatArray:
     return np.linalg.norm(np.cross(t[:, :, 0], t[:, :, 1]), axis=2) * rule.weights
 
 
-class ThickShell(family.ShellFamily):
+class ThickShell(family.TurningFamily):
     """Curved shell with transverse shear."""
 
     strains = ("EPSS", "EPTT", "GAST", "GASN", "GATN")
@@ -84,8 +74,7 @@ class ThickShell(family.ShellFamily):
         half = len(rule) // 2
         zeta = np.where(np.arange(len(rule)) < half, -ACROSS, ACROSS)
         x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]]
-        h = parameters.at("EPAI", "GRAVITE")
-        h = np.broadcast_to(h[:, 0], (len(zone.cells),))[cells]
+        h = parameters.each("EPAI")[cells]
         arm = fibres(zone, cells) * (h / 2)[:, None, None]
         e = shell_section.offset(zone, parameters)
         height = zeta + (np.zeros((len(x), 1)) if e is None else (2 * e[cells] / h)[:, None])
@@ -125,7 +114,7 @@ class ThickShell(family.ShellFamily):
         turned = flat * height[:, :, None, None] + inverse[..., 2][..., None] * N[:, None, :]
         for a in range(3):
             G[:, :, a, :, :, a] = flat
-        G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, _crossed(arm))
+        G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, shell_section.crossed(arm))
         grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
         weights = np.abs(np.linalg.det(J)) * rule.weights * 2
         return grad, weights
@@ -151,10 +140,8 @@ class ThickShell(family.ShellFamily):
     def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
         """The usual stiffness and a small one about the fibres, which the element lacks."""
         values = super().stiffness_values(zone, moduli, parameters)
-        h = parameters.at("EPAI", "GRAVITE")[:, 0]
-        return shell_section.drilled(
-            zone, values, moduli[:, :, 0, 0].mean(axis=1) * h**3 / 12, fibres(zone)
-        )
+        bending = moduli[:, :, 0, 0].mean(axis=1) * parameters.each("EPAI") ** 3 / 12
+        return shell_section.drilled(zone, values, bending, fibres(zone))
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the stresses in the surface on the displacements' gradients along it."""
@@ -174,9 +161,7 @@ class ThickShell(family.ShellFamily):
         """RHO EPAI of the translations, RHO EPAI^3 / 12 of the fibres' rotations."""
         rule = support_rule(zone.element, "MASSE")
         N, area = shape_functions(zone.cells.cell_type, rule.points), _areas(zone, rule)
-        n = len(zone.cells)
-        rho = np.broadcast_to(parameters.at("RHO", "GRAVITE")[:, 0], (n,))
-        h = np.broadcast_to(parameters.at("EPAI", "GRAVITE")[:, 0], (n,))
+        rho, h = parameters.each("RHO"), parameters.each("EPAI")
         scalar = np.einsum("cp,pa,pb->cab", area * (rho * h)[:, None], N, N)
         v = fibres(zone)
         # fibres move by sum N_a theta_a x v_a: on curved cells those of two nodes are not parallel

@@ -10,10 +10,10 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import node_major_layout
-from ssilang.kernel.elements.results.tensors import as_components, as_tensor, components_at_home
+from ssilang.kernel.elements.results.tensors import components_at_home
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.elements.solids import gradients, solid
-from ssilang.kernel.elements.solids.kinematics import harmonic
+from ssilang.kernel.elements.solids.kinematics import as_components, as_tensor, harmonic
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -21,19 +21,10 @@ from ssilang.kernel.materials.model import Mode, Zone
 
 
 def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> FloatArray:
-    """F (n_cells, n_points, 3, 3) from components of F, or of F - 1, in `gradient_names`' order.
-
-    Directions that the hypothesis has no gradient for are not stretched.
-    """
+    """`gradients.transformation`; refuses harmonics of bodies of revolution."""
     if zone.mode in solid.REVOLUTION and harmonic(zone):
         raise FieldError("kernel.elements.finite-motions-not-exist")
-    F = gradients.gradient_tensor(zone, flat)
-    if of_displacement:
-        return F + np.eye(3)
-    first = len(solid.kinematics(zone).unknowns) + (zone.mode is Mode.AXISYMMETRIC)
-    for axis in range(first, 3):
-        F[..., axis, axis] = 1.0
-    return F
+    return gradients.transformation(zone, flat, of_displacement)
 
 
 def gradient_components(zone: Zone, tensor: FloatArray) -> FloatArray:

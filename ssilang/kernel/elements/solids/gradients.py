@@ -6,7 +6,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.family import node_major_layout
 from ssilang.kernel.elements.shapes.geometry import chunks
-from ssilang.kernel.elements.solids.kinematics import harmonic
+from ssilang.kernel.elements.solids.kinematics import as_components, harmonic
 from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -38,8 +38,7 @@ def gradient_values(zone: Zone, displacement: NodeField) -> FloatArray:
 
 def scalar_gradient(zone: Zone, field: NodeField, name: str) -> FloatArray:
     """Gradient (n_cells, dim, n_points) of one nodal component."""
-    nodes = zone.cells.connectivity
-    values = field.values_at(name, nodes.ravel()).reshape(nodes.shape)
+    values = field.values_at(name, zone.cells.connectivity)
     parts = []
     for cells in chunks(len(zone.cells)):
         geometry = zone_geometry(zone, "STRESSES", cells)
@@ -61,7 +60,18 @@ def gradient_tensor(zone: Zone, flat: FloatArray) -> FloatArray:
     return H
 
 
-PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+def transformation(zone: Zone, flat: FloatArray, of_displacement: bool) -> FloatArray:
+    """F (n_cells, n_points, 3, 3) from components of F, or of F - 1, in `gradient_names`' order.
+
+    Directions that the hypothesis has no gradient for are not stretched.
+    """
+    F = gradient_tensor(zone, flat)
+    if of_displacement:
+        return F + np.eye(3)
+    first = len(kinematics(zone).unknowns) + (zone.mode is Mode.AXISYMMETRIC)
+    for axis in range(first, 3):
+        F[..., axis, axis] = 1.0
+    return F
 
 
 def second_order_strain(zone: Zone, displacement: NodeField) -> FloatArray:
@@ -70,8 +80,7 @@ def second_order_strain(zone: Zone, displacement: NodeField) -> FloatArray:
         raise FieldError("kernel.elements.second-order-strains-not")
     H = gradient_tensor(zone, gradient_values(zone, displacement))
     Q = 0.5 * np.einsum("cpki,cpkj->cpij", H, H)
-    rows = [Q[..., i, j] * (1.0 if i == j else 2.0) for i, j in PAIRS]
-    return np.stack(rows[: len(kinematics(zone).strains)], axis=1)
+    return as_components(Q, len(kinematics(zone).strains), strains=True)
 
 
 def logarithmic_strain(zone: Zone, gradient: FloatArray, of_displacement: bool) -> FloatArray:
@@ -82,15 +91,8 @@ def logarithmic_strain(zone: Zone, gradient: FloatArray, of_displacement: bool) 
     gradient : array (n_cells, n_components, n_points)
         F itself, or the displacement gradient F - I.
     """
-    F = gradient_tensor(zone, gradient)
-    if of_displacement:
-        F = F + np.eye(3)
-    elif zone.mode is not Mode.THREE_DIMENSIONAL:
-        missing = 2 if zone.mode is not Mode.AXISYMMETRIC else None
-        if missing is not None:
-            F[..., missing, missing] = 1.0
+    F = transformation(zone, gradient, of_displacement)
     C = np.einsum("cpki,cpkj->cpij", F, F)
     values, vectors = np.linalg.eigh(C)
     E = np.einsum("cpik,cpk,cpjk->cpij", vectors, 0.5 * np.log(values), vectors)
-    rows = [E[..., i, j] * (1.0 if i == j else 2.0) for i, j in PAIRS]
-    return np.stack(rows[: len(kinematics(zone).strains)], axis=1)
+    return as_components(E, len(kinematics(zone).strains), strains=True)

@@ -7,7 +7,11 @@ space XX YY ZZ XY XZ YZ. Shear strains are engineering strains (GAXY = 2 EPXY).
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.materials.elasticity import PAIRS
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.mesh.mesh import Point
 
@@ -108,6 +112,22 @@ NODE_ROTATIONS: dict[Mode, tuple[str, ...]] = {
 
 SECTION_UNKNOWNS = ("UZ", "RX", "RY")
 """What the point of a section in generalised plane strain has besides."""
+
+
+def as_tensor(values: FloatArray, strains: bool) -> FloatArray:
+    """Tensors (n, p, 3, 3) from components (n, 4 or 6, p); shear strains are halved."""
+    n, m, p = values.shape
+    T = np.zeros((n, p, 3, 3))
+    for row, (i, j) in enumerate(PAIRS[:m]):
+        factor = 0.5 if strains and i != j else 1.0
+        T[..., i, j] = T[..., j, i] = factor * values[:, row]
+    return T
+
+
+def as_components(T: FloatArray, n_components: int, strains: bool) -> FloatArray:
+    """Components (n, n_components, p) of tensors (n, p, 3, 3)."""
+    rows = [T[..., i, j] * (2.0 if strains and i != j else 1.0) for i, j in PAIRS[:n_components]]
+    return np.stack(rows, axis=1)
 
 
 def harmonic(zone: Zone) -> int:

@@ -18,6 +18,7 @@ from ssilang.kernel.elements.solids.kinematics import (
     SECTION_UNKNOWNS,
     SOLID_KINEMATICS,
     SolidKinematics,
+    as_tensor,
     harmonic,
     section_point,
     term_factor,
@@ -199,13 +200,7 @@ def geometric_scalar(
 ) -> tuple[FloatArray, FloatArray]:
     """Geometric stiffness (n_cells, n_nodes, n_nodes) of one unknown, and the hoop stress' part."""
     d = geometry.gradients.shape[2]
-    shear = {(0, 1): 3, (0, 2): 4, (1, 2): 5}
-    G = geometry.gradients
-    tensor = np.empty((*stress.shape[::2], d, d))
-    for i in range(d):
-        for j in range(d):
-            row = i if i == j else shear[min(i, j), max(i, j)]
-            tensor[..., i, j] = stress[:, row]
+    G, tensor = geometry.gradients, as_tensor(stress, strains=False)[..., :d, :d]
     flux = np.einsum("cpij,cpjn->cpin", tensor, G) * weights[..., None, None]
     scalar = np.einsum("cpim,cpin->cmn", G, flux)
     if zone.mode not in REVOLUTION:

@@ -14,6 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
+from ssilang.kernel.materials.elasticity import PAIRS
 from ssilang.kernel.materials.plastic.response import PointParameters, Response
 
 TRANSITION = np.radians(25.0)
@@ -24,9 +25,8 @@ SMALL = 1e-12
 FAR = 1e5  # times the cohesion: where only a step that diverges leads
 _S = -1.5 * np.sqrt(3.0)
 
-_PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 _BASIS = np.zeros((6, 3, 3))
-for _a, (_i, _j) in enumerate(_PAIRS):
+for _a, (_i, _j) in enumerate(PAIRS):
     _BASIS[_a, _i, _j] = _BASIS[_a, _j, _i] = 1.0
 _DEVIATORIC = _BASIS - np.einsum("aii->a", _BASIS)[:, None, None] / 3 * np.eye(3)
 _PRODUCTS = np.einsum("aij,bjk->abik", _DEVIATORIC, _DEVIATORIC)

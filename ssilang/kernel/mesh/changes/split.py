@@ -3,7 +3,8 @@
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
-from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.cells import CELL_TYPES, LINEAR_CELLS
+from ssilang.kernel.mesh.combine import join_blocks
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 # the two ways of cutting a quadrangle: along corners 1-3 and along corners 2-4
@@ -20,21 +21,11 @@ def split_quadrangles(mesh: Mesh) -> Mesh:
 
     QUA8 get a new node in the middle. Other cells are kept.
     """
-    blocks = [_split_block(b) if b.cell_type in ("QUA4", "QUA8") else b for b in mesh.blocks]
-    merged: dict[str, CellBlock] = {}
-    for block in blocks:
-        mine = merged.get(block.cell_type)
-        merged[block.cell_type] = block if mine is None else _joined(mine, block)
-    return Mesh(mesh.nodes, tuple(merged.values()), mesh.sides)
-
-
-def _joined(a: CellBlock, b: CellBlock) -> CellBlock:
-    return CellBlock.make(
-        a.nodes,
-        a.cell_type,
-        np.concatenate([a.connectivity, b.connectivity]),
-        np.concatenate([a.colours, b.colours]),
-    )
+    merged: dict[str, list[CellBlock]] = {}
+    for block in mesh.blocks:
+        made = _split_block(block) if block.cell_type in ("QUA4", "QUA8") else block
+        merged.setdefault(made.cell_type, []).append(made)
+    return Mesh(mesh.nodes, tuple(join_blocks(parts) for parts in merged.values()), mesh.sides)
 
 
 def _split_block(block: CellBlock) -> CellBlock:
@@ -67,7 +58,7 @@ def tetrahedra(block: CellBlock) -> CellBlock:
     quadrangular faces being cut along the diagonal from their own smallest node: a face is then
     cut in the same way from both of its sides.
     """
-    kind = CELL_TYPES[_CORNER_CELL[block.cell_type]]
+    kind = CELL_TYPES[LINEAR_CELLS[block.cell_type]]
     corners = block.connectivity[:, list(block.kind.corners)]
     apex = corners.argmin(axis=1)
     parts, colours = [], []
@@ -82,17 +73,6 @@ def tetrahedra(block: CellBlock) -> CellBlock:
             parts.append(np.column_stack([triangles[:, [0, 2, 1]], tip]))
             colours.append(np.repeat(block.colours[apex == local], each))
     return CellBlock.make(block.nodes, "TET4", np.concatenate(parts), np.concatenate(colours))
-
-
-_CORNER_CELL = {
-    "TET4": "TET4",
-    "TE10": "TET4",
-    "PYR5": "PYR5",
-    "PRI6": "PRI6",
-    "PR15": "PRI6",
-    "CUB8": "CUB8",
-    "CU20": "CUB8",
-}
 
 
 def _face_triangles(face: IntArray) -> IntArray:

@@ -180,8 +180,6 @@ def affine_through(old: FloatArray, new: FloatArray, dimension: int) -> PointMap
 
 def straighten_middles(mesh: Mesh) -> None:
     """Move the middle nodes of quadratic edges onto the mediator planes of their ends, in place."""
-    from ssilang.kernel.mesh.boundary import edges
-
     for block in edges(mesh).blocks:
         if block.cell_type != "SEG3":
             continue
@@ -202,8 +200,6 @@ def quarter_middles(mesh: Mesh, tip: IntArray, at: float) -> None:
     at : float
         Coordinate along the edge, 0 in its middle and 1 at the tip; 0.5 is the quarter point.
     """
-    from ssilang.kernel.mesh.boundary import edges
-
     for block in edges(mesh).blocks:
         if block.cell_type != "SEG3":
             continue
@@ -302,21 +298,17 @@ def _solved(A: sp.csr_array, values: FloatArray, fixed: np.ndarray) -> FloatArra
 
 def _stiffness(mesh: Mesh, nodes: IntArray) -> sp.csr_array:
     """Stiffness (n, n) of Laplace's equation on the simplices of the cells."""
-    rows, columns, terms = [], [], []
+    from ssilang.kernel.matrices.assembly import assemble_triplets
+
+    places, terms = [], []
     for block in mesh.blocks:
         if block.kind.dimension < 2 or block.kind.joint or block.kind.degree > 1:
             raise MeshError("kernel.mesh.cells-type-cannot-follow", cell_type=block.cell_type)
         for local in simplices(block):
             table = block.connectivity[:, list(local)]
-            local_terms = _simplex_terms(block, table)
-            where = np.searchsorted(nodes, table)
-            k = table.shape[1]
-            rows.append(np.repeat(where, k, axis=1).ravel())
-            columns.append(np.tile(where, (1, k)).ravel())
-            terms.append(local_terms.ravel())
-    size = (len(nodes), len(nodes))
-    triplets = np.concatenate(terms), (np.concatenate(rows), np.concatenate(columns))
-    return sp.coo_array(triplets, shape=size).tocsr()
+            places.append(np.searchsorted(nodes, table).astype(np.int32))
+            terms.append(_simplex_terms(block, table))
+    return assemble_triplets(places, terms, len(nodes))
 
 
 def _simplex_terms(block: CellBlock, table: IntArray) -> FloatArray:

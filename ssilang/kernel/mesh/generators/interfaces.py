@@ -5,17 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import told_coordinates
-from ssilang.kernel.mesh.orientation import orient, reversed_line, surface_normals
+from ssilang.kernel.mesh.orientation import flipped_order, orient, reversed_line, surface_normals
+from ssilang.kernel.mesh.queries.select import feet
 
 _POINTS = 8  # looked at on a segment; 16 on a triangle
 _ALIGNED = 0.7  # cosine between the normals of cells that face each other
-_FLAT = 1e-20  # squared sine of the angle between edges of a simplex without surface
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,8 @@ def facing_parts(ours: Simplices, theirs: Simplices, tolerance: float) -> FloatA
     met = np.zeros(len(found), dtype=bool)
     if len(rows):
         partner = np.concatenate([np.asarray(f, dtype=np.int64) for f in found])
-        faces = _faces(points.reshape(-1, 3)[rows], theirs.corners[partner], tolerance)
+        foot, off = feet(theirs.corners[partner], points.reshape(-1, 3)[rows])
+        faces = (foot >= 0.0).all(axis=1) & (foot.sum(axis=1) <= 1.0) & (off <= tolerance)
         own, other = _unit(ours.vectors())[rows // len(weights)], _unit(theirs.vectors())[partner]
         faces &= np.abs((own * other).sum(axis=1)) > _ALIGNED
         np.logical_or.at(met, rows, faces)
@@ -96,23 +97,6 @@ def facing_parts(ours: Simplices, theirs: Simplices, tolerance: float) -> FloatA
 def _unit(vectors: FloatArray) -> FloatArray:
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     return vectors / np.where(length > 0.0, length, 1.0)
-
-
-def _faces(points: FloatArray, corners: FloatArray, tolerance: float) -> BoolArray:
-    """Whether the foot of each point (n, 3) lies in its simplex (n, k, 3), near enough.
-
-    A flat simplex faces nothing.
-    """
-    edges = corners[:, 1:] - corners[:, :1]
-    gram = np.einsum("nix,njx->nij", edges, edges)
-    lengths = np.einsum("nii->ni", gram)
-    flat = np.linalg.det(gram) <= _FLAT * lengths.prod(axis=1)
-    gram[flat] = np.eye(edges.shape[1])
-    away = points - corners[:, 0]
-    foot = np.linalg.solve(gram, np.einsum("nix,nx->ni", edges, away)[..., None])[..., 0]
-    inside = (foot >= 0.0).all(axis=1) & (foot.sum(axis=1) <= 1.0)
-    distance = np.linalg.norm(away - np.einsum("ni,nix->nx", foot, edges), axis=1)
-    return np.asarray(inside & (distance <= tolerance) & ~flat)
 
 
 _JOINTS = {
@@ -251,7 +235,7 @@ def _oriented(block: CellBlock, joint: str, rows: IntArray, partner: IntArray) -
     normal, size = _normals(block, rows)
     away = (gap * normal).sum(axis=1)
     against = away < -_NORMAL_TO_FACE * size
-    flipped = _flip_order(block)
+    flipped = list(flipped_order(block.cell_type))
     upper = np.where(against[:, None], upper[:, flipped], upper)
     partner = np.where(against[:, None], partner[:, flipped], partner)
     return CellBlock.make(block.nodes, joint, np.hstack([upper, partner]), block.colours[rows])
@@ -267,13 +251,7 @@ def _normals(block: CellBlock, rows: IntArray) -> tuple[FloatArray, FloatArray]:
     else:
         normal = surface_normals(block)[rows]
         size = np.sqrt(np.linalg.norm(normal, axis=1))
-    length = np.linalg.norm(normal, axis=1, keepdims=True)
-    return normal / np.where(length > 0.0, length, 1.0), size
-
-
-def _flip_order(block: CellBlock) -> list[int]:
-    n = block.kind.n_nodes
-    return list(range(n - 1, -1, -1)) if block.kind.dimension == 1 else [-k % n for k in range(n)]
+    return _unit(normal), size
 
 
 def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:

@@ -85,7 +85,7 @@ def ruling(first: Mesh, second: Mesh) -> Path:
     last = corresponding_nodes(first, second)
     goal = first.nodes.coordinates[last].copy()
     start = first.nodes.coordinates[first.node_ids]
-    gap = np.linalg.norm(_cell_nodes_mean(second) - _cell_nodes_mean(first))
+    gap = np.linalg.norm(mean_position(second) - mean_position(first))
     length = float(np.linalg.norm(goal - start, axis=1).mean()) if first.dimension == 1 else gap
     return Path(lambda x, s: (1.0 - s) * x + s * goal, float(length), last)
 
@@ -200,17 +200,13 @@ def mean_density(mesh: Mesh) -> float:
 
 def mean_position(mesh: Mesh) -> FloatArray:
     """Mean position over the nodes of all cells, shape (3,)."""
-    return _cell_nodes_mean(mesh)
+    return mesh.nodes.coordinates[_cell_nodes(mesh)].mean(axis=0)
 
 
 def _cell_nodes(mesh: Mesh) -> IntArray:
     if not mesh.n_cells:
         raise MeshError("kernel.mesh.mesh-empty")
     return np.concatenate([b.connectivity.ravel() for b in mesh.blocks])
-
-
-def _cell_nodes_mean(mesh: Mesh) -> FloatArray:
-    return mesh.nodes.coordinates[_cell_nodes(mesh)].mean(axis=0)
 
 
 def _summary(mesh: Mesh) -> list[str]:

@@ -5,12 +5,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.shapes.quadrature import quadrature
-from ssilang.kernel.elements.shapes.reference import reference_cell, shape_gradients
+from ssilang.kernel.elements.shapes.reference import (
+    reference_cell,
+    shape_functions,
+    shape_gradients,
+)
 from ssilang.kernel.mesh.boundary import edges
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-
-_GAUSS3 = (np.array([-np.sqrt(0.6), 0.0, np.sqrt(0.6)]), np.array([5.0, 8.0, 5.0]) / 9.0)
+from ssilang.kernel.mesh.surfaces.fill import mean_sizes
 
 
 def cell_measures(block: CellBlock) -> FloatArray:
@@ -73,15 +76,10 @@ def _area_vector(line: Mesh) -> FloatArray:
         if block.kind.dimension != 1 or block.kind.joint:
             raise MeshError("kernel.mesh.area-inside-line-asked")
         x = block.coordinates
-        if block.cell_type == "SEG2":
-            total += 0.5 * np.cross(x[:, 0], x[:, 1]).sum(axis=0)
-        else:
-            for xi, weight in zip(*_GAUSS3, strict=True):
-                n = np.array([xi * (xi - 1) / 2, 1 - xi**2, xi * (xi + 1) / 2])
-                dn = np.array([xi - 0.5, -2 * xi, xi + 0.5])
-                at = np.einsum("i,nij->nj", n, x)
-                slope = np.einsum("i,nij->nj", dn, x)
-                total += 0.5 * weight * np.cross(at, slope).sum(axis=0)
+        rule = quadrature("line", 3)
+        at = np.einsum("gk,nkj->gnj", shape_functions(block.cell_type, rule.points), x)
+        slope = np.einsum("gkd,nkj->gnj", shape_gradients(block.cell_type, rule.points), x)
+        total += 0.5 * rule.weights @ np.cross(at, slope).sum(axis=1)
     return total
 
 
@@ -104,19 +102,12 @@ def node_sizes(mesh: Mesh) -> tuple[IntArray, FloatArray]:
 
     The middle of a quadratic edge gets the mean over its own two halves.
     """
-    starts, ends = [], []
-    for block in edges(mesh).blocks:
-        table = block.connectivity
-        for k in range(table.shape[1] - 1):
-            starts.append(table[:, k])
-            ends.append(table[:, k + 1])
-    if not starts:
+    lines = [b.connectivity for b in edges(mesh).blocks]
+    if not lines:
         raise MeshError("kernel.mesh.mesh-sizes-measured-edges")
-    a, b = np.concatenate(starts), np.concatenate(ends)
-    length = np.linalg.norm(mesh.nodes.coordinates[b] - mesh.nodes.coordinates[a], axis=1)
-    ids, where = np.unique(np.concatenate([a, b]), return_inverse=True)
-    total = np.bincount(where, np.concatenate([length, length]))
-    return ids, total / np.bincount(where)
+    halves = np.concatenate([t[:, k : k + 2] for t in lines for k in range(t.shape[1] - 1)])
+    ids, where = np.unique(halves, return_inverse=True)
+    return ids, mean_sizes(mesh.nodes.coordinates[ids], where.reshape(-1, 2))
 
 
 # points of the rule that integrates each type's Jacobian

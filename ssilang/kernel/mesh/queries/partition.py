@@ -7,6 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 _WIDTH = 4  # corners of the largest side of a cell
@@ -158,17 +159,14 @@ def _sides(mesh: Mesh) -> tuple[IntArray, IntArray]:
     owners, corners = [], []
     for block, start in zip(mesh.blocks, _starts(mesh), strict=True):
         for kind, local in block.kind.faces:
-            places = local[:: 2 if kind in _MIDDLED else 1][:_WIDTH]
+            places = [local[k] for k in CELL_TYPES[kind].corners]
             table = np.full((len(block), _WIDTH), -1, dtype=np.int64)
-            table[:, : len(places)] = block.connectivity[:, list(places)]
+            table[:, : len(places)] = block.connectivity[:, places]
             corners.append(np.sort(table, axis=1))
             owners.append(np.arange(len(block)) + start)
     if not owners:
         return np.empty(0, dtype=np.int64), np.empty((0, _WIDTH), dtype=np.int64)
     return np.concatenate(owners), np.concatenate(corners)
-
-
-_MIDDLED = ("SEG3", "TRI6", "QUA8")
 
 
 def _within(sides: IntArray, separator: Mesh) -> BoolArray:

@@ -3,7 +3,6 @@
 What is wrong with a mesh: repeated cells, neighbours of other degrees, faces that do not fit.
 """
 
-import itertools
 from itertools import combinations
 from math import factorial
 
@@ -18,10 +17,11 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 TINY = 1e-300
 
 
-def _simplex_measure(corners: FloatArray) -> FloatArray:
+def _simplex_measure(corners: FloatArray, metric: FloatArray | None = None) -> FloatArray:
     """Length, area or volume (n,) of simplices (n, k + 1, dim), by the Gram determinant."""
     edges = corners[:, 1:] - corners[:, :1]
-    gram = np.linalg.det(edges @ np.swapaxes(edges, 1, 2))
+    long = edges if metric is None else edges @ metric
+    gram = np.linalg.det(long @ np.swapaxes(edges, 1, 2))
     return np.asarray(np.sqrt(np.maximum(gram, 0.0)) / factorial(edges.shape[1]))
 
 
@@ -83,14 +83,11 @@ def quality_in_metric(corners: FloatArray, metric: FloatArray | None) -> FloatAr
         Edges e have the length sqrt(e M e).
     """
     d = corners.shape[1] - 1
-    M = np.eye(corners.shape[2]) if metric is None else metric
-    sides = corners[:, 1:] - corners[:, :1]
-    gram = sides @ M @ np.swapaxes(sides, 1, 2)
-    measure = np.sqrt(np.maximum(np.linalg.det(gram), 0.0)) / factorial(d)
-    edges = np.stack(
-        [corners[:, j] - corners[:, i] for i, j in combinations(range(d + 1), 2)], axis=1
-    )
-    square = ((edges @ M) * edges).sum(axis=2).mean(axis=1)
+    measure = _simplex_measure(corners, metric)
+    pairs = combinations(range(d + 1), 2)
+    edges = np.stack([corners[:, j] - corners[:, i] for i, j in pairs], axis=1)
+    long = edges if metric is None else edges @ metric
+    square = (long * edges).sum(axis=2).mean(axis=1)
     unit = np.sqrt(d + 1.0) / (factorial(d) * np.sqrt(2.0) ** d)  # equilateral of edge 1
     shape = (measure / unit) ** (2.0 / d) / np.maximum(square, TINY)
     if metric is None:
@@ -106,8 +103,7 @@ def smallest_lengths(block: CellBlock) -> FloatArray:
     that does not hold it (the mean plane of a side of four corners).
     """
     x = block.coordinates
-    pairs = itertools.combinations(range(x.shape[1]), 2)
-    found = [np.linalg.norm(x[:, a] - x[:, b], axis=-1) for a, b in pairs]
+    found = [_edges(x).min(axis=1)]
     for name, local in block.kind.faces if block.kind.dimension > 1 else ():
         corners = [local[k] for k in CELL_TYPES[name].corners]
         others = [k for k in range(x.shape[1]) if k not in local]
@@ -171,8 +167,7 @@ def unfit_faces(mesh: Mesh) -> Mesh:
     for block in mesh.blocks:
         if block.kind.dimension == 3:
             for kind, face in block.kind.faces:
-                corners = list(face[:: 1 if kind in ("TRI3", "QUA4") else 2])
-                corners = corners[: 3 if kind.startswith("TRI") else 4]
+                corners = [face[k] for k in CELL_TYPES[kind].corners]
                 faces[len(corners)].append(block.connectivity[:, corners])
     if not faces[3] or not faces[4]:
         return Mesh(mesh.nodes, ())

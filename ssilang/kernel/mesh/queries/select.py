@@ -4,6 +4,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.lines.curves import unit_vector
@@ -41,7 +42,9 @@ def cells_containing(block: CellBlock, position: FloatArray) -> BoolArray:
     corners = x[:, list(block.kind.corners)]
     inside = np.zeros(len(block), dtype=bool)
     for simplex in simplices(block):
-        inside |= _in_simplex(corners[:, list(simplex)], position, size, tolerance)
+        weights, off = feet(corners[:, list(simplex)], position)
+        within = (weights >= -tolerance).all(axis=1) & (weights.sum(axis=1) <= 1.0 + tolerance)
+        inside |= within & (off <= 10 * tolerance * size)
     return inside
 
 
@@ -65,20 +68,22 @@ def simplices(block: CellBlock) -> tuple[tuple[int, ...], ...]:
     return _SIMPLICES[block.kind.dimension][count]
 
 
-def _in_simplex(
-    corners: FloatArray, position: FloatArray, size: FloatArray, tolerance: float
-) -> BoolArray:
-    """Barycentric test in simplices (n, d+1, 3) of any dimension, and closeness to their plane."""
+_FLAT = 1e-14  # of the product of a simplex' squared sides: without measure
+
+
+def feet(corners: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Feet of points (n, 3) or (3,) in simplices (n, d + 1, 3): weights (n, d), distances (n,).
+
+    The weights are those of the corners but the first. The distance to a flat one is infinite.
+    """
     edges = corners[:, 1:] - corners[:, :1]
     gram = np.einsum("nid,njd->nij", edges, edges)
-    arm = position - corners[:, 0]
-    right = np.einsum("nid,nd->ni", edges, arm)
-    flat = np.linalg.det(gram) <= 1e-14 * size ** (2 * edges.shape[1])
+    flat = np.linalg.det(gram) <= _FLAT * np.einsum("nii->ni", gram).prod(axis=1)
     gram[flat] = np.eye(edges.shape[1])
-    weights = np.linalg.solve(gram, right[..., None])[..., 0]
+    arm = points - corners[:, 0]
+    weights = np.linalg.solve(gram, np.einsum("nid,nd->ni", edges, arm)[..., None])[..., 0]
     off = np.linalg.norm(arm - np.einsum("ni,nid->nd", weights, edges), axis=1)
-    inside = (weights >= -tolerance).all(axis=1) & (weights.sum(axis=1) <= 1.0 + tolerance)
-    return np.asarray(inside & (off <= 10 * tolerance * size) & ~flat)
+    return weights, np.where(flat, np.inf, off)
 
 
 def stretch(line: Mesh, start: int, end: int) -> Mesh:
@@ -154,10 +159,8 @@ def inside_contour(
     origin = starts.mean(axis=0)
     normal = np.cross(starts - origin, ends - origin).sum(axis=0)
     unit = unit_vector(normal, "kernel.mesh.selecting-contour-encloses-no-area")
-    first, second = plane_axes(unit)
-    p = np.column_stack([(positions - origin) @ first, (positions - origin) @ second])
-    a = np.column_stack([(starts - origin) @ first, (starts - origin) @ second])
-    b = np.column_stack([(ends - origin) @ first, (ends - origin) @ second])
+    frame = np.column_stack(plane_axes(unit))
+    p, a, b = ((x - origin) @ frame for x in (positions, starts, ends))
     scale = float(np.ptp(a, axis=0).max())
     inside = crossing_inside(p, a, b)
     border = segment_distance(p, a, b) <= max(near, 1e-9 * scale)
@@ -177,17 +180,12 @@ def plane_axes(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _segments(line: Mesh) -> tuple[FloatArray, FloatArray]:
-    starts, ends = [], []
-    for block in line.blocks:
-        if block.kind.dimension != 1 or block.kind.joint:
-            continue
-        x = block.coordinates
-        for k in range(x.shape[1] - 1):
-            starts.append(x[:, k])
-            ends.append(x[:, k + 1])
-    if not starts:
+    lines = [b.coordinates for b in line.blocks if b.kind.dimension == 1 and not b.kind.joint]
+    if not lines:
         raise MeshError("kernel.mesh.contour-made-lines-needed")
-    return np.concatenate(starts), np.concatenate(ends)
+    starts, ends = (np.concatenate([x[:, k].reshape(-1, 3) for x in lines])
+                    for k in (slice(-1), slice(1, None)))  # fmt: skip
+    return starts, ends
 
 
 def crossing_inside(p: FloatArray, a: FloatArray, b: FloatArray) -> BoolArray:
@@ -212,6 +210,15 @@ def segment_distance(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
         t = np.clip((arm * way).sum(axis=2) / square, 0.0, 1.0)
         nearest[rows] = np.linalg.norm(arm - t[..., None] * way, axis=2).min(axis=1)
     return nearest
+
+
+def places_once(points: FloatArray, near: float) -> tuple[FloatArray, IntArray]:
+    """Points (p, d), the first of those that hang together, nearer than that; each one's (m,)."""
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(points).query_pairs(near, output_type="ndarray")
+    part = parts_of(len(points), pairs.T)
+    return points[np.unique(part, return_index=True)[1]], part
 
 
 def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArray:

@@ -4,10 +4,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.mesh.mesh import Mesh
-from ssilang.kernel.mesh.queries.select import segment_distance
-from ssilang.kernel.mesh.surfaces.triangulate import recover_segments
+from ssilang.kernel.mesh.queries.select import places_once, segment_distance
+from ssilang.kernel.mesh.surfaces.triangulate import doubled_areas, recover_segments
 
 FLAT = 1e-10
 """Distances below this share of the largest triangle's size count as none (rounding of 1e-16
@@ -131,9 +130,9 @@ def crossed(first: Mesh, second: Mesh) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     rows_a, rows_b, ends = crossing_segments(xyz[a], xyz[b])
     boxes = [float(np.ptp(xyz[t.ravel()], axis=0).max()) for t in (a, b)]
     near = SAME_PLACE * min(boxes)
-    points, pieces = _joined(ends, near)
-    new_a, line_a = _imprint(first, a, rows_a, points, pieces, near)
-    new_b, line_b = _imprint(second, b, rows_b, points, pieces, near)
+    points, pieces = places_once(ends.reshape(-1, 3), near)
+    new_a, line_a = _imprint(first, a, rows_a, points, pieces.reshape(-1, 2), near)
+    new_b, line_b = _imprint(second, b, rows_b, points, pieces.reshape(-1, 2), near)
     return new_a, new_b, line_a, line_b
 
 
@@ -142,19 +141,6 @@ def _triangles(surface: Mesh) -> IntArray:
     if kinds != {"TRI3"}:
         raise MeshError("kernel.mesh.surfaces-tri3-needed-cross", kinds=sorted(kinds))
     return np.vstack([b.connectivity for b in surface.blocks])
-
-
-def _joined(ends: FloatArray, near: float) -> tuple[FloatArray, IntArray]:
-    """Points (p, 3), each once, and the segments (k, 2) between them."""
-    from scipy.spatial import cKDTree
-
-    flat = ends.reshape(-1, 3)
-    if not len(flat):
-        return flat, np.empty((0, 2), dtype=np.int64)
-    pairs = cKDTree(flat).query_pairs(near, output_type="ndarray")
-    group = parts_of(len(flat), pairs.T)
-    _, firsts = np.unique(group, return_index=True)
-    return flat[firsts], group.reshape(-1, 2)
 
 
 def _imprint(
@@ -295,9 +281,7 @@ def _cut(
     wanted = [(place[p], place[q]) for p, q in _turns(ring) + across]
     for bend in (1e-2, 1e-4, 1e-6):
         table = _delaunay_cut(_bent(flat, ring, corners, place, bend), np.array(wanted))
-        a, b, c = np.moveaxis(flat[table], 1, 0)
-        areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
-        if (areas > 0).all():
+        if (doubled_areas(flat, table) > 0).all():
             return [[every[k] for k in row] for row in table.tolist()]
     raise MeshError("kernel.mesh.triangle-surface-cuts-cannot")
 
@@ -337,8 +321,7 @@ def _delaunay_cut(points: FloatArray, segments: IntArray) -> IntArray:
     from scipy.spatial import Delaunay
 
     table = Delaunay(points).simplices.astype(np.int64)
-    a, b, c = np.moveaxis(points[table], 1, 0)
-    turned = (b - a)[:, 0] * (c - a)[:, 1] < (b - a)[:, 1] * (c - a)[:, 0]
+    turned = doubled_areas(points, table) < 0
     table[turned] = table[turned][:, ::-1]
     return recover_segments(points, table, segments)
 

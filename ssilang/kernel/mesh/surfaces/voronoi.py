@@ -13,8 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.base.graph import parts_of
-from ssilang.kernel.mesh.queries.select import crossing_inside, segment_distance
+from ssilang.kernel.mesh.queries.select import crossing_inside, places_once, segment_distance
 
 OUTSIDE = -1
 _FEW = 12
@@ -86,7 +85,9 @@ def voronoi_partition(
     pieces += [_between(powers, i, j, a, b, _CLOSE * size) for i, j in _pairs(powers)]
     ends = np.concatenate([p[0] for p in pieces])
     owners = np.concatenate([p[1] for p in pieces])
-    points, edges = _joined(corners - middle, ends, _CLOSE * size)
+    every = np.concatenate([corners - middle, ends.reshape(-1, 2)])
+    points, numbers = places_once(every, 2 * _CLOSE * size)
+    edges = numbers[len(corners) :].reshape(-1, 2)
     long = edges[:, 0] != edges[:, 1]
     return VoronoiPartition(points + middle, edges[long], owners[long])
 
@@ -179,14 +180,3 @@ def _between(
 
 def _no_edges() -> tuple[FloatArray, IntArray]:
     return np.empty((0, 2, 2)), np.empty((0, 2), dtype=np.int64)
-
-
-def _joined(corners: FloatArray, ends: FloatArray, close: float) -> tuple[FloatArray, IntArray]:
-    """Points without doubles, corners first, and the edges (m, 2) between them."""
-    from scipy.spatial import cKDTree
-
-    x = np.concatenate([corners, ends.reshape(-1, 2)])
-    pairs = cKDTree(x).query_pairs(2 * close, output_type="ndarray")
-    labels = parts_of(len(x), pairs.T)
-    _, first = np.unique(labels, return_index=True)
-    return x[first], labels[len(corners) :].reshape(-1, 2)

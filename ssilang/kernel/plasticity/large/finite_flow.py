@@ -21,7 +21,7 @@ from functools import partial
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.elements.results.tensors import as_components, as_tensor
+from ssilang.kernel.elements.solids.kinematics import as_components, as_tensor
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.plasticity.finite import FiniteSolid
 from ssilang.kernel.plasticity.large.finite_yielding import InsideOutError, YieldingSolid

@@ -1,5 +1,6 @@
 """ZDRM, ZBOR: forces that bring a free field into a mesh, behind the procedures @DRM and @BORDS."""
 
+from ssilang.kernel.elements.boundary import wave_speeds
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
@@ -215,7 +216,7 @@ def _tell_reflecting(entries: Entries, motion: free_field_forces.Motion) -> None
     )
     if found is None:
         return
-    fastest = max(float(resolution.pressure_speed(zone, material).max()) for zone in model.zones)
+    fastest = max(float(wave_speeds(zone, material)[0].max()) for zone in model.zones)
     back = 2 * found.distance / fastest
     if back < motion.times[-1] - motion.times[0]:
         table = model.zones[0].cells.nodes

@@ -83,3 +83,27 @@ def test_volumes_and_their_envelope_are_taken_apart_alike(
     assert (d, c) == (0, cells)
     assert x == pytest.approx(2.0)
     assert area == pytest.approx(10.0)
+
+
+@together("kind", ["CUB8", "PRI6", "TET4"])
+def test_neighbours_are_one_part_and_hold_what_lies_in_them(kind: str) -> None:
+    script = CUBES
+    if kind == "TET4":
+        script += "V = CHAN 'TET4' V ; "
+    if kind == "PRI6":
+        script = script.replace("S = L", "OPTI ELEM TRI3 ; S = L")
+        script = script.replace("V = S", "OPTI ELEM PRI6 ; V = S")
+    script += "Q = CHAN V 'QUAF' ; T = PART 'SEPA' Q 'FACE' 'NESC' ; N = DIME T ; "
+    script += "I = ((0.1 0.1 0.1) ET (3. 0. 0.)) INCL Q 'VOLU' 'NOID' ; K = NBNO I ;"
+    assert found(script, "N", "K") == [1, 1]
+
+
+def test_middles_of_complete_quadrangles_are_those_of_their_sides() -> None:
+    """A linear field obeys all relations."""
+    script = (
+        "OPTI DIME 2 ELEM QUA4 MODE PLAN CONT ; S = (DROI 1 (0. 0.) (3. 0.)) TRAN 1 (0. 2.) ; "
+        "Q = CHAN S 'QUAF' ; R = RELA 'MILI' Q ; X Y = COOR Q ; "
+        "F = R * ((NOMC 'UX' X) ET (NOMC 'UY' Y)) ; M = MAXI 'ABS' F ;"
+    )
+    (most,) = found(script, "M")
+    assert most == pytest.approx(0.0, abs=1e-14)
