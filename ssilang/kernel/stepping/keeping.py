@@ -269,7 +269,7 @@ class KeptSteps:
         """What the steps to come depend on."""
         return {
             "motion": leaves(self.motion),
-            "energies": self.history.kept[: self.done + 1],
+            "energies": self.history.energies[: self.done + 1],
             "iterations": self.history.iterations,
             "seconds": self.history.seconds + clock.perf_counter() - self._started,
             "remembers": memory(self.solver),
