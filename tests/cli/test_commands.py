@@ -91,8 +91,11 @@ MASS_ON_A_SPRING = OSCILLATOR + "T2 = DYNAMIC T1 ;\n"
 def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script):
     deck = script(MASS_ON_A_SPRING)
     assert "compiled" not in ssilang("run", deck).err
-    assert "DYNAMIC: compiled, one mode: linear while" in ssilang("run", deck, "-v").err
-    assert "DYNAMIC: compilé, un mode : linéaire" in ssilang("run", deck, "-v", "--lang", "fr").err
+    assert "DYNAMIC: compiled, all modes: linear but" in ssilang("run", deck, "-v").err
+    assert (
+        "DYNAMIC: compilé, tous les modes : linéaire"
+        in ssilang("run", deck, "-v", "--lang", "fr").err
+    )
 
 
 def test_scripts_come_by_standard_input(ssilang, process):

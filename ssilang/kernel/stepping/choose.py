@@ -161,7 +161,6 @@ class Rule:
     fits: Callable[[Case], bool]
     make: Callable[[Case], Loop]
     renewable: bool = False  # whether loads may change from step to step (CHARMECA)
-    light: bool = False  # whether a run without its energies costs much less
     factorises: bool = False  # whether the step's matrix is factorised at each iteration
 
 
@@ -201,13 +200,6 @@ RULES = (
         "kernel.stepping.loop-relations",
         lambda c: c.problem.contact is not None,
         _condensed, renewable=True,
-    ),
-    Rule(
-        "one mode", "compiled",
-        "small, diagonal damping, one mode that moves and at most one joint that only opens",
-        "kernel.stepping.loop-one-mode",
-        lambda c: c.modal is not None and c.modal.line is not None,
-        lambda c: cast("SmallLoop", c.modal).using("one_mode"), light=True,
     ),
     Rule(
         "springs", "compiled",

@@ -258,7 +258,7 @@ class KeptSteps:
         with fitting():
             self.done, h = len(kept["energies"]) - 1, self.history
             take_over(self.motion, kept["motion"])
-            h.kept[: self.done + 1] = kept["energies"]
+            h.energies[: self.done + 1] = kept["energies"]
             h.iterations, h.seconds = kept["iterations"], kept["seconds"]
             if self.more is not None:
                 recall(self.more, kept["more"])
@@ -269,7 +269,7 @@ class KeptSteps:
         """What the steps to come depend on."""
         return {
             "motion": leaves(self.motion),
-            "energies": self.history.kept[: self.done + 1],
+            "energies": self.history.energies[: self.done + 1],
             "iterations": self.history.iterations,
             "seconds": self.history.seconds + clock.perf_counter() - self._started,
             "remembers": memory(self.solver),

@@ -50,10 +50,9 @@ class History:
     Attributes
     ----------
     times : array (n_times,)
-    kept : array (n_times, N_ENERGIES)
+    energies : array (n_times, N_ENERGIES)
         Kinetic, elastic, stored in joints, lost in joints, by friction and at impacts, damped,
-        work of loads and supports;
-        ask for `energies`.
+        work of loads and supports.
     iterations : int
         Most interface iterations in one step.
     solver, loop : str
@@ -62,42 +61,29 @@ class History:
         What is said of the loop, where a rule chose it.
     reduction : Reduction or None
         Of runs on a reduced basis.
-    again : callable or None
-        Finds the energies of a run that did not keep them; `worst` is then its imbalance, `seen`
-        the largest energy at the ends of its chunks.
     beyond : dict of str to float
         Share of the points of a law that went beyond the last point of its curve, by law.
     """
 
     times: FloatArray
-    kept: FloatArray
+    energies: FloatArray
     iterations: int = 0
     solver: str = ""
     loop: str = ""
     seconds: float = 0.0
     reduction: "Reduction | None" = None
-    again: Callable[[], FloatArray] | None = None
-    worst: float = 0.0
-    seen: float = 0.0
     method: Sentence | None = None
     beyond: dict[str, float] = field(default_factory=dict)
 
     @property
-    def energies(self) -> FloatArray:
-        """Energies at all times, shape (n_times, N_ENERGIES); light loops step again for them."""
-        if self.again is not None:
-            self.kept, self.again = self.again(), None
-        return self.kept
-
-    @property
     def worst_imbalance(self) -> float:
         """The largest energy that came from nowhere, its absolute value."""
-        return self.worst if self.again else float(np.abs(self.imbalance).max(initial=0.0))
+        return float(np.abs(self.imbalance).max(initial=0.0))
 
     @property
     def largest_energy(self) -> float:
         """The largest energy of any kind, its absolute value."""
-        return max(self.seen, float(np.abs(self.kept).max(initial=0.0)))
+        return float(np.abs(self.energies).max(initial=0.0))
 
     @property
     def imbalance(self) -> FloatArray:
@@ -130,7 +116,6 @@ class Integration:
     progress: Progress | None = None
     full_newton: bool = False
     driver: "Driver | None" = None
-    light: bool = True
     keeper: keeping.Keeper | None = None
     motion: Motion = field(init=False)
     taps: Taps = field(init=False)
@@ -162,7 +147,6 @@ class Integration:
         self._begun: dict[float, list[Any]] = {}  # states in which choices were made, if kept
         self._done, self._rule = 0, ""
         refuse_combinations(p, self.full_newton)
-        self._balance = np.array([energies[:5].sum() - energies[5], 0.0])  # at the start, worst
 
     def run(self) -> History:
         """All steps.
@@ -176,7 +160,7 @@ class Integration:
         """
         times, self._started = self.problem.times, time.perf_counter()
         history = History(times, np.zeros((len(times), N_ENERGIES)))
-        history.kept[0] = self.motion.energies
+        history.energies[0] = self.motion.energies
         try:
             inside = False
             if self._drive is None:
@@ -262,9 +246,7 @@ class Integration:
                 choice, factors = self._drive.choice(self.motion, run.dt, at, factors, self._closed)
             history.solver, history.loop = choice.solver, choice.rule.loop
             history.method, self._rule = method_of(choice.rule, self.problem), choice.rule.name
-            energies = history.kept[first + 1 : last + 1]
-            if self.light and choice.rule.light and self.keeper is None:
-                energies, history.again = energies[:0], self._energies
+            energies = history.energies[first + 1 : last + 1]
             row, tapped = (
                 rows_of(x[first + 1 : last + 1]) for x in (self.wanted, self.taps.wanted)
             )
@@ -272,15 +254,9 @@ class Integration:
             tap = view.tap(tapped, self.taps.room)
             peaks = self.taps.peaks
             peaks.first[0] = first
-            recorder = recorder_of(
-                self.motion, row, energies, balance=self._balance, tap=tap, peaks=peaks
-            )
+            recorder = recorder_of(self.motion, row, energies, tap=tap, peaks=peaks)
             with keeping.steady(self.keeper, self._done, partial(self._state, history)):
                 done, turns, residual = choice.loop.run(factors, recorder)
-                history.worst = float(self._balance[1])
-                history.seen = max(
-                    history.seen, float(np.abs(self.motion.energies).max(initial=0.0))
-                )
                 if turns > 0:
                     history.iterations = max(history.iterations, turns)
                 problem = self.problem if self._drive is None else self._drive.problem
@@ -305,11 +281,10 @@ class Integration:
         return {
             "motion": keeping.leaves(self.motion),
             "closed": self._closed.copy(),
-            "balance": self._balance.copy(),
             "loops": known,
-            "energies": history.kept[: self._done + 1],
+            "energies": history.energies[: self._done + 1],
             "told": {
-                "iterations": history.iterations, "seen": history.seen, "solver": history.solver,
+                "iterations": history.iterations, "solver": history.solver,
                 "seconds": history.seconds + time.perf_counter() - self._started,
                 "rule": self._rule,
             },
@@ -325,18 +300,13 @@ class Integration:
                 self._choices[known["dt"]] = made[known["dt"]]
             keeping.recall(self._choice(known["dt"]).loop, known["remembers"])
         keeping.take_over(self.motion, kept["motion"])
-        self._closed[:], self._balance[:] = kept["closed"], kept["balance"]
-        history.kept[: self._done + 1] = kept["energies"]
+        self._closed[:] = kept["closed"]
+        history.energies[: self._done + 1] = kept["energies"]
         told = kept["told"]
-        history.iterations, history.seen = told["iterations"], told["seen"]
-        history.worst, history.seconds = float(self._balance[1]), told["seconds"]
+        history.iterations, history.seconds = told["iterations"], told["seconds"]
         rule, self._rule = rule_named(told["rule"]), told["rule"]
         history.solver, history.loop = told["solver"], rule.loop
         history.method = method_of(rule, self.problem)
-
-    def _energies(self) -> FloatArray:
-        """Energies at all times, by stepping again."""
-        return Integration(self.problem, light=False).run().kept
 
     def _within_memory(self, first: int, last: int) -> int:
         if self._drive is not None:

@@ -88,7 +88,6 @@ class Recorder(NamedTuple):
     contact: FloatArray  # (n_rows, m)
     jumps: FloatArray  # (n_steps, n_points, d) of all steps, or none
     work: FloatArray  # (2, n_steps, k) of loads, of the joints on `lift` (k = 0: none)
-    balance: FloatArray  # (2,) sum of energies at the start, largest departure from it
     tap: Tap
     peaks: Peaks
 
@@ -110,7 +109,6 @@ def recorder_of(
     parts |= {
         "jumps": np.zeros((0, *motion.w.shape)),
         "work": np.zeros((2, len(row), 0)),
-        "balance": np.zeros(2),
         "tap": closed_tap(len(row)),
         "peaks": peaks_of(0, 0),
     }

@@ -105,13 +105,10 @@ def report(
 
 
 def growth(history: "History") -> float:
-    """By what energy grows in the last five eighths of a motion, tenfold in each; nought if not.
-
-    Loops that do not keep energies have schemes that do not grow.
-    """
-    if history.again is not None or len(history.kept) < 3 * PARTS:
+    """By what energy grows in the last five eighths of a motion, tenfold in each; nought if not."""
+    if len(history.energies) < 3 * PARTS:
         return 0.0
-    energies = np.abs(history.kept[:, :3]).sum(axis=1)
+    energies = np.abs(history.energies[:, :3]).sum(axis=1)
     most = np.array([part.max() for part in np.array_split(energies, PARTS)])[2:]
     return float(most[-1] / most[0]) if (most[:-1] * 10.0 < most[1:]).all() and most[0] else 0.0
 

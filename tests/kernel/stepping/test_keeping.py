@@ -57,8 +57,8 @@ def longer(problem: Problem, steps: int, kinds: int = 1) -> Problem:
 
 PENALTY = ContactOptions("PENALITE", 1e7)
 CASES = {
-    "one mode": ("one mode", oscillator),
-    "one mode on a joint": ("one mode", lambda: oscillator(joint={"KN": 7e6}, push=3e4)),
+    "one mode": ("modes", oscillator),
+    "one mode on a joint": ("springs", lambda: oscillator(joint={"KN": 7e6}, push=3e4)),
     "modes, softening": (
         "modes", lambda: oscillator(hht(0.1), {"KN": 7e6, "FU": 2e4, "GF": 150.0}, push=3e4)
     ),

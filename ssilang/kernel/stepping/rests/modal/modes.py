@@ -17,10 +17,9 @@ from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, V
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import Joints, interface_forces
 from ssilang.kernel.stepping.effective import Effective
-from ssilang.kernel.stepping.newmark import Newmark, advanced, newmark_of
+from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, supports_are_still
 from ssilang.kernel.stepping.rests.modal.diagonal import sweep_of
-from ssilang.kernel.stepping.rests.modal.one_mode import Mode, Spring, carry, run_one_mode
 from ssilang.kernel.stepping.rests.modal.springs import OnSprings, run_springs, springs_of
 from ssilang.kernel.stepping.rests.reduced.damping import split
 from ssilang.kernel.stepping.rests.reduced.loop import (
@@ -118,8 +117,7 @@ JointsOf = Callable[[Kept], JointRows]
 class SmallLoop:
     """Steps of one dt on the modes, by the loop that fits: see `choose`.
 
-    `line` is one mode that moves and at most one spring, `springs` are springs that only push; None
-    if it is not that.
+    `springs` are springs that only push; None if it is not that.
     """
 
     remembered = ("_z", "_seen")
@@ -131,7 +129,6 @@ class SmallLoop:
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
         plain = not len(modes.sense)
-        self.line = line_of(problem, motion, modes, self._joints, self._newmark) if plain else None
         self.normal, J = shearless(self._joints, modes)
         joints = self._joints if self.normal is None else self.normal
         self._stepped = joints
@@ -149,17 +146,13 @@ class SmallLoop:
         self.using("modes")
 
     def using(self, way: str) -> "SmallLoop":
-        """The loop with one of its ways to step: `modes`, `springs`, `one_mode`."""
+        """The loop with one of its ways to step: `modes`, `springs`."""
         ways: dict[str, tuple[Steps, JointsOf]] = {
             "modes": (self._by_modes, self._of_modes),
             "springs": (self._by_springs, self._of_springs),
-            "one_mode": (self._by_one_mode, self._of_line),
         }
         self._way = way
         self._steps, self._joint_rows = ways[way]
-        self._columns = np.arange(self.modes.size)
-        if self.line is not None and way == "one_mode":
-            self._columns = np.concatenate([[self.line.active], self.line.idle])
         return self
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
@@ -171,25 +164,22 @@ class SmallLoop:
         m.u[:], m.v[:], m.a[:] = self._z @ X.T
         self._seen = m.u.copy()
         if len(r.u):
-            few = X[:, self._columns]
             for part, z in zip((r.u, r.v, r.a), (kept.u, kept.v, kept.a), strict=True):
-                part[:] = expand(few, z)
+                part[:] = expand(X, z)
             r.w[:], r.t[:], r.state[:] = self._joint_rows(kept)
         keep_reactions(self.problem, factors, r)
         return outcome
 
     def view(self, unknowns: IntArray) -> View:
-        """How unknowns and joints follow from the modes, of a line from those that move."""
-        m, r, one = self.motion, len(self._columns), (1, 1)
+        """How unknowns and joints follow from the modes."""
+        m, r = self.motion, self.modes.size
         shapes: dict[str, tuple[int, ...]] = {"u": (r,), "v": (r,), "a": (r,)}
         if self._way == "springs":
             shapes |= {"f": m.f[: len(m.w)].shape, "w": m.w[:, :1].shape, "state": m.w[:, :1].shape}
-        elif self._way == "modes":
+        else:
             w = m.w.shape if self.normal is None else m.w[:, :1].shape
             shapes |= {"w": w, "t": w, "state": m.state.shape}
-        elif self.problem.interface is not None:
-            shapes |= {"w": one, "t": one, "state": one}
-        found = Matrix(self.modes.X[np.ix_(unknowns, self._columns)])
+        found = Matrix(self.modes.X[unknowns])
         return View(np.arange(r), shapes, found, self._joint_rows)
 
     def _by_modes(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
@@ -252,66 +242,6 @@ class SmallLoop:
         m.delta[:] = self.modes.J @ z
         interface_forces(self._joints, m.t, m.f)
 
-    def _by_one_mode(self, factors: FloatArray, recorder: Recorder) -> tuple[Outcome, Recorder]:
-        """Steps of the mode that moves and at most one spring."""
-        assert self.line is not None
-        spring, active, idle = self.line.spring, self.line.active, self.line.idle
-        m, r = self.motion, recorder
-        u, v, a = self._z[:, active : active + 1].copy()
-        w, t, xi = np.zeros((1, 1)), np.zeros((1, 1)), np.zeros((1, 1))
-        if spring.weight > 0.0:
-            w[0, 0], t[0, 0], xi[0, 0] = m.w[0, -1], m.t[0, -1], m.state[0, Variable.XI]
-        none = np.zeros(0)
-        few = Motion(u, v, a, none, none, w, t, xi, none, m.energies, none)
-        tap = r.tap._replace(at=r.tap.at[:1])
-        to = recorder_of(
-            few, r.row, r.energies, ("u", "v", "a", "w", "t", "state"), balance=r.balance, tap=tap
-        )
-        outcome = run_one_mode(self.line.mode, spring, self.line.forces, few, factors, to)
-        self._z[:, active] = few.u[0], few.v[0], few.a[0]
-        if spring.weight > 0.0:
-            self._put_joint(w[None], t[None], xi[None], (m.w[None], m.t[None], m.state[None]))
-            B = self._joints.B[0]
-            m.delta[:], m.f[:] = B.T @ m.w[0], spring.weight * (B.T @ m.t[0])
-        if not len(idle):
-            return outcome, to
-        still, led = self._z[1:, idle].copy(), np.zeros((2, len(r.u), len(idle)))
-        if len(r.tap.u):
-            tapped = np.zeros((2, len(r.tap.u), len(idle)))
-            carry(self._unmoved(), r.tap.row, still.copy(), tapped)
-            r.tap.u[:, 1:] = 0.0
-            r.tap.v[:, 1:], r.tap.a[:, 1:] = tapped
-        carry(self._unmoved(), r.row, still, led)
-        self._z[1:, idle] = still
-        parts = (np.zeros_like(led[0]), *led)
-        u, v, a = (np.hstack(p) for p in zip((to.u, to.v, to.a), parts, strict=True))
-        return outcome, to._replace(u=u, v=v, a=a)
-
-    def _of_line(self, kept: Kept) -> JointRows:
-        """The joint of rows that `run_one_mode` kept."""
-        m, rows = self.motion, len(kept.u)
-        found = JointRows(*(np.zeros((rows, *x.shape)) for x in (m.w, m.t, m.state)))
-        if self.problem.interface is not None:
-            self._put_joint(kept.w, kept.t, kept.state, found)
-        return found
-
-    def _unmoved(self) -> FloatArray:
-        """What a step makes of velocity and acceleration of a motion that does not move."""
-        zero, unit = np.zeros(2), np.eye(2)
-        return np.array(advanced(self._newmark, zero, unit[0], unit[1]))
-
-    def _put_joint(
-        self, w: FloatArray, t: FloatArray, xi: FloatArray,
-        to: tuple[FloatArray, FloatArray, FloatArray],
-    ) -> None:  # fmt: skip
-        """Jumps, tractions and states of instants from those of the only joint."""
-        p, (to_w, to_t, state) = self._joints.p[0], to
-        to_w[:, 0, -1], to_t[:, 0, -1] = w[:, 0, 0], t[:, 0, 0]
-        state[:, 0, Variable.XI] = xi[:, 0, 0]
-        if p[Parameter.FU] > 0.0:
-            lost = -np.expm1(-p[Parameter.FU] / p[Parameter.GF] * xi[:, 0, 0])
-            state[:, 0, Variable.DAMAGE] = np.where(t[:, 0, 0] < 0.0, 0.0, lost)
-
 
 def whole_joints(
     joints: Joints, modes: Modes, z: FloatArray, w: FloatArray, t: FloatArray
@@ -354,65 +284,3 @@ def only_pushes(joints: Joints, state: FloatArray) -> bool:
     past = state.copy()
     past[:, Variable.XI] = 0.0
     return not (joints.p[:, [Parameter.FU, Parameter.FC]].any() or past.any())
-
-
-@dataclass(frozen=True, eq=False)
-class Line:
-    """A problem as one mode that moves, and at most one spring.
-
-    `active` is the mode, `idle` are those that only have a velocity and an acceleration: without
-    mass, damping and load, they stay where they are. `forces` (n_loads,) are empty without loads.
-    """
-
-    mode: Mode
-    spring: Spring
-    forces: FloatArray
-    active: int
-    idle: IntArray
-
-
-def line_of(
-    problem: Problem, motion: Motion, modes: Modes, joints: Joints, n: Newmark
-) -> Line | None:
-    """The problem as one mode and at most one spring; None if it is not."""
-    spring, b = Spring(0.0, 0.0, 0.0, 0.0, 0.0), np.zeros(modes.size)
-    if problem.interface is not None:
-        found = _spring_of(motion, modes, joints, n.end)
-        if found is None:
-            return None
-        spring, b = found
-    z = np.abs(modes.coordinates(np.stack([motion.u, motion.v, motion.a], axis=1)))
-    moves = (z > NOTHING * z.max(axis=0)).any(axis=1)
-    pulls = np.abs(b) > NOTHING * np.abs(b).max(initial=0.0)
-    loaded = np.abs(modes.forces) > NOTHING * np.abs(modes.forces).max(axis=1, initial=0.0)[:, None]
-    away = z[:, 0] > NOTHING * z[:, 0].max(initial=0.0)
-    driven = pulls | loaded.any(axis=0) | (modes.m != 0.0) | (modes.c != 0.0) | away
-    active = np.flatnonzero(driven & (moves | pulls | loaded.any(axis=0)))
-    if len(active) != 1:
-        return None
-    i = int(active[0])
-    m, c, k, jump = (float(x[i]) for x in (modes.m, modes.c, modes.k, b))
-    mode = Mode(m, c, k, jump, n)
-    forces = np.ascontiguousarray(modes.forces[:, i] if loaded.any() else np.zeros(0))
-    return Line(mode, spring, forces, i, np.flatnonzero(moves & ~driven))
-
-
-def _spring_of(
-    motion: Motion, modes: Modes, joints: Joints, end: float
-) -> tuple[Spring, FloatArray] | None:
-    """The only point of the interface and its jump (r,), if shear cannot move there."""
-    if len(joints.weights) != 1 or joints.codes[0] != LawCode.SDM or joints.pairs.shape[1] != 1:
-        return None
-    jumps = joints.B[0] @ modes.J
-    still = np.abs(jumps[:-1]).max(initial=0.0) <= NOTHING * np.abs(jumps[-1]).max(initial=0.0)
-    state = motion.state[0].copy()
-    state[[Variable.XI, Variable.DAMAGE]] = 0.0
-    if not still or state.any() or motion.w[0, :-1].any():
-        return None
-    p, weight, b = joints.p[0], float(joints.weights[0]), jumps[-1]
-    k, fu, gf = (float(p[i]) for i in (Parameter.KN, Parameter.FU, Parameter.GF))
-    if fu > 0.0:  # the closed form is the only answer if the rest is stiffer than the softening
-        a = fu / gf
-        if 1.0 - end * weight * float(b @ b) * k * a * fu / (k - a * fu) <= 0.0:
-            return None
-    return Spring(weight, k, fu, gf, float(p[Parameter.FC])), b
