@@ -149,6 +149,26 @@ def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
     assert text[: found.span.start].count(f"{name} = ") == 1
 
 
+CALLED = "T = TABL ; T . 'CHARGEMENT' = C ; PASAPAS T ; "
+
+
+@together(
+    "text, told",
+    [
+        (CALLED + "T . 'CHARGEMENT' = (T . 'CHARGEMENT') ET D ; MESS (T . 'TEMPS' . 1) ;", True),
+        (CALLED + "T . 'TEMPS_CALCULES' = L ; PASAPAS T ;", False),
+        (CALLED + "REPE B 2 ; T . 'CHARGEMENT' = D ; PASAPAS T ; FIN B ;", False),
+        (CALLED + "T . 'CHARGEMENT' = D ; MESS (T . 'CHARGEMENT') ;", False),
+        (CALLED + "T . 'CHARGEMENT' = D ; U = COPI T ; PASAPAS U ;", False),
+        (CALLED + "T . 'CHARGEMENT' = D ; SAUV ;", False),
+        (CALLED + "T . 'MY_OWN' = 3 ;", False),
+        ("DEBP RUNS ; PASAPAS T ; FINP ; " + CALLED + "T . 'CHARGEMENT' = D ; RUNS ;", False),
+    ],
+)
+def test_an_entry_that_comes_behind_the_call_it_is_for_is_told(text, told):
+    assert ("entry-behind-call" in codes(text)) == told
+
+
 @together(
     "text",
     [

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ssilang.cli.checking.kinds import ANY_WORD, kind_word
-from ssilang.cli.checking.usage import phrases_in, statements_of
+from ssilang.cli.checking.usage import phrases_in, reads_all, statements_of
 from ssilang.language.run.library import Library
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -28,6 +28,7 @@ def doubtful_entries(script: tree.Script, session: Session, values: Values) -> I
     under other names, or at computed indices, is left to the run.
     """
     given: Given = {}
+    called: dict[str, tuple[Declaration, str, tree.Statement]] = {}
     library = session.library
     bodies = [n.span for n in script.body if isinstance(n, tree.Definition)]
     procedures = "\n".join(s.source.code[s.start : s.end] for s in bodies)
@@ -37,6 +38,7 @@ def doubtful_entries(script: tree.Script, session: Session, values: Values) -> I
             left = {i: target for i, target in given[table].items() if i not in read}
             yield from _unread(declared, argument, table, left, library)
             yield from _wrong(declared, argument, given[table], values, session)
+            called[table] = declared, argument, statement
         for target in statement.targets:
             if isinstance(target, tree.Name):
                 given[target.text] = _copied(statement, given)
@@ -44,6 +46,33 @@ def doubtful_entries(script: tree.Script, session: Session, values: Values) -> I
                 index = target.indices[0]
                 if len(target.indices) == 1 and isinstance(index, tree.Quoted):
                     given.setdefault(target.base.text, {})[index.text.rstrip()] = target
+    for table, call in called.items():
+        yield from () if table in procedures else _late(script, table, *call)
+
+
+def _late(
+    script: tree.Script, table: str, declared: Declaration, argument: str, call: tree.Statement
+) -> Iterator[SsiError]:
+    """Entries set behind the last call that takes their table, and not read behind that.
+
+    Loops come back to the call; a table that has another name too is left alone.
+    """
+    for each in statements_of(script.body):
+        words = (i for items in phrases_in(each.items) for i in items if isinstance(i, tree.Name))
+        other = each.first_word[:4] != call.first_word[:4]
+        if reads_all(each) or (other and any(i.text == table for i in words)):
+            return
+    for node in script.body:
+        target = (*node.targets, None)[0] if isinstance(node, tree.Statement) else None
+        if not isinstance(target, tree.Path) or node.span.start < call.span.end:
+            continue
+        index, code = target.indices[-1], node.span.source.code[node.span.end :]
+        entry = declared.at((argument,), index.text) if isinstance(index, tree.Quoted) else None
+        own = isinstance(target.base, tree.Name) and target.base.text == table
+        own = own and len(target.indices) == 1 and entry is not None and entry.is_read
+        if own and isinstance(index, tree.Quoted) and table not in reads(code, index.text):
+            told = {"procedure": declared.name, "where": f"'{index.text}'"}
+            yield SsiError("entry-behind-call", target.span, **told)
 
 
 def _copied(statement: tree.Statement, given: Given) -> dict[str, tree.Path]:

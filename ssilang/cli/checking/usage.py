@@ -31,7 +31,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
     first: dict[str, tree.Name] = {}
     for statement in statements_of(script.body):
         words = _words(statement.items)
-        if _reads_all(statement):
+        if reads_all(statement):
             return []
         read |= words
         for target in statement.targets:
@@ -50,7 +50,7 @@ def unused_names(script: tree.Script) -> list[SsiError]:
     ]
 
 
-def _reads_all(statement: tree.Statement) -> bool:
+def reads_all(statement: tree.Statement) -> bool:
     return statement.first_word[:4] in _WHOLE_SESSION and len(statement.items) == 1
 
 
@@ -69,7 +69,7 @@ def stale_names(script: tree.Script) -> Iterator[SsiError]:
         until = end if isinstance(node, tree.Loop) else 0
         again = end if isinstance(node, tree.Definition) else math.inf
         for at, each in enumerate(found, start):
-            if _reads_all(each):
+            if reads_all(each):
                 given = []
             target, first = (*each.targets, None)[0], (*each.items, None)[0]
             paths = [t for t in each.targets if not isinstance(t, tree.Name)]

@@ -3,7 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -80,12 +80,13 @@ class History:
         """The largest energy that came from nowhere, its absolute value."""
         return float(np.abs(self.imbalance).max(initial=0.0))
 
-    @property
+    @cached_property
     def largest_energy(self) -> float:
         """The largest energy of any kind, its absolute value."""
-        return float(np.abs(self.energies).max(initial=0.0))
+        kept = self.energies
+        return float(max(kept.max(initial=0.0), -kept.min(initial=0.0)))
 
-    @property
+    @cached_property
     def imbalance(self) -> FloatArray:
         """Energy that came from nowhere since the start, shape (n_times,)."""
         kept = self.energies.T
@@ -103,7 +104,7 @@ class History:
         kept = self.energies
         work = kept[:, 5]
         reach = np.maximum.accumulate(work) - np.minimum.accumulate(work)
-        least = LITTLE * np.abs(kept).max(initial=0.0)
+        least = LITTLE * self.largest_energy
         return np.maximum(np.abs(kept[0, :3]).sum() + reach, least)
 
 

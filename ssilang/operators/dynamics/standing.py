@@ -185,7 +185,7 @@ def stops_across(start: Start) -> Told:
     rows = [C, contact.G, *([] if problem.interface is None else [problem.interface.J])]
     linked = sp.coo_array(abs(problem.K) + abs(problem.M) + abs(problem.C))
     strong = linked.data > ROUNDING * linked.diagonal()[linked.row]
-    pairs = linked.row[strong], linked.col[strong]
+    pairs = cast(IntArray, linked.row[strong]), cast(IntArray, linked.col[strong])
     label = parts_of(problem.numbering.size, pairs, *map(chains, map(sp.csr_array, rows)))
     moved = problem.loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
     moved |= abs(C.T) @ np.abs(problem.loading.imposed).sum(axis=1) > 0.0
