@@ -49,8 +49,9 @@ def refuse_words(call: Call, said: Iterable[str]) -> None:
     wish = Wish()
     for word in said:
         read_word(call, word, wish)
-    if len(wish.elements) == 1 and wish.elements[0] not in GENERIC_ELEMENTS and wish.laws:
-        normalised(wish.laws, ELEMENTS[wish.elements[0]].family)
+    named = [n for n in wish.elements if n not in GENERIC_ELEMENTS]
+    if len(wish.elements) == len(named) == 1 and wish.laws and "IMPEDANCE" not in wish.laws:
+        normalised(wish.laws, ELEMENTS[named[0]].family)
 
 
 def _element(wish: Wish) -> str | None:

@@ -204,17 +204,16 @@ def _usable(call: Call, mesh: Mesh | Point, wish: Wish) -> tuple[Mesh, tuple[Cel
 
 
 def _check_elements(call: Call, wish: Wish, mesh: Mesh) -> None:
-    """Refuse names of elements of which none fits the mesh."""
+    """Refuse names of elements of which none fits the mesh; on points impedances have but one."""
     kinds = [b.cell_type for b in mesh.blocks]
     fitting = [n for n in wish.elements if n in GENERIC_ELEMENTS or ELEMENTS[n].cell_type in kinds]
     if wish.elements and not fitting:
-        raise call.error(
-            "operators.models.element-of-other-cells",
-            element=wish.elements[0],
-            kinds=sorted(set(kinds)),
-            cell_type=ELEMENTS[wish.elements[0]].cell_type,
-            fitting=_fitting(call, kinds),
-        )
+        code, named = "operators.models.element-of-other-cells", wish.elements[0]
+        told: dict[str, Any] = {"element": named, "cell_type": ELEMENTS[named].cell_type}
+        told |= {"kinds": sorted(set(kinds)), "fitting": _fitting(call, kinds)}
+        if "IMPEDANCE" not in wish.laws or {*kinds} != {"POI1"}:
+            raise call.error(code, **told)
+        call.warn(code, **told)
 
 
 def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:
