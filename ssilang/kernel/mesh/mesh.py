@@ -28,7 +28,9 @@ class Point:
 
     @property
     def former(self) -> IntArray:
-        """Numbers of all nodes that became one with its own."""
+        """Numbers of all nodes that became one with its own; none before any did."""
+        if not self.nodes.version:
+            return np.empty(0, dtype=np.int64)
         return np.flatnonzero(self.nodes.resolve(np.arange(len(self.nodes))) == self.node)
 
     @property
