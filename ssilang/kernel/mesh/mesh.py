@@ -29,9 +29,8 @@ class Point:
     @property
     def former(self) -> IntArray:
         """Numbers of all nodes that became one with its own; none before any did."""
-        if not self.nodes.version:
-            return np.empty(0, dtype=np.int64)
-        return np.flatnonzero(self.nodes.resolve(np.arange(len(self.nodes))) == self.node)
+        numbers = np.arange(len(self.nodes) if self.nodes.version else 0)
+        return np.flatnonzero(self.nodes.resolve(numbers) == self.node)
 
     @property
     def node(self) -> int:
