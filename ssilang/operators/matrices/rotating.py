@@ -1,6 +1,7 @@
 """KENT CORI GYRO: matrices of turning bodies."""
 
-from ssilang.kernel.elements.beams.rotating import cross_matrix, gyroscopic, inertia_coupling
+from ssilang.kernel.elements.beams.rotating import gyroscopic, inertia_coupling
+from ssilang.kernel.elements.solids.kinematics import cross_matrix
 from ssilang.operators.matrices.element import MODEL, PARAMETERS, joined, present
 from ssilang.operators.prelude import *
 

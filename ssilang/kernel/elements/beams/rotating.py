@@ -17,6 +17,7 @@ from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import element_matrices
+from ssilang.kernel.elements.solids.kinematics import cross_matrix
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -30,11 +31,6 @@ _SCALAR_MASS = (
 """Families whose mass couples each translation with itself only, all in the same way."""
 _LINE_FAMILIES = ("beam", "pipe", "timoshenko")
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
-
-
-def cross_matrix(w: FloatArray) -> FloatArray:
-    """W (..., 3, 3) with W u = w x u, w (..., 3)."""
-    return np.cross(np.eye(3), w[..., None, :])
 
 
 def inertia_coupling(

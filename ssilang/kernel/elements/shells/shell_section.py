@@ -8,6 +8,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS, shape_gradients
+from ssilang.kernel.elements.solids.kinematics import cross_matrix
 from ssilang.kernel.elements.solids.solid_moduli import symmetry_of
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
@@ -193,11 +194,6 @@ def by_node(
     return inertia_off_mesh(values.reshape(n, 6 * k, 6 * k), zone, parameters, normals)
 
 
-def crossed(v: FloatArray) -> FloatArray:
-    """Matrices (..., 3, 3) of theta -> theta x v."""
-    return np.cross(v[..., None, :], np.eye(3))
-
-
 def inertia_off_mesh(
     values: FloatArray, zone: Zone, parameters: ZoneField, normals: FloatArray
 ) -> FloatArray:
@@ -211,7 +207,7 @@ def inertia_off_mesh(
     v = normals * e[:, None, None]
     n, k = v.shape[:2]
     arm = np.broadcast_to(np.eye(6), (n, k, 6, 6)).copy()
-    arm[..., :3, 3:] = crossed(v)
+    arm[..., :3, 3:] = cross_matrix(-v)
     blocks = values.reshape(n, k, 6, k, 6)
     turned: FloatArray = np.einsum("cari,carbs,cbsj->caibj", arm, blocks, arm, optimize=True)
     return turned.reshape(n, 6 * k, 6 * k)

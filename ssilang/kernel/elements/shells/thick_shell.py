@@ -19,6 +19,7 @@ from ssilang.kernel.elements.shapes.reference import (
     shape_gradients,
 )
 from ssilang.kernel.elements.shells import shell_section
+from ssilang.kernel.elements.solids.kinematics import cross_matrix
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Zone
@@ -114,7 +115,7 @@ class ThickShell(family.TurningFamily):
         turned = flat * height[:, :, None, None] + inverse[..., 2][..., None] * N[:, None, :]
         for a in range(3):
             G[:, :, a, :, :, a] = flat
-        G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, shell_section.crossed(arm))
+        G[..., 3:] = np.einsum("cpjk,ckab->cpajkb", turned, cross_matrix(-arm))
         grad = np.einsum("cpia,cpjb,cpabkm->cpijkm", frames, frames, G, optimize=True)
         weights = np.abs(np.linalg.det(J)) * rule.weights * 2
         return grad, weights

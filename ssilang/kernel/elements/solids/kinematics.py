@@ -130,6 +130,11 @@ def as_components(T: FloatArray, n_components: int, strains: bool) -> FloatArray
     return np.stack(rows, axis=1)
 
 
+def cross_matrix(w: FloatArray) -> FloatArray:
+    """W (..., 3, 3) with W u = w x u, w (..., 3)."""
+    return np.cross(np.eye(3), w[..., None, :])
+
+
 def harmonic(zone: Zone) -> int:
     """Fourier harmonic of a zone (0 where the model did not say)."""
     value = zone.options.get("harmonic", 0)
