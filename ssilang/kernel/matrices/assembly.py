@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, KernelError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.sparse import assemble_triplets, sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations, dual_of
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -248,21 +248,6 @@ def assemble_terms(
 
         return assemble_rows(places, values, n)
     return assemble_triplets(places, values, n)
-
-
-def assemble_triplets(
-    places: list[NDArray[np.int32]], values: list[FloatArray], n: int
-) -> sp.csr_array:
-    """Sum of element matrices (n_cells, m, m) at places (n_cells, m) by a list of triplets."""
-    rows = [np.repeat(p, p.shape[1], axis=1).ravel() for p in places]
-    columns = [np.tile(p, (1, p.shape[1])).ravel() for p in places]
-    if not values:
-        return sp.csr_array((n, n))
-    terms = np.concatenate([v.ravel() for v in values])
-    total = sp.coo_array((terms, (np.concatenate(rows), np.concatenate(columns))), shape=(n, n))
-    assembled: sp.csr_array = total.tocsr()
-    assembled.sum_duplicates()
-    return assembled
 
 
 def _places(block: ElementMatrices, numbering: Numbering) -> NDArray[np.int32]:

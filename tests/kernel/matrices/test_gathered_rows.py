@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ssilang.kernel.matrices.assembly import assemble_triplets
+from ssilang.kernel.base.sparse import assemble_triplets
 from ssilang.kernel.matrices.gathered_rows import assemble_rows
 
 

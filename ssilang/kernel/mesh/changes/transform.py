@@ -12,7 +12,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import entries, parts_of
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.sparse import assemble_triplets, sp
 from ssilang.kernel.mesh.boundary import contour, edges, envelope
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes, rotate
 from ssilang.kernel.mesh.lines.curves import plane_normal, unit_vector
@@ -298,8 +298,6 @@ def _solved(A: sp.csr_array, values: FloatArray, fixed: np.ndarray) -> FloatArra
 
 def _stiffness(mesh: Mesh, nodes: IntArray) -> sp.csr_array:
     """Stiffness (n, n) of Laplace's equation on the simplices of the cells."""
-    from ssilang.kernel.matrices.assembly import assemble_triplets
-
     places, terms = [], []
     for block in mesh.blocks:
         if block.kind.dimension < 2 or block.kind.joint or block.kind.degree > 1:

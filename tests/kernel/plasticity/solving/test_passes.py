@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from together import together
 
+from ssilang.kernel.base.sparse import assemble_triplets
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.backbone import hyperbola
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters
-from ssilang.kernel.matrices.assembly import assemble_triplets
 from ssilang.kernel.plasticity.points import PointState
 from ssilang.kernel.plasticity.solving.positive import Pattern
 from ssilang.kernel.plasticity.zone_points import zone_pass
