@@ -73,7 +73,7 @@ def out_of_balance(start: Start) -> Told:
     loading, T = problem.loading, problem.constraints.T
     if not problem.u.any() or not 0 < loading.forces.size < LARGE:
         return
-    held, forces = -(T.T @ _held_at_start(problem)), T.T @ loading.forces
+    held, forces = T.T @ _held_at_start(problem), T.T @ loading.forces
     if problem.contact is not None and problem.contact.G.shape[0] <= FEW_STOPS:
         stops = (T.T @ problem.contact.G.T).toarray()  # whatever they bear
         held, forces = (f - stops @ np.linalg.lstsq(stops, f)[0] for f in (held, forces))
@@ -93,9 +93,9 @@ def weight_of_part(start: Start) -> Told:
     """
     problem = start.problem
     nodes, table = problem.numbering.nodes, problem.numbering.table
-    forces = [-start.weight, *([_held_at_start(problem)] if problem.u.any() else [])]
+    forces = [start.weight, *([_held_at_start(problem)] if problem.u.any() else [])]
     for body, (rest, force) in product(start.bodies(), enumerate(forces)):
-        mass, weight = body.up * (problem.M @ body.up), body.up * force
+        mass, weight = body.up * (problem.M @ body.up), -body.up * force
         heavy = np.flatnonzero(mass > 0.0)
         pull = weight[heavy] / mass[heavy]
         usual = float(pull.max(initial=0.0))
@@ -115,9 +115,9 @@ def weight_of_part(start: Start) -> Told:
 
 
 def _held_at_start(problem: Problem) -> FloatArray:
-    """Forces (n,) that stiffness and joints exert for the displacements of the start, reversed."""
+    """Forces (n,) of stiffness and joints for the displacements of the start."""
     joints, held = problem.interface, problem.K @ problem.u
-    return np.asarray(-held if joints is None else -held - joints.J.T @ joint_state(problem).f)
+    return np.asarray(held if joints is None else held + joints.J.T @ joint_state(problem).f)
 
 
 def velocity_of_rest(start: Start) -> Told:
