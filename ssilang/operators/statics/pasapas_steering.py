@@ -1,8 +1,7 @@
 """PERSO1, REEV_MEC: what procedures of the user see of PASAPAS, and what they change of it."""
 
-from contextlib import suppress
-
 from ssilang.kernel.elements.results.supports import field_on_model
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.files.saving import save
@@ -62,9 +61,9 @@ def tell_parts(inner: Table) -> None:
         zones = tuple(z for z in model.zones if z.formulation == formulation)
         if zones:
             inner.set(Mot(part), Model(zones))
-        if zones and isinstance(material, CellField):
-            with suppress(KernelError):  # contact without friction has no characteristics
-                inner.set(Mot(values), field_on_model(material, Model(zones)))
+        # contact without friction has no characteristics
+        if isinstance(material, CellField) and any(zone_field(z, material).names for z in zones):
+            inner.set(Mot(values), field_on_model(material, Model(zones)))
     inner.set(Mot("MEC1"), inner.has("MOD_MEC"))
     inner.set(Mot("MO_TOT"), model)
     inner.set(Mot("MA_TOT"), material)
