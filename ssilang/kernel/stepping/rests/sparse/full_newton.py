@@ -112,7 +112,9 @@ class FullNewtonSolver:
         trial.y[:] = joints.J @ du
         trial.delta[:] = motion.delta + trial.y
         interface_response(joints.points, motion.state, trial.delta, trial)
-        tangent = sp.csr_array(joints.J.T @ sp.csr_array(self._joint_stiffness(joints, trial)) @ joints.J)
+        tangent = sp.csr_array(
+            joints.J.T @ sp.csr_array(self._joint_stiffness(joints, trial)) @ joints.J
+        )
         return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
 
     def _joint_stiffness(self, joints: Interface, trial: Trial) -> FloatArray:
