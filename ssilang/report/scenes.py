@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.vtk.series import read_pvd
 from ssilang.io.vtk.silence import silent
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.system import in_bounds
@@ -346,8 +347,6 @@ def _of_hdf(path: Path, pyvista: Any) -> _Steps:
 
 
 def _of_list(path: Path, pyvista: Any) -> _Steps:
-    from ssilang.io.vtk.series import read_pvd
-
     try:
         entries = read_pvd(path)
     except (OSError, ValueError, InputError, OutputError):

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import replacing
+from ssilang.io.plots.markup import cut, to_mathtext
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -102,8 +103,6 @@ def _share_what_is_read() -> None:
 
 def head(figure: "Figure", title: str) -> None:
     """Write a title over a figure, on several lines if it is long."""
-    from ssilang.io.plots.markup import cut, to_mathtext
-
     text = cut(title.strip())
     if text:
         lines = textwrap.wrap(text, max(20, int(8.0 * figure.get_figwidth())))

@@ -3,8 +3,6 @@
 Loading it takes 0.2 s, which a script without matrices does not need.
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Any
 
 import numpy as np

@@ -15,12 +15,14 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.sparse import iterated
+from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
@@ -115,8 +117,6 @@ class Case:
 
 
 def _adaptive(case: Case) -> Loop:
-    from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-
     def part(dt: float) -> SparseSteps:
         return _condensed(case if dt == case.dt else replace(case, dt=dt))
 
@@ -143,8 +143,6 @@ def _full_newton(case: Case) -> Loop:
 def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
     p, impact = case.problem, None
     if p.contact is not None and not p.scheme.conserving:
-        from ssilang.kernel.contact.impact import ImpactRule
-
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
     n = newmark_of(p.scheme, case.dt)
     return SparseSteps(SparseLoop(p, case.motion), solver, n, impact)

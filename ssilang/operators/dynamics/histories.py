@@ -9,14 +9,12 @@ from pathlib import Path
 from ssilang.io.atomic import write_text
 from ssilang.io.tables import write_parquet
 from ssilang.kernel.fields.node_algebra import restricted
+from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 from ssilang.language.values import promises
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
-    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
 PARQUET = ".parquet"
 NODAL = {"DEPL": "displacement", "VITE": "velocity", "ACCE": "acceleration"}

@@ -1,13 +1,13 @@
 """What DYNAMIC warns of before it steps: inputs that are well typed and make no sense together."""
 
-from __future__ import annotations
-
 import numpy as np
 
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import is_macro, joint_zones, replaced_blocks
+from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, replaced_blocks
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.materials.model import same_elements
@@ -16,6 +16,8 @@ from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
+from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -29,6 +31,7 @@ from ssilang.kernel.stepping.problem.plausibility import (
     overloads,
     stiffness_contrast,
 )
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import AXES, translations
 from ssilang.operators.dynamics.damped import OVERDAMPED, damped_heavily
 from ssilang.operators.dynamics.reports import conserved
@@ -61,14 +64,6 @@ from ssilang.operators.dynamics.standing import (
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-    from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.node_histories import NodeHistories
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends

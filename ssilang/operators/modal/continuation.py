@@ -5,6 +5,7 @@ from ssilang.kernel.continuation.arc import Point as Solution
 from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 from ssilang.kernel.continuation.harmonics import basis_of, exponents, unstable
 from ssilang.kernel.matrices import assembly
+from ssilang.kernel.stepping.problem.constraints import constraints_of
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.hbm import asked_results, curve, joined, known_names, longer
 from ssilang.operators.prelude import *
@@ -161,8 +162,6 @@ def continue_harmonics(entries: Entries) -> None:
 
 
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
-    from ssilang.kernel.stepping.problem.constraints import constraints_of
-
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w) for w in words)
     supports = entries.get("BLOCAGES_HBM") or Matrix(K.table)
@@ -381,8 +380,6 @@ def _floquet(
 
 def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
     """Floquet exponents of a solution, from the matrices of the motion itself."""
-    from ssilang.kernel.stepping.problem.constraints import constraints_of
-
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     K, C, M = (entries.get(w) for w in words)
     if K is None or M is None:

@@ -1,6 +1,8 @@
 """DYNC: branches of periodic motions on modes by harmonic balance and continuation."""
 
 from ssilang.kernel.continuation.arc import Lengths
+from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
+from ssilang.kernel.continuation.response import Response, forced_response, normal_mode
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.operators.modal.dyne import (
     TABLES,
@@ -12,11 +14,6 @@ from ssilang.operators.modal.dyne import (
 from ssilang.operators.modal.dyne_links import links_of
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.continuation.arc import Lengths
-    from ssilang.kernel.continuation.harmonics import Oscillators
-    from ssilang.kernel.continuation.response import Response
 
 _ROLES = {
     "TMOD": "system", "TCHR": "loads", "TLIAI": "links", "TAMOR": "damping", "TINI": "start",
@@ -31,8 +28,6 @@ def _dync(
     harmonics: int = Arg("ENTIER", range=POSITIVE, en="number of harmonics"),
     samples: int = Arg("ENTIER", range=POSITIVE, en="instants of a period"),
 ) -> Table:
-    from ssilang.kernel.continuation.response import forced_response, normal_mode
-
     tables = tables_by_role(call, given, _ROLES)
     for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
         if role not in tables:
@@ -91,8 +86,6 @@ class Numbers:
 def _oscillators(
     call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
 ) -> "Oscillators":
-    from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
-
     n = len(system.M)
     forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])
     load = np.zeros((2 * harmonics + 1, n))

@@ -7,12 +7,12 @@ from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.doubled import face_keys
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import Bulk, State
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 _STATE = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
 """Results that a calculation goes on from."""

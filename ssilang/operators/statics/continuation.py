@@ -2,21 +2,18 @@
 
 import time
 
+from ssilang.kernel.plasticity.driven_load import ArcTrace, follow_arc, history_of
+from ssilang.kernel.stepping.problem.problem import Problem, make_problem
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report
-from ssilang.operators.modal.continuation import lengths_of
+from ssilang.operators.modal.continuation import continue_harmonics, lengths_of
 from ssilang.operators.modal.hbm import asked_results, curve
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
 from ssilang.operators.statics.pasapas import _inputs, _path_run, start_of
 from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.driven_load import ArcTrace
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.operators.modal.continuation import continue_harmonics
 
 REFUSED = {
     "PROCEDURE_CHARMECA": "operators.statics.no-followers",
@@ -43,9 +40,6 @@ class Followed:
 
 def continue_loads(entries: Entries) -> None:
     """Follow the path of loads and fill the tables."""
-    from ssilang.kernel.plasticity.driven_load import follow_arc, history_of
-    from ssilang.kernel.stepping.problem.problem import make_problem
-
     entries.refuse(REFUSED)
     lengths, begun = lengths_of(entries), time.perf_counter()
     times = np.asarray(entries.needed("TEMPS_CALCULES").values, dtype=float)

@@ -6,6 +6,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
+from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.statics.thermal_load import (
     check_strains,
     loaded_sides,
@@ -13,6 +14,9 @@ from ssilang.kernel.statics.thermal_load import (
     split_strains,
     with_pressures,
 )
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics import plausibility
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.recording import calculation_record, recorded
@@ -56,8 +60,6 @@ from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
     from ssilang.kernel.plasticity.run import BulkRun
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-    from ssilang.kernel.stepping.snapshot import Observer
 
 
 @operator("ZPAS", family="statics")
@@ -123,9 +125,6 @@ def _stretch(
 ) -> Table:
     """Steps of one stage; the state at their end."""
     from ssilang.kernel.plasticity.run import run_bulk
-    from ssilang.kernel.statics.stepping import step_statics
-    from ssilang.kernel.stepping.problem.problem import make_problem
-    from ssilang.kernel.stepping.run import integrate
 
     given, dynamic = stage.entries, work.flag("DYNAMIQUE")
     inputs, stresses = _inputs(given, start, times, dynamic)
@@ -365,8 +364,6 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
 def _inputs(
     entries: Entries, start: Start, times: FloatArray, dynamic: bool
 ) -> "tuple[Inputs, Stresses]":
-    from ssilang.kernel.stepping.problem.problem import Inputs
-
     material: CellField | None = entries.get("CARACTERISTIQUES")
     model: Model | None = entries.get("MODELE")
     linear = _linear_zones(entries)

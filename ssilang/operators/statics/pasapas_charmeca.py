@@ -7,14 +7,12 @@ from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside,
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.statics.thermal_load import along_normals, pressures
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 
 class LoadByProcedure:

@@ -4,12 +4,9 @@ from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.elements.results.integrals import green_strain, has_second_order
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.statics.thermal_load import ThermalStress, free_terms
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import named_at
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.snapshot import Snapshot
-
 
 RESULTS = (
     "TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "REACTIONS", "VITESSES",

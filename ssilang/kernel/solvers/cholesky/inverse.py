@@ -5,8 +5,6 @@ A small eigenvalue is suspected from a few inverse iterations on the factor; the
 without stiffness are found from a slightly shifted matrix and judged by their energy.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
@@ -16,6 +14,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.solvers.backends import MULTIGRID, factorise
+from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 
 if TYPE_CHECKING:
@@ -216,8 +215,6 @@ def _beside_groups(
     A: sp.csr_array, groups: IntArray, solver: Solver | str | None, ordering: Ordering | None
 ) -> Factor | None:
     """Factor of a matrix that is positive but for small negative groups, None if it is not that."""
-    from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
-
     try:
         factor = SmallGroupsFactor(A, groups, solver, ordering)
     except SingularFactorError:
