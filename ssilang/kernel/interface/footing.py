@@ -5,6 +5,8 @@ that it presses with, the largest pressure (that of the toe once it rocks), the 
 moment and rotation. It is in contact where nothing gapes.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 

@@ -12,6 +12,8 @@ Everything that solves a system goes the same way::
 The multipliers (LX) are no unknowns of the numbering: they stand in `ConstraintRows`.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple

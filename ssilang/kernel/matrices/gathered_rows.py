@@ -6,6 +6,8 @@ the unknowns of each node follow one another, the rows of a node are gathered to
 the same columns, and those come in runs.
 """
 
+from __future__ import annotations
+
 from typing import NamedTuple
 
 import numpy as np

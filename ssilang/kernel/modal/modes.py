@@ -13,7 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp, spla
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
@@ -197,8 +197,6 @@ def conjugate_modes(
 def _eigenpairs(
     problem: ReducedProblem, shift: complex, count: int
 ) -> tuple[ComplexArray, ComplexArray]:
-    import scipy.linalg as la
-
     A, B = _linear(problem)
     r = problem.size
     wanted = 2 * count + 6
@@ -207,12 +205,11 @@ def _eigenpairs(
         (top, bottom), vectors = pairs
         finite = np.abs(bottom) > 1e-13 * np.abs(top)
         return top[finite] / bottom[finite], vectors[:r, finite]
-    from scipy.sparse.linalg import ArpackError, eigs
 
     moved = shift * (1.0 + 1e-6) + 1e-6j
     try:
-        values, vectors = eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
-    except (ArpackError, RuntimeError) as problem_found:
+        values, vectors = spla.eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
+    except (spla.ArpackError, RuntimeError) as problem_found:
         raise KernelError(
             "kernel.modal.search-modes-not-converge", problem_found=problem_found
         ) from None

@@ -19,7 +19,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.memory import fits
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import sp, spla
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 
 if TYPE_CHECKING:
@@ -45,8 +45,6 @@ class SuperLUFactor:
     name = "SuperLU"
 
     def __init__(self, A: sp.csr_array, positive: bool) -> None:
-        import scipy.sparse.linalg as spla
-
         options: dict[str, Any] = {"permc_spec": "COLAMD"}
         if positive:
             options = {

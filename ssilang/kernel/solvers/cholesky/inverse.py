@@ -5,6 +5,8 @@ A small eigenvalue is suspected from a few inverse iterations on the factor; the
 without stiffness are found from a slightly shifted matrix and judged by their energy.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
@@ -12,7 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.solvers.backends import MULTIGRID, factorise
 from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
@@ -145,7 +147,6 @@ def _invert(
         motions = free_motions(scaled, symmetric, solver)
     if motions.shape[1] == 0 and factor is not None:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
-    import scipy.linalg as la  # 0.04 s, for matrices that leave motions free
 
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
     kept = np.setdiff1d(np.arange(n), pinned)

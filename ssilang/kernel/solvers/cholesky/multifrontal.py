@@ -5,6 +5,8 @@ columns: the inverse of the diagonal block, then the rows below it, column after
 a solve reads the factor once, from one end to the other, without an index an entry.
 """
 
+from __future__ import annotations
+
 from typing import Any, NamedTuple
 
 import numpy as np

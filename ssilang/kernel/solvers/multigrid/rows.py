@@ -4,6 +4,8 @@ The columns are read once a group and the values lie side by side, so that a pro
 dense ones. Values may be of single precision; sums are then too.
 """
 
+from __future__ import annotations
+
 from functools import partial
 from typing import Any, NamedTuple
 
