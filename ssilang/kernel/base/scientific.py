@@ -1,4 +1,4 @@
-"""Modules of scipy under short names, each loaded when something in it is first used.
+"""Modules of scipy under short names, and pyvista: each loaded when something in it is used.
 
 Loading them takes 0.04 to 0.3 s, which a script without matrices does not need.
 """
@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    import pyvista
     from scipy import interpolate, optimize, signal, spatial, special, stats
     from scipy import linalg as la
     from scipy import sparse as sp
@@ -33,8 +34,9 @@ else:
     spatial = _Deferred("scipy.spatial")
     special = _Deferred("scipy.special")
     stats = _Deferred("scipy.stats")
+    pyvista = _Deferred("pyvista")
 
 __all__ = [
-    "csgraph", "interpolate", "la", "optimize", "signal", "sp", "spatial", "special", "spla",
-    "stats",
+    "csgraph", "interpolate", "la", "optimize", "pyvista", "signal", "sp", "spatial", "special",
+    "spla", "stats",
 ]  # fmt: skip
