@@ -162,6 +162,13 @@ class Table:
         """Create or replace a value."""
         self._items[self._key(index)] = (index, value)
 
+    def inner(self, word: str) -> "Table":
+        """The table at a word, made where none stands there."""
+        found = self.get(word)
+        if not isinstance(found, Table):
+            self.set(Mot(word), found := Table())
+        return found
+
     def has(self, index: object) -> bool:
         """Whether the index exists."""
         return self._key(index) in self._items

@@ -265,7 +265,5 @@ def envelope_of_spectra(call: Call, table: Table = Arg("TABLE", en="spectra")) -
             if abs(d - damping) <= SAME * max(damping, 1e-12)
         ]
         parts.append(largest(same))
-    made = Table()
-    made.set(Mot("SPECTRE"), Curve(tuple(parts), spectra[0][0].title))
-    made.set(Mot("AMORTISSEMENT"), ListReel(kept))
-    return made
+    envelope = Curve(tuple(parts), spectra[0][0].title)
+    return Table.of({"SPECTRE": envelope, "AMORTISSEMENT": ListReel(kept)})

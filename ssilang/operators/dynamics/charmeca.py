@@ -40,8 +40,6 @@ class AddedByProcedure:
 
 
 def _table_of(state: "State", problem: "Problem") -> Table:
-    table = Table()
-    table.set(Mot("TEMP"), state.time)
-    for word, values in (("DEPL", state.u), ("VITE", state.v), ("ACCE", state.a)):
-        table.set(Mot(word), vector_to_field(values, problem.numbering))
-    return table
+    motion = {"DEPL": state.u, "VITE": state.v, "ACCE": state.a}
+    fields = {word: vector_to_field(x, problem.numbering) for word, x in motion.items()}
+    return Table.of({"TEMP": state.time, **fields})

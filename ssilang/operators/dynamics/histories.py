@@ -206,18 +206,12 @@ class CsvObserver:
     @property
     def table(self) -> Table:
         """RESULTATS_CSV: one LISTREEL a quantity."""
-        made = Table()
-        for name, values in self.columns.items():
-            made.set(Mot(name), ListReel(values))
-        return made
+        return Table.of({name: ListReel(values) for name, values in self.columns.items()})
 
 
 def forces_table(track: "ForceHistories") -> Table:
     """RESULTATS_RELATIONS: for each name TEMP and a LISTREEL of each component."""
-    made, entries = Table(), {name: Table() for name in track.named}
-    for name, entry in entries.items():
-        entry.set(Mot("TEMP"), ListReel(track.times))
-        made.set(Mot(name), entry)
+    made = Table.of({name: Table.of({"TEMP": ListReel(track.times)}) for name in track.named})
     for (name, dual), values in track.histories.items():
-        entries[name].set(Mot(dual), ListReel(values))
+        made.inner(name).set(Mot(dual), ListReel(values))
     return made

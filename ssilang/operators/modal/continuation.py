@@ -254,12 +254,7 @@ def _fill(
         return
     all_times = longer(table, "TEMPS_PROG", np.array([p.t for p in points]))
     every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
-    for word in ("TEMPS", "DEPLACEMENTS"):
-        if not isinstance(table.get(word), Table):
-            table.set(Mot(word), Table())
-    times, fields = table.get("TEMPS"), table.get("DEPLACEMENTS")
-    assert isinstance(times, Table)
-    assert isinstance(fields, Table)
+    times, fields = table.inner("TEMPS"), table.inner("DEPLACEMENTS")
     number = begin.number
     for i, point in enumerate(points):
         if i % every == 0 or i == len(points) - 1:
@@ -279,10 +274,7 @@ def _say_way(table: Table, problem: FrequencyProblem, branch: Branch) -> None:
     """WTABLE . DTIME0 DDEP0: the last increment, from which a further call goes on."""
     if len(branch.points) < 2:
         return
-    work = table.get("WTABLE")
-    if not isinstance(work, Table):
-        work = Table()
-        table.set(Mot("WTABLE"), work)
+    work = table.inner("WTABLE")
     before, last = branch.points[-2:]
     work.set(Mot("DTIME0"), float(last.t - before.t))
     work.set(Mot("DDEP0"), _field(problem, last.u - before.u))
@@ -324,10 +316,7 @@ def _stability(
         )
     if not words:
         return
-    inner = entries.table.get("RESULTATS_STABILITE")
-    if not isinstance(inner, Table):
-        inner = Table()
-        entries.table.set(Mot("RESULTATS_STABILITE"), inner)
+    inner = entries.table.inner("RESULTATS_STABILITE")
     seen = points[:-1]
     if again:  # the last point of the call before was left out
         first = _begin_again(entries, problem, tracer, len(points))
@@ -356,15 +345,9 @@ def _floquet(
 ) -> None:
     of = _exponents(entries, problem)
     found = np.array([of(p) for p in points])
-    table = inner.get("FLOQ")
-    if not isinstance(table, Table):
-        table = Table()
-        inner.set(Mot("FLOQ"), table)
+    table = inner.inner("FLOQ")
     for word, values in (("EXPOSANT_REEL", found.real), ("EXPOSANT_IMAG", found.imag)):
-        lists = table.get(word)
-        if not isinstance(lists, Table):
-            lists = Table()
-            table.set(Mot(word), lists)
+        lists = table.inner(word)
         for i, column in enumerate(values.T, start=1):
             known = lists.get(i) if lists.has(i) else None
             before = known.values if isinstance(known, ListReel) else np.zeros(0)

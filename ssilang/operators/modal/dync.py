@@ -154,10 +154,8 @@ def _results(call: Call, found: "Response", system: System, free: bool) -> Table
         call.session.warn(
             "operators.modal.branch-lost", call.span, operator="DYNC", t=found.frequencies[-1]
         )
-    table = Table("RESULTAT_DYNC")
-    table.set(Mot("REPONSE"), _response(found, system, free))
-    table.set(Mot("BIFURCATION"), _bifurcations(found))
-    return table
+    entries = {"REPONSE": _response(found, system, free), "BIFURCATION": _bifurcations(found)}
+    return Table.of(entries, "RESULTAT_DYNC")
 
 
 def _response(found: "Response", system: System, free: bool) -> Table:

@@ -96,9 +96,8 @@ def _fill(entries: Entries, trace: "ArcTrace", followed: Followed) -> None:
     table = entries.table
     table.set(Mot("TEMPS_PROG"), ListReel(np.array(trace.times)))
     if trace.negative:
-        inner = Table()
-        inner.set(Mot("DIAG"), ListReel(np.array(trace.negative)))
-        table.set(Mot("RESULTATS_STABILITE"), inner)
+        negative = Table.of({"DIAG": ListReel(np.array(trace.negative))})
+        table.set(Mot("RESULTATS_STABILITE"), negative)
     x = np.array(followed.times)
     for asked in asked_results(entries, "RESULTATS"):
         y = value_in_time(entries.call, list(followed.fields), asked.component, asked.point.node)

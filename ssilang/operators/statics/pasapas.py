@@ -277,11 +277,9 @@ def _say_model(entries: Entries, work: Entries, stage: Stage, first: int) -> Non
     """Table MODELES: the model of each result from number `first` on, where it changes."""
     if stage.entries.get("MODELE") is work.get("MODELE"):
         return
-    models = entries.table.get("MODELES")
-    models = models if isinstance(models, Table) else Table()
+    models = entries.table.inner("MODELES")
     for number in range(first, _last_number(entries)):
         models.set(number, stage.entries.get("MODELE"))
-    entries.table.set(Mot("MODELES"), models)
 
 
 def _say_last(entries: Entries, number: int) -> None:

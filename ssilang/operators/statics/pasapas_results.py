@@ -18,10 +18,7 @@ RESULTS = (
 def put_results(table: Table, number: int, values: Mapping[str, Any], keep: bool) -> None:
     """Put results of a number into their tables; with `keep` what stands there already stays."""
     for word, value in values.items():
-        if not isinstance(table.get(word), Table):
-            table.set(Mot(word), Table())
-        inner = table.get(word)
-        assert isinstance(inner, Table)
+        inner = table.inner(word)
         if not (keep and inner.has(number)):
             inner.set(number, value)
 
@@ -88,8 +85,7 @@ class ResultTables:
         skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
         strains = () if self.material is None else ("DEFORMATIONS",)
         for word in (*(w for w in RESULTS if w not in skipped), *strains):
-            if not isinstance(self.table.get(word), Table):
-                self.table.set(Mot(word), Table())
+            self.table.inner(word)
 
     def receive(self, snapshot: "Snapshot") -> None:
         """Add one time."""
