@@ -124,20 +124,14 @@ def of_exceedances(
         )
 
     start = np.array([float(stats.norm.ppf(passed / total)), 1.0])
-
-    def lost(p: FloatArray) -> float:
-        return terms(p)[0]
-
-    def slope(p: FloatArray) -> FloatArray:
-        return np.asarray(-terms(p)[1].sum(axis=0), float)
-
-    def curvature(p: FloatArray) -> FloatArray:
-        return terms(p)[2]
-
     found = optimize.minimize(
-        lost, start, jac=slope, hess=curvature,
-        method="trust-exact", tol=1e-10 * float(total),
-    ).x  # fmt: skip
+        lambda p: terms(p)[0],
+        start,
+        method="trust-exact",
+        jac=lambda p: -terms(p)[1].sum(axis=0),
+        hess=lambda p: terms(p)[2],
+        tol=1e-10 * float(total),
+    ).x
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
         raise FieldError("kernel.records.fragility-falls")

@@ -1,13 +1,16 @@
 """ZDYN: the time integration behind the procedure DYNAMIC."""
 
+from ssilang.io.training import TrainingFile
 from ssilang.kernel.base.compiled.cache import is_compiled
 from ssilang.kernel.interface.interface import without_zones
 from ssilang.kernel.plasticity.bulk import Bulk, State, stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
+from ssilang.kernel.plasticity.run import run_bulk
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.keeping import Cut
 from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import History, integrate
 from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics import plausibility
@@ -33,9 +36,6 @@ from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
-
-if TYPE_CHECKING:
-    from ssilang.io.training import TrainingFile
 
 MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
@@ -124,7 +124,6 @@ def _integrated(
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
-        from ssilang.kernel.plasticity.run import run_bulk
 
         return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper, full=full)
     if tolerance is None:
@@ -133,7 +132,6 @@ def _integrated(
         raise entries.error("operators.dynamics.reduction-or-charmeca")
     if full:
         raise entries.error("operators.dynamics.reduction-or-newton")
-    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
 
@@ -148,7 +146,6 @@ def training_file(entries: Entries) -> "TrainingFile | None":
     path, own = output_path(entries.call, f"{name}.npz"), run_output(session).directory
     if session.shared is not None and path.is_relative_to(own):
         path = session.shared / path.relative_to(own)
-    from ssilang.io.training import TrainingFile
 
     return TrainingFile(path)
 
@@ -161,8 +158,6 @@ def _step_again(
 
     `every` is that of a kept calculation, whose steps are cut there (None: it was not kept).
     """
-    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
-
     if tolerance is None:
         integrate(problem, [extremes], keeper=None if every is None else Cut(every))
     else:

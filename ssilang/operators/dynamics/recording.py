@@ -19,6 +19,7 @@ from ssilang.kernel.stepping.run import History
 from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics.motion_files import VtkObserver, stress_of
 from ssilang.operators.dynamics.reports import ENERGIES
+from ssilang.operators.dynamics.watching import joint_places
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
@@ -178,8 +179,6 @@ def _told(footing: Footing, problem: Problem) -> dict[str, Any]:
 
 def _largest(extremes: Extremes) -> list[dict[str, Any]]:
     """Largest values over all steps, for `contents.json`."""
-    from ssilang.operators.dynamics.watching import joint_places
-
     problem, found = extremes.problem, []
     table = problem.numbering.table
     for (kind, name), peak in extremes.found().items():
