@@ -85,6 +85,13 @@ def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(figure, "DPI", 15)
 
 
+@pytest.fixture
+def unplaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Parts of figures stay where they are put: room for texts is half of a picture's time."""
+    engine = "matplotlib.layout_engine.ConstrainedLayoutEngine"
+    monkeypatch.setattr(f"{engine}.execute", lambda *_: None)
+
+
 class _Nothing(set[str]):
     """What processes of tests may start: the other processors have tests of their own."""
 
