@@ -53,8 +53,11 @@ def tmp_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Runs of a sweep with one job are made in this process: a new one costs a second."""
+def one_after_the_other(unsaved: None, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Runs of a sweep with one job are made in this process: a new one costs a second.
+
+    Pictures of its figures are composed alone: to write them was most of the rest.
+    """
 
     def row_of(task: Task) -> Row:
         with pytest.MonkeyPatch.context() as patch:  # the objects of all tests are too many
