@@ -25,10 +25,13 @@ def unused_names(script: tree.Script) -> list[SsiError]:
     """A warning for each name that no statement reads, at its first assignment.
 
     Names that stand in quoted words count as read: texts and computed names use them. A statement
-    with several names is left out when one of them is read.
+    with several names is left out when one of them is read. A table that TABL makes is not read
+    where it is filled.
     """
     read: set[str] = set()
     first: dict[str, tree.Name] = {}
+    filled: set[str] = set()
+    tables, others = set[str](), set[str]()
     for statement in statements_of(script.body):
         words = _words(statement.items)
         if reads_all(statement):
@@ -37,8 +40,14 @@ def unused_names(script: tree.Script) -> list[SsiError]:
         for target in statement.targets:
             if isinstance(target, tree.Name):
                 first.setdefault(target.text, target)
+                word = (*statement.items, target)[0].span.text.upper()
+                (tables if word[:4] == "TABL" else others).add(target.text)
+            elif isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
+                filled.add(target.base.text)
+                read |= _words(target.indices)
             else:
                 read |= _words((target,))
+    read |= filled - (tables - others)
     for statement in statements_of(script.body):
         names = {t.text for t in statement.targets if isinstance(t, tree.Name)}
         if names & read:

@@ -4,6 +4,7 @@ from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
 from ssilang.kernel.modal.modes import Mode as RealMode
+from ssilang.kernel.statics import doubled
 from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
@@ -122,8 +123,17 @@ def _modes(
 
 
 def _warn_masses_alone(call: Call, stiffness: Matrix, mass: Matrix) -> None:
-    """Tell of masses at nodes that the stiffness does not know."""
-    alone = np.setdiff1d(assembly.numbering_of(mass).nodes, assembly.numbering_of(stiffness).nodes)
+    """Tell of masses at nodes or on unknowns that the stiffness does not know, or holds."""
+    known, heavy = assembly.numbering_of(stiffness), assembly.numbering_of(mass)
+    alone = np.setdiff1d(heavy.nodes, known.nodes)
+    names = sorted({*heavy.unknowns} - {*known.unknowns})
+    if mass.inertial and names and any(b.zone for b in stiffness.blocks):
+        call.warn("operators.matrices.mass-of-nothing", names=names)
+    lumps = [b for b in mass.blocks if b.zone is None and b.raw_nodes.shape[1] == 1]
+    idle = doubled.idle_nodes(lumps, stiffness)
+    if mass.inertial and len(idle) == len(lumps) > 0:
+        node = mass.table.told(int(idle[0]))
+        call.warn("operators.matrices.masses-on-supports", count=len(idle), node=node)
     if len(alone) and mass.inertial:
         node = mass.table.told(int(alone[0]))
         call.warn("operators.dynamics.masses-alone", count=len(alone), node=node)
