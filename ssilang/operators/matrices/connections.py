@@ -132,10 +132,7 @@ def warn_repeated(
 
 
 def _warn_swapped_joints(
-    tell: Tell,
-    matrix: Matrix,
-    model: Model | None,
-    characteristics: CellField | None,
+    tell: Tell, matrix: Matrix, model: Model | None, characteristics: CellField | None
 ) -> None:
     from ssilang.kernel.statics.swapped_joints import drawn_gaps, swapped_joints
 
@@ -148,10 +145,7 @@ def _warn_swapped_joints(
 
 
 def _warn_footings(
-    tell: Tell,
-    matrix: Matrix,
-    model: Model | None,
-    characteristics: CellField | None,
+    tell: Tell, matrix: Matrix, model: Model | None, characteristics: CellField | None
 ) -> None:
     from ssilang.kernel.statics.swapped_joints import inclinations
 
