@@ -84,7 +84,7 @@ HELD = 0.99  # of all mass, on nodes that do not move
 OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
-FAR = 100.0  # sizes of the model; what slides may go far
+FAR = 100.0  # sizes of the model, what slides may go far; times what was seen, also in stages
 
 
 def warn_of_start(entries: Entries, start: Start, *, in_statics: bool = False) -> None:
@@ -346,7 +346,7 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
     ahead = AHEAD
     if np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size:
         # the time itself may be the factor of the load; what reaches 1 later is the whole load
-        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else np.inf
+        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else FAR
     if np.abs(y[x > last]).max(initial=0.0) > ahead * saw > 0.0:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
@@ -508,7 +508,8 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
     acting = loading.at(problem.times).any(axis=0)
     moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
     given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
-    if not given and problem.contact is None and not entries.flag("CHARMECA"):
+    unseen = entries.call.session.warned("operators.dynamics.load-missed")
+    if not (given or unseen or problem.contact is not None or entries.flag("CHARMECA")):
         entries.warn("operators.dynamics.nothing-moves")
     energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
     before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None

@@ -18,6 +18,7 @@ def declared_by(call: Call) -> str:
     return call.name if call.name == "DYNC" else "DYNE"
 
 
+ROUNDING = 1e-9
 MOVES, TURNS = ("UX", "UY", "UZ"), ("RX", "RY", "RZ")
 
 
@@ -291,12 +292,15 @@ def _plane(t: LinkTable, basis: Basis) -> ReadLink:
         numbers |= {law.NX: 1.0 if gap >= 0.0 else -1.0, law.GAP: abs(gap)}
         named = [("DEPLACEMENT", 0, Seen(rows)), *_push_names(t, False)]
         return _read_one(t, law.PLANE, rows, numbers, points, named)
-    rows = basis.rows(t.call, support)
-    numbers |= _vector(law.NX, t.direction("NORMALE")) | {law.GAP: gap}
+    rows, normal = basis.rows(t.call, support), t.direction("NORMALE")
+    numbers |= _vector(law.NX, normal) | {law.GAP: gap}
+    spins = t.places.ends((support, 1.0))
+    if not spins and np.abs(normal @ rows).max() <= ROUNDING * np.abs(rows).max():
+        t.call.warn("operators.modal.link-never-met", kind=t.kind)
     named = _RELATIVE + _push_names(t, law.FRICTION in numbers)
     if law.PLASTIC in numbers:
         named.append(("DEPLACEMENT_PLASTIQUE", 0, law.PLASTIC_PART))
-    return _read_one(t, law.PLANE, rows, numbers, points, named, t.places.ends((support, 1.0)))
+    return _read_one(t, law.PLANE, rows, numbers, points, named, spins)
 
 
 def _turning_circle(t: LinkTable, basis: Basis) -> ReadLink:
