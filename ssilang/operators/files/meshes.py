@@ -65,7 +65,14 @@ def mesh_table(call: Call, name: str, kind: str = "") -> Table:
         call.warn("operators.files.cells-left-out", name=path.name, told=told)
     if kind == "STL":
         warn_flat(call, path.name, read.points)
-    return _table(call, read, path.name)
+    space = len(read.points) and np.abs(read.points[:, 2]).max() > 1e-9 * np.abs(read.points).max()
+    if kind == "UNV" and space:
+        workspace(call.session).turn_to(3)
+    made = _table(call, read, path.name)
+    if kind == "NASTRAN":
+        parts = Table.of({t: made.get(Mot(t)) for t in read.parts if made.has(Mot(t))})
+        made.set(Mot("MAILLAGES"), parts)
+    return made
 
 
 def _formats(word: str) -> dict[str, Any]:

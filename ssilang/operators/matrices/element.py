@@ -5,7 +5,9 @@ from functools import wraps
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.rotating import corotational
 from ssilang.kernel.elements.boundary import absorbing_boundary
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
+from ssilang.kernel.elements.shells.shell_section import moduli_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -56,7 +58,9 @@ def nodes_of(place: Mesh | Point) -> IntArray:
 MODEL = arg("model", "MMODEL", en="model")
 PARAMETERS = many("fields", "MCHAML", at_least=1, en="parameters, or Hooke matrices")
 _REFERENCE = flag("reference", "REFE", en="accepted, changes nothing")
-_IGNORED = (flag("alone", "NOER", en="accepted, changes nothing"), _REFERENCE)
+_ALONE = flag("alone", "NOER", en="accepted, changes nothing")
+_IGNORED = (_ALONE, _REFERENCE)
+_ON_MESH = flag("on_mesh", "REFE", en="of shells off the mesh (EXCE): of forces on the mesh")
 NO_ERROR = flag("silent", "NOER", en="an error gives its number as the result")
 
 
@@ -246,14 +250,18 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
     return _additional(call, "AMORTISSEMENT", names, amount, place)
 
 
-@operator("HOOK", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="HOOKE")
-def hook(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> CellField:
+@operator("HOOK", MODEL, PARAMETERS, _ALONE, _ON_MESH, family="matrix", full_name="HOOKE")
+def hook(
+    call: Call, model: Model, fields: tuple[CellField, ...], alone: bool, on_mesh: bool
+) -> CellField:
     """Elastic matrices at the integration points."""
     material = joined(fields)
     blocks = []
     for zone in present(call, model).zones:
         parameters = zone_field(zone, material)
         moduli = families.family_of(zone).moduli(zone, parameters, "RIGIDITE")
+        if on_mesh and ELEMENTS[zone.element].family in ("plate", "mindlin"):
+            moduli = moduli_on_mesh(moduli, zone, parameters)
         blocks.append(hooke_block(zone, moduli, "RIGIDITE"))
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 

@@ -213,7 +213,8 @@ def zhpo(
             )
     shown = entries.table.get("RESULTATS")
     if curves and isinstance(shown, Table):
-        shown.set(Mot("RESULTATS_EVOL"), joined(curves))
+        for place in (shown, entries.table):
+            place.set(Mot("RESULTATS_EVOL"), joined(curves))
         shown.set(Mot("TITRE"), Table.numbered(titles))
 
 
