@@ -84,14 +84,6 @@ class Workspace:
     sides: list[tuple[Mesh, Mesh, str]] = field(default_factory=list)
     records: dict[tuple[str, int], tuple[float, FloatArray]] = field(default_factory=dict)
 
-    def turn_to(self, dimension: int) -> None:
-        """Go on in a dimension, in its usual mode if the mode is of another one."""
-        self.dimension = dimension
-        if self.mode.dimension != dimension:
-            self.mode = (Mode.UNIDIMENSIONAL, Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL)[
-                dimension - 1
-            ]
-
     def keep_record(self, file: str, column: int, times: FloatArray, values: FloatArray) -> None:
         """Remember a record that is long enough to be known again."""
         if len(values) >= _FEWEST and values.any():

@@ -27,9 +27,7 @@ def extremes_table(extremes: Extremes) -> Table:
     """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
     problem, made, inner = extremes.problem, Table(), dict[str, Table]()
     for (kind, name), peak in extremes.found().items():
-        entry = Table()
-        entry.set(Mot("VALEUR"), peak.value)
-        entry.set(Mot("TEMPS"), float(problem.times[peak.step]))
+        entry = Table.of({"VALEUR": peak.value, "TEMPS": float(problem.times[peak.step])})
         if not name:
             assert problem.interface is not None
             x = problem.numbering.table.shown(joint_places(problem.interface)[peak.place])

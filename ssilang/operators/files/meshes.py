@@ -65,14 +65,7 @@ def mesh_table(call: Call, name: str, kind: str = "") -> Table:
         call.warn("operators.files.cells-left-out", name=path.name, told=told)
     if kind == "STL":
         warn_flat(call, path.name, read.points)
-    space = len(read.points) and np.abs(read.points[:, 2]).max() > 1e-9 * np.abs(read.points).max()
-    if kind == "UNV" and space:
-        workspace(call.session).turn_to(3)
-    made = _table(call, read, path.name)
-    if kind == "NASTRAN":
-        parts = Table.of({t: made.get(Mot(t)) for t in read.parts if made.has(Mot(t))})
-        made.set(Mot("MAILLAGES"), parts)
-    return made
+    return _table(call, read, path.name, kind)
 
 
 def _formats(word: str) -> dict[str, Any]:
@@ -80,11 +73,14 @@ def _formats(word: str) -> dict[str, Any]:
     return {"word": word, "near": nearest(word, known, 0.5), "known": known}
 
 
-def _table(call: Call, read: FileMesh, name: str) -> Table:
+def _table(call: Call, read: FileMesh, name: str, kind: str) -> Table:
     ws = workspace(call.session)
     dimension = ws.dimension
     outside = np.abs(read.points[:, dimension:]).max(axis=1, initial=0.0)
-    if dimension and (outside > 1e-9 * np.abs(read.points).max(initial=0.0)).any():
+    beyond = dimension and (outside > 1e-9 * np.abs(read.points).max(initial=0.0)).any()
+    if beyond and kind == "UNV":
+        ws.dimension, ws.mode, dimension = 3, Mode.THREE_DIMENSIONAL, 3
+    elif beyond:
         raise call.error(
             "operators.files.mesh-not-of-dimension", name=name, dimension=dimension,
             count=int((outside > 0).sum()),
@@ -117,6 +113,9 @@ def _table(call: Call, read: FileMesh, name: str) -> Table:
             made.set(Mot(index), _sound(Mesh(ws.nodes, cells)))
         if len(part.nodes):
             made.set(Mot(f"{index}_GN" if cells else index), poi1(ws.nodes, ids[part.nodes]))
+    if kind == "NASTRAN":
+        parts = {i: v for i, v in made.items() if str(i) in read.parts}
+        made.set(Mot("MAILLAGES"), Table.of(parts))
     return made
 
 

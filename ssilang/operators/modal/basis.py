@@ -297,11 +297,8 @@ def _idli(
     )
     if not pairs:
         call.warn("operators.modal.no-conditions-there")
-    table = Table("LIAISONS_STATIQUES")
-    for number, (node, unknown) in enumerate(pairs, start=1):
-        entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}
-        table.set(number, Table.of(entry))
-    return table
+    entries = [{"POINT_LIAISON": Point(ws.nodes, n), "DDL_LIAISON": Mot(u)} for n, u in pairs]
+    return Table.numbered(map(Table.of, entries), "LIAISONS_STATIQUES")
 
 
 # --- union -----------------------------------------------------------------------------------

@@ -289,9 +289,8 @@ def _plane(t: LinkTable, basis: Basis) -> ReadLink:
     if not t.table.has(Mot("NORMALE")):
         rows = basis.unit(t.call, support, "SUPPORT")
         numbers |= {law.NX: 1.0 if gap >= 0.0 else -1.0, law.GAP: abs(gap)}
-        side = int(gap < 0.0)
-        named: list[Named] = [(name, side, kept) for name, _, kept in _push_names(t, False)]
-        named.append(("DEPLACEMENT", 0, Seen(rows)))
+        pushed = [(name, int(gap < 0.0), kept) for name, _, kept in _push_names(t, False)]
+        named = [("DEPLACEMENT", 0, Seen(rows)), *pushed]
         return _read_one(t, law.PLANE, rows, numbers, points, named)
     rows = basis.rows(t.call, support)
     numbers |= _vector(law.NX, t.direction("NORMALE")) | {law.GAP: gap}

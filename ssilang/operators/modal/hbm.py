@@ -138,10 +138,8 @@ def _results(entries: Entries, names: Names) -> None:
             told = {"component": asked.component, "unknowns": names.unknowns}
             raise entries.error("operators.modal.no-such-component", **told)
         given = asked.table.get("COULEUR_HBM")
-        own = []
-        for place in range(names.places):
-            number += 1
-            own.append(number)
+        own = range(number + 1, number + 1 + names.places)
+        for place, number in enumerate(own):
             titles.append(_title(asked.title, place))
             found.set(number, _coefficient(asked, names, place, titles[-1], given))
         asked.table.set(Mot("INDICES_HBM"), ListEnti(np.array(own, dtype=np.int64)))
@@ -159,10 +157,9 @@ def _title(title: str, place: int) -> str:
 
 
 def _coefficient(asked: Asked, names: Names, place: int, title: str, given: object) -> Table:
-    table = Table()
-    table.set(Mot("POINT_MESURE"), asked.point)
-    table.set(Mot("COMPOSANTES"), Mot(names.coefficient(asked.component, place)))
-    table.set(Mot("TITRE"), Mot(title))
+    component = Mot(names.coefficient(asked.component, place))
+    entries = {"POINT_MESURE": asked.point, "COMPOSANTES": component, "TITRE": Mot(title)}
+    table = Table.of(entries)
     words = given.values if isinstance(given, ListMots) and given.values else None
     own = asked.table.get("COULEUR") if words is None else Mot(words[place % len(words)])
     if own is not None:
@@ -213,8 +210,8 @@ def zhpo(
             )
     shown = entries.table.get("RESULTATS")
     if curves and isinstance(shown, Table):
-        for place in (shown, entries.table):
-            place.set(Mot("RESULTATS_EVOL"), joined(curves))
+        shown.set(Mot("RESULTATS_EVOL"), joined(curves))
+        entries.table.set(Mot("RESULTATS_EVOL"), joined(curves))
         shown.set(Mot("TITRE"), Table.numbered(titles))
 
 

@@ -123,7 +123,10 @@ def _shown(word: str, quoted: bool) -> str:
 @reader("DIME")
 def _dime(call: Call, word: str) -> None:
     n = call.given(_NUMBERS[word], call.keyword_end)
-    workspace(call.session).turn_to(n)
+    ws = workspace(call.session)
+    ws.dimension = n
+    if ws.mode.dimension != n:
+        ws.mode = {1: Mode.UNIDIMENSIONAL, 2: Mode.PLANE_STRAIN, 3: Mode.THREE_DIMENSIONAL}[n]
 
 
 @reader("ELEM")

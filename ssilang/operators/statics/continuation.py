@@ -83,9 +83,8 @@ def _fill(entries: Entries, trace: "ArcTrace", problem: "Problem") -> None:
     table = entries.table
     table.set(Mot("TEMPS_PROG"), ListReel(np.array(trace.times)))
     if trace.negative:
-        inner = Table()
-        inner.set(Mot("DIAG"), ListReel(np.array(trace.negative)))
-        table.set(Mot("RESULTATS_STABILITE"), inner)
+        inner = {"DIAG": ListReel(np.array(trace.negative))}
+        table.set(Mot("RESULTATS_STABILITE"), Table.of(inner))
     x = np.array(trace.times)
     fields = [vector_to_field(u, problem.numbering) for u in trace.motions]
     for asked in asked_results(entries, "RESULTATS"):

@@ -32,10 +32,7 @@ class LoadByProcedure:
         numbering, table = self.problem.numbering, self.entries.table
         field = vector_to_field(u, numbering)
         kept = table.get("ESTIMATION") if table.has("ESTIMATION") else None
-        state = Table()
-        state.set(Mot("TEMPS"), time)
-        state.set(Mot("DEPLACEMENTS"), field)
-        table.set(Mot("ESTIMATION"), state)
+        table.set(Mot("ESTIMATION"), Table.of({"TEMPS": time, "DEPLACEMENTS": field}))
         try:
             with _moved(field, self.moves):
                 results = call_user(self.entries.call, "CHARMECA", table, time)
