@@ -5,6 +5,7 @@ from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
 from ssilang.kernel.modal.modes import Mode as RealMode
 from ssilang.kernel.statics import doubled
+from ssilang.language.values import Solution
 from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
@@ -169,18 +170,6 @@ def _complex(
 
 
 # --- tables ----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Modes, each a table as those of a table BASE_DE_MODES."""
-
-    modes: tuple[Table, ...]
-
-    @property
-    def table(self) -> Table:
-        """They as a table BASE_DE_MODES."""
-        return Table.numbered(self.modes, "BASE_DE_MODES")
 
 
 def directions(values: Sequence[float]) -> Table:
