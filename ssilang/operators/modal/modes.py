@@ -92,9 +92,7 @@ def _modes(
         call.warn("operators.matrices.rotary-alone", **found)
     _warn_negative_mass(call, mass)
     _warn_masses_alone(call, stiffness, mass)
-    if damping is not None or not (
-        assembly.is_symmetric(stiffness) and assembly.is_symmetric(mass)
-    ):
+    if damping is not None or not (_sums_up_symmetric(stiffness) and _sums_up_symmetric(mass)):
         return _complex(call, method, stiffness, mass, damping)
     if method.word == "INTERVALLE":
         ends = sorted((method["low"], method["high"]))
@@ -156,6 +154,14 @@ def matrices_by_kind(
         left.remove(damping)
         return left[0], mass, damping
     return left[0], mass, None
+
+
+def _sums_up_symmetric(matrix: Matrix) -> bool:
+    """Whether a matrix is symmetric, be it as the sum of parts that are not (pressures, KP ASYM)."""
+    if assembly.is_symmetric(matrix) or any(r.dual is not None for r in matrix.relations):
+        return assembly.is_symmetric(matrix)
+    K = assembly.assemble(matrix)
+    return bool(abs(K - K.T).max() <= 1e-9 * abs(K).max())
 
 
 def _complex(
