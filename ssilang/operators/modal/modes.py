@@ -92,7 +92,11 @@ def _modes(
         call.warn("operators.matrices.rotary-alone", **found)
     _warn_negative_mass(call, mass)
     _warn_masses_alone(call, stiffness, mass)
-    if damping is not None or not (_sums_up_symmetric(stiffness) and _sums_up_symmetric(mass)):
+    if damping is None:
+        mass, stiffness = (_as_symmetric(m, stiffness) for m in (mass, stiffness))
+    if damping is not None or not (
+        assembly.is_symmetric(stiffness) and assembly.is_symmetric(mass)
+    ):
         return _complex(call, method, stiffness, mass, damping)
     if method.word == "INTERVALLE":
         ends = sorted((method["low"], method["high"]))
@@ -156,12 +160,28 @@ def matrices_by_kind(
     return left[0], mass, None
 
 
-def _sums_up_symmetric(matrix: Matrix) -> bool:
-    """Whether a matrix is symmetric, be it as the sum of parts that are not (pressures, KP ASYM)."""
+def _as_symmetric(matrix: Matrix, stiffness: Matrix) -> Matrix:
+    """The matrix of symmetric blocks where unsymmetric ones (KP ASYM) sum up to what is symmetric.
+
+    Unknowns that the stiffness holds do not count: pressure on a held edge is symmetric.
+    """
     if assembly.is_symmetric(matrix) or any(r.dual is not None for r in matrix.relations):
-        return assembly.is_symmetric(matrix)
-    K = assembly.assemble(matrix)
-    return bool(abs(K - K.T).max() <= 1e-9 * abs(K).max())
+        return matrix
+    numbering = assembly.numbering_of(stiffness)
+    if not np.isin(assembly.numbering_of(matrix).nodes, numbering.nodes).all():
+        return matrix
+    rows = assembly.constraint_matrix(stiffness, numbering).C
+    held = rows[np.diff(rows.indptr) == 1].indices
+    K = assembly.assemble(matrix, numbering)
+    apart = abs(K - K.T).tocoo()
+    counts = ~(np.isin(apart.row, held) | np.isin(apart.col, held))
+    if apart.data[counts].max(initial=0.0) > 1e-9 * abs(K).max():
+        return matrix
+    parts = (
+        replace(b, values=(b.values + b.values.swapaxes(1, 2)) / 2, symmetric=True)
+        for b in matrix.blocks
+    )
+    return replace(matrix, blocks=tuple(parts))
 
 
 def _complex(
