@@ -207,7 +207,7 @@ class Binder:
             return self.call.take_name(a.optional)
         if a.optional and a.types == ("MOT",) and self._joins():
             return a.default
-        operand = self.call.read(*a.types, after=after)
+        operand = self.call.read(*a.types, after=after, only=a.behind)
         if operand is not None:
             return self._given(a, operand)
         if a.optional:
