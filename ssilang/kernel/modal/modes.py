@@ -98,17 +98,10 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
     squares, found = problem.stiffness.multiply(problem.stiffness), []
     free = directions * (abs(problem.T).sum(axis=1) > 0.0)[:, None]
     moving = tuple((free * (problem.mass @ free)).sum(axis=0).tolist())
-    named = {part + name for name in set().union(*TRANSLATIONS) for part in ("", "I")}
-    codes = [c for c, name in enumerate(problem.numbering.unknowns) if name in named]
-    translates = np.isin(problem.numbering.codes, codes)
     for value, q in zip(pairs.values, pairs.shapes.T, strict=True):
         u = problem.T @ q
-        # translations that are rounding beside the rotations (a shaft in torsion) do not count
-        moved = np.where(translates, u, 0.0)
-        if np.abs(moved).max(initial=0.0) <= ROUNDING * np.abs(u).max(initial=0.0):
-            moved = u
-        sizes = np.abs(moved)
-        u = u / float(moved[np.argmax(sizes > (1.0 - 1e-9) * sizes.max())])
+        sizes = np.abs(u)
+        u = u / float(u[np.argmax(sizes > (1.0 - 1e-9) * sizes.max())])
         inertia = problem.mass @ u
         multipliers = (problem.multipliers, problem.reactions(u, float(value)))
         shape = vector_to_field(u, problem.numbering, multipliers=multipliers)

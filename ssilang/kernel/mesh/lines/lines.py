@@ -94,7 +94,7 @@ def line_chain(line: Mesh) -> IntArray:
     Raises
     ------
     MeshError
-        If the mesh is not one connected line whose cells all run the same way.
+        If the mesh is not one connected line.
     """
     if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
         kinds = [b.cell_type for b in line.blocks]
@@ -106,18 +106,25 @@ def line_chain(line: Mesh) -> IntArray:
 
 
 def _in_order(table: IntArray, nodes: NodeTable) -> IntArray:
-    """Cells (n, 2 or 3) of one line that all run in its sense, one behind the other."""
-    leaving = {int(first): i for i, first in enumerate(table[:, 0])}
-    starts = np.setdiff1d(table[:, 0], table[:, -1])
+    """Cells (n, 2 or 3) of one line that all run in the sense of the first, each behind another."""
+    at_node: dict[int, list[int]] = {}
+    for i, row in enumerate(table):
+        for node in (int(row[0]), int(row[-1])):
+            at_node.setdefault(node, []).append(i)
+    free = [node for node, cells in at_node.items() if len(cells) == 1]
+    at = free[0] if free else int(table[0, 0])
     rows: list[int] = []
-    if len(leaving) == len(table) and len(starts) <= 1:
-        at = int(starts[0] if len(starts) else table[0, 0])
-        while at in leaving and len(rows) < len(table):
-            rows.append(leaving[at])
-            at = int(table[rows[-1], -1])
-    if len(rows) != len(table):
+    found = []
+    left = at_node[at][:1]
+    while left and len(rows) < len(table):
+        rows.append(left[0])
+        found.append(table[rows[-1]] if table[rows[-1], 0] == at else table[rows[-1], ::-1])
+        at = int(found[-1][-1])
+        left = [i for i in at_node[at] if i != rows[-1]]
+    if len(set(rows)) != len(table) or max(map(len, at_node.values())) > 2:
         raise MeshError("kernel.mesh.line-cells-not-follow", twice=_met_twice(table, nodes))
-    return table[rows]
+    line = np.array(found)
+    return line if line[rows.index(0), 0] == table[0, 0] else line[::-1, ::-1]
 
 
 def _met_twice(table: IntArray, nodes: NodeTable) -> str:
