@@ -34,7 +34,8 @@ from ssilang.language.values import Mot, Procedure, known_types
 from ssilang.messages.message import Sentence
 
 # statements that may bring names the text does not show
-_OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "MENU"})
+_OPENING = frozenset({"REST", "LIRE", "NOMM", "SAIS", "MENU"})
+_NAMING = frozenset({"ARGU", "ACQU", "OBTE"})  # they give values to the names that they show
 
 
 class Checker:
@@ -210,6 +211,7 @@ class Checker:
         scope.open = outer.open or library
         scope.dimension = None
         scope.inside = (node.name, *self._loops)  # it may be called inside of any of them
+        scope.values.setdefault("WTAB", UNKNOWN)  # of PASAPAS or CONTINU, which may call it
         for p in node.parameters:
             known = not p.optional and p.type and p.type not in ("MOT", "FLOTTANT")
             scope.values[p.name] = typed(p.type) if known else UNKNOWN
@@ -285,12 +287,16 @@ class Checker:
         ]
         if len(words) == 1 and scope.values.get(statement.first_word) is UNKNOWN:
             scope.open = True  # a TEXTE runs, which may give names to results
-        if word in _OPENING or (word == "OPTI" and "DONN" in words):
+        behind = statement.items[words.index("DONN") + 1 :] if "DONN" in words else ()
+        read = word == "OPTI" and behind and not isinstance(behind[0], tree.Number)  # a file
+        if word in _OPENING or read:
             scope.open = True
             scope.dimension = None
             named = [i.text for i in statement.items[1:] if isinstance(i, tree.Name)]
             # without names all that was saved comes back, under any name
             scope.forget(named if named or word != "REST" else tuple(scope.values))
+        if word in _NAMING:
+            scope.forget(i.text for i in statement.items[1:] if isinstance(i, tree.Name))
         if word == "OPTI" and "DIME" in words:
             at = words.index("DIME") + 1
             item = statement.items[at] if at < len(words) else None
