@@ -30,89 +30,62 @@ MOST = 1 - 1e-9
 _LINE, _LEAST = -10.0, 1e-15
 
 
-def _tension(p: PointParameters, strain: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Damage of tension at equivalent strains (m,), and its slope."""
-    start, a, b = p["KTR0"], p["ATRA"], p["BTRA"]
-    whole = np.where(a < 0, 1.0, a)
-    damage, slope = _softened(start, whole, b, strain)
-    tail = start / strain * np.exp(b * (start - strain))
-    left = start * np.maximum(b - strain, 0.0) / strain / np.where(b > start, b - start, 1.0)
-    fall = np.where(strain < b, start * b / strain**2 / np.where(b > start, b - start, 1.0), 0.0)
-    kinds = [a < _LINE, a < 0]
-    return (
-        np.select(kinds, [1 - left, 1 - tail], damage),
-        np.select(kinds, [fall, tail * (1 / strain + b)], slope),
-    )
-
-
-def _softened(
-    start: FloatArray, a: FloatArray, b: FloatArray, strain: FloatArray
+def _left(
+    k: FloatArray, a: FloatArray, b: FloatArray, e: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Mazars' evolution (m,), and its slope."""
-    tail = a * np.exp(b * (start - strain))
-    return 1 - start * (1 - a) / strain - tail, start * (1 - a) / strain**2 + b * tail
+    """What a curve leaves of the stress at equivalent strains (m,), and its slope."""
+    tail, rest = np.exp(b * (k - e)), np.maximum(b - e, 0.0)
+    line, span = a < _LINE, np.where(a < _LINE, b - k, 1.0) * e
+    left = np.select([line, a < 0], [k * rest / span, k / e * tail], k * (1 - a) / e + a * tail)
+    slopes = [-k * b * (rest > 0) / span, -k * tail * (1 / e + b)]
+    return left, np.select([line, a < 0], slopes, -k * (1 - a) / e - a * b * tail * e) / e
 
 
-def _stretched(
-    p: PointParameters, e: FloatArray, size: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def _opened(p: PointParameters, e: FloatArray, size: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The part `at` (m,) of principal strains (m, 3), and its derivatives (m, 3)."""
-    nu, shear = p["NU"][:, None], p.shear[:, None]
-    lame = (2 * p.shear * p["NU"] / (1 - 2 * p["NU"]))[:, None]
-    effective = lame * e.sum(axis=1, keepdims=True) + 2 * shear * e
-    tensile = np.maximum(effective, 0.0)
-    young = p["YOUN"][:, None]
-    made = ((1 + nu) * tensile - nu * tensile.sum(axis=1, keepdims=True)) / young
-    open_ = np.maximum(e, 0.0)
-    part = np.vecdot(made, open_) / size**2
-    # d made_i / d e_k, stresses above zero alone
-    active = (effective > 0).astype(float)
-    own = active[:, :, None] * (lame[:, :, None] + 2 * shear[:, :, None] * np.eye(3))
-    turned = ((1 + nu[..., None]) * own - nu[..., None] * own.sum(axis=1, keepdims=True)) / young[
-        ..., None
-    ]
-    slope = np.einsum("mi,mik->mk", open_, turned) + np.where(e > 0, made, 0.0)
-    slope = slope / size[:, None] ** 2 - 2 * part[:, None] * open_ / size[:, None] ** 2
-    return part, slope
+    axes = slice(3), slice(3)
+    stiff, soft = (matrix[:, *axes] for matrix in (p.moduli, p.compliance))
+    effective = np.einsum("mij,mj->mi", stiff, e)
+    made = np.einsum("mij,mj->mi", soft, np.maximum(effective, 0.0))
+    turned = np.einsum("mij,mjk->mik", soft, (effective > 0)[..., None] * stiff)
+    wide = np.maximum(e, 0.0)
+    part = np.vecdot(made, wide) / size**2
+    slope = np.einsum("mi,mik->mk", wide, turned) + (e > 0) * made - 2 * part[:, None] * wide
+    return np.clip(part, _LEAST, 1 - _LEAST), slope / size[:, None] ** 2
+
+
+def _grown(p: PointParameters, e: FloatArray, size: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Damage (m,) of a loading, and its derivatives by the principal strains (m, 3)."""
+    tension, fall = _left(p["KTR0"], p["ATRA"], p["BTRA"], size)
+    pressure, sink = _left(p["KTR0"], p["ACOM"], p["BCOM"], size)
+    (at, slope), beta = _opened(p, e, size), p["BETA"]
+    turn = beta * ((1 - tension) * at ** (beta - 1) - (1 - pressure) * (1 - at) ** (beta - 1))
+    along = -(at**beta * fall + (1 - at) ** beta * sink) / size
+    found = at**beta * (1 - tension) + (1 - at) ** beta * (1 - pressure)
+    return found, along[:, None] * np.maximum(e, 0.0) + turn[:, None] * slope
 
 
 def respond(
-    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+    p: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
     """Mazars' damage (see the head of this module)."""
-    p, moduli = parameters, parameters.moduli
-    whole = np.einsum("mij,mj->mi", p.compliance, stress) / (1 - variables[:, :1]) + strain
+    damage, reached = variables.T
+    whole = np.einsum("mij,mj->mi", p.compliance, stress) / (1 - damage)[:, None] + strain
+    effective = np.einsum("mij,mj->mi", p.moduli, whole)
     half = whole * [1, 1, 1, 0.5, 0.5, 0.5]
     e, axes = np.linalg.eigh(half[:, [[0, 3, 4], [3, 1, 5], [4, 5, 2]]])
     size = np.linalg.norm(np.maximum(e, 0.0), axis=1)
-    kept = variables.copy()
-    kept[:, 1] = np.maximum(variables[:, 1], size)
-    tangent = (1 - variables[:, 0])[:, None, None] * moduli
-    rows = np.flatnonzero((size > variables[:, 1]) & (size > p["KTR0"]))
-    if len(rows):
-        some = p.at(rows)
-        dt, dt_slope = _tension(some, size[rows])
-        dc, dc_slope = _softened(some["KTR0"], some["ACOM"], some["BCOM"], size[rows])
-        at, at_slope = _stretched(some, e[rows], size[rows])
-        at = np.clip(at, _LEAST, 1 - _LEAST)
-        beta, ac = some["BETA"], 1 - at
-        found = at**beta * dt + ac**beta * dc
-        grown = (found > variables[rows, 0]) & (found < MOST)
-        kept[rows, 0] = np.clip(found, variables[rows, 0], MOST)
-        by_size = at**beta * dt_slope + ac**beta * dc_slope
-        turn = beta * (dt * at ** (beta - 1) - dc * ac ** (beta - 1))
-        slope = (
-            by_size[:, None] * np.maximum(e[rows], 0.0) / size[rows, None]
-            + turn[:, None] * at_slope
-        )
-        slope *= grown[:, None]
-        first, second = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
-        by_strain = np.einsum("mk,mik->mi", slope, axes[rows][:, first] * axes[rows][:, second])
-        effective = np.einsum("mij,mj->mi", moduli[rows], whole[rows])
-        tangent[rows] = (1 - kept[rows, 0])[:, None, None] * moduli[rows]
-        tangent[rows] -= effective[:, :, None] * by_strain[:, None, :]
-    made = (1 - kept[:, :1]) * np.einsum("mij,mj->mi", moduli, whole)
-    return Response(made, kept, tangent, strain)
+    rows = np.flatnonzero(size > np.maximum(reached, p["KTR0"]))
+    found, slope = _grown(p.at(rows), e[rows], size[rows])
+    slope = slope * ((found > damage[rows]) & (found < MOST))[:, None]
+    now = damage.copy()
+    now[rows] = np.clip(found, damage[rows], MOST)
+    first, second = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
+    by_strain = np.einsum("mk,mik->mi", slope, axes[rows][:, first] * axes[rows][:, second])
+    tangent = (1 - now)[:, None, None] * p.moduli
+    tangent[rows] -= effective[rows][:, :, None] * by_strain[:, None, :]
+    kept = np.column_stack([now, np.maximum(reached, size)])
+    return Response((1 - now)[:, None] * effective, kept, tangent, strain)
 
 
 def locked(p: PointParameters, stress: FloatArray, variables: FloatArray) -> FloatArray:
