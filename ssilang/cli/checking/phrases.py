@@ -36,7 +36,7 @@ Report = Callable[[SsiError], None]
 
 _COMPARISONS = frozenset({"EGA", "NEG", ">", "<", ">EG", "<EG"})
 _SCALARS = frozenset({"ENTIER", "FLOTTANT"})
-_NEVER = frozenset({"LOGIQUE", "MOT", "LISTMOTS", "MAILLAGE", "MMODEL"})  # no signs on these
+_NEVER = frozenset({"LOGIQUE", "MOT", "LISTMOTS", "MAILLAGE"})  # no signs on these
 
 
 class AbstractCall(Call):

@@ -1,5 +1,6 @@
 """Walks a script, statement after statement, and collects what is certainly wrong or doubtful."""
 
+import re
 from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
@@ -35,6 +36,7 @@ from ssilang.messages.message import Sentence
 
 # statements that may bring names the text does not show
 _OPENING = frozenset({"REST", "LIRE", "NOMM", "SAIS", "MENU"})
+_DIMENSION = re.compile(r"^[^*].*\bOPTI\w*'?\s[^;]*\bDIME'?\s+\d", re.IGNORECASE | re.MULTILINE)
 _NAMING = frozenset({"ARGU", "ACQU", "OBTE"})  # they give values to the names that they show
 
 
@@ -227,6 +229,10 @@ class Checker:
         if not statement.assigns:
             self._effects(statement, word, scope)
         values = self._values(statement, scope)
+        for name in bare_names(statement.items):
+            called = scope.values.get(name.text, self.session.library.find(name.text))
+            if isinstance(called, Procedure) and _DIMENSION.search(called.definition.span.text):
+                scope.dimension = None
         for i, target in enumerate(statement.targets):
             if isinstance(target, tree.Name):
                 known = values is not None and i < len(values)

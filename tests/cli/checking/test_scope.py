@@ -20,10 +20,12 @@ from ssilang.language.values import Mot
 
 
 def test_what_a_procedure_reads_for_itself_hides_nothing_else():
-    """ARGU shows its names, a number behind DONN is no file, EGA takes a tolerance."""
+    """ARGU shows its names, a number behind DONN is no file, EGA takes a tolerance, procedures may
+    change the dimension."""
     text = (
         "DEBP TOTO ; ARGU A*MAILLAGE ; WTAB . 'K' = A ; B = ININLIN 1 A ; FINP B ;\n"
-        "SI (EGA 1. 1. 1.E-9) ; OPTI DONN 5 ; FINSI ; X = TOTO ; LIST X ;"
+        "SI (EGA 1. 1. 1.E-9) ; OPTI DONN 5 ; FINSI ; X = TOTO ; LIST X ;\n"
+        "OPTI DIME 2 ; DEBP DEEP ; OPTI DIME 3 ; FINP ; DEEP ; P = 0. 0. 1. ; LIST P ;"
     )
     (error,) = (p for p in check_source(Source("script", text))[0] if p.severity == "error")
     assert error.data["name"] == "ININLIN"
