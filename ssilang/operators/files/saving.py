@@ -8,6 +8,7 @@ import ssilang.kernel.interface.family
 import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
+from ssilang.language.registry import find_operator
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import parse_statements
