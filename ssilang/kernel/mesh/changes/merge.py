@@ -55,7 +55,7 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
             pairs.append((a[i], b[j]))
     left = np.concatenate([a[free_a], b[free_b]])
     if len(common) and len(left):
-        at = cKDTree(nodes.coordinates[common]).query(
+        at = spatial.cKDTree(nodes.coordinates[common]).query(
             nodes.coordinates[left], distance_upper_bound=tolerance
         )[1]
         pairs += [(i, common[k]) for i, k in zip(left, at, strict=True) if k < len(common)]
