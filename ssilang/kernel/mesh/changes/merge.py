@@ -58,7 +58,9 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
         at = spatial.cKDTree(nodes.coordinates[common]).query(
             nodes.coordinates[left], distance_upper_bound=tolerance
         )[1]
-        pairs += [(i, common[k]) for i, k in zip(left, at, strict=True) if k < len(common)]
+        pairs += [
+            (i, common[k]) for i, k in zip(left, np.ravel(at), strict=True) if k < len(common)
+        ]
     table = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
     nodes.merge(table[:, 0], table[:, 1])
 
