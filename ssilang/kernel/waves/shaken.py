@@ -13,6 +13,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.kernel.statics.cells_amiss import bordered_solids
@@ -20,8 +22,6 @@ from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
-    from ssilang.kernel.materials.model import Zone
-    from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
     from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")

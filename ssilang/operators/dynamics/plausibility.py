@@ -1,14 +1,14 @@
 """What DYNAMIC warns of before it steps: inputs that are well typed and make no sense together."""
 
-from __future__ import annotations
-
 import numpy as np
 
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.families import unlike
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import is_macro, joint_zones, replaced_blocks
+from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, replaced_blocks
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.materials.model import same_elements
@@ -17,6 +17,8 @@ from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
+from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -30,6 +32,7 @@ from ssilang.kernel.stepping.problem.plausibility import (
     overloads,
     stiffness_contrast,
 )
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import AXES, translations
 from ssilang.operators.dynamics.damped import OVERDAMPED, damped_heavily
 from ssilang.operators.dynamics.reports import conserved
@@ -65,14 +68,6 @@ from ssilang.operators.matrices.connections import warn_connections, warn_repeat
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 
-if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-    from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.node_histories import NodeHistories
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
 NEARLY = 0.02  # the same, where the curve goes on to the last step but one
@@ -89,7 +84,7 @@ HELD = 0.99  # of all mass, on nodes that do not move
 OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
-FAR = 100.0  # sizes of the model; what slides may go far
+FAR = 100.0  # sizes of the model, what slides may go far; times what was seen, also in stages
 
 
 def warn_of_start(entries: Entries, start: Start, *, in_statics: bool = False) -> None:
@@ -351,7 +346,7 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
     ahead = AHEAD
     if np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size:
         # the time itself may be the factor of the load; what reaches 1 later is the whole load
-        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else np.inf
+        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else FAR
     if np.abs(y[x > last]).max(initial=0.0) > ahead * saw > 0.0:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
@@ -513,7 +508,8 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
     acting = loading.at(problem.times).any(axis=0)
     moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
     given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
-    if not given and problem.contact is None and not entries.flag("CHARMECA"):
+    unseen = entries.call.session.warned("operators.dynamics.load-missed")
+    if not (given or unseen or problem.contact is not None or entries.flag("CHARMECA")):
         entries.warn("operators.dynamics.nothing-moves")
     energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
     before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None

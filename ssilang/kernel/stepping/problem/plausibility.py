@@ -15,7 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.law_table import law_of
@@ -319,12 +319,10 @@ def solver_of(K: sp.csr_array) -> Callable[[FloatArray], FloatArray]:
     """
     if K.shape[0] > DENSE:
         return SuperLUFactor(sp.csr_array(K), positive=True).solve
-    from scipy.linalg.lapack import dgetrf, dgetrs
-
-    factors, order, singular = dgetrf(K.toarray())
+    factors, order, singular = la.lapack.dgetrf(K.toarray())
     if singular:
         raise SingularFactorError(f"pivot {singular}")
-    return lambda forces: np.asarray(dgetrs(factors, order, forces)[0], float)
+    return lambda forces: np.asarray(la.lapack.dgetrs(factors, order, forces)[0], float)
 
 
 def _loads(

@@ -67,9 +67,7 @@ class FullNewtonSolver:
 
     def _push(self, forces: FloatArray) -> FloatArray | float:
         """Forces (n,) of relations and friction."""
-        if self.contact is None:
-            return 0.0
-        return self.contact.pushing.T @ forces
+        return 0.0 if self.contact is None else self.contact.pushing.T @ forces
 
     def _turn(
         self,
