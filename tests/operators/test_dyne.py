@@ -320,7 +320,8 @@ R = DYNE 'DE_VOGELAERE' TB TI TL TS 2000 1.E-3 ;
 
 IN_SPACE = [  # the same about x
     ("DIME 2 MODE PLAN DEFO", "DIME 3 MODE TRID"), ("= 0. 0.", "= 0. 0. 0."), ("= 0.6", "= 0. 0.6"),
-    ("= 1. 0.5", "= 0. 1. 0.5"), ("= 1.3", "= 0. 1.3"), ("'UY'", "'UZ'"), ("'UX'", "'UY'"), ("'RZ'", "'RX'"),
+    ("= 1. 0.5", "= 0. 1. 0.5"), ("= 1.3", "= 0. 1.3"), ("'UY'", "'UZ'"), ("'UX'", "'UY'"),
+    ("'RZ'", "'RX'"),
 ]  # fmt: skip
 PAIR = "L1 . 'TYPE_LIAISON' = MOT 'POINT_POINT' ; L1 . 'POINT_A' = P ; L1 . 'POINT_B' = G ; "
 CIRCLE = (
