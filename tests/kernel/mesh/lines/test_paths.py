@@ -55,8 +55,9 @@ def test_cells_of_a_line_in_no_order_are_put_one_behind_the_other(kind, closed):
     assert (found[0] == found[-1]) is np.bool_(closed)
     back = cells.copy()
     back[2] = back[2, ::-1]
+    assert line_chain(Mesh.of(nodes, kind, back)).tolist() == chain.tolist()
     with pytest.raises(MeshError, match="follow"):
-        line_chain(Mesh.of(nodes, kind, back))
+        line_chain(Mesh.of(nodes, kind, cells[[0, 1, 3]]))
 
 
 def test_frames_of_an_arc_in_space_are_those_of_its_circle():
