@@ -29,7 +29,7 @@ class Followed:
         self.fields: list[NodeField] = []
         self.times: list[float] = []
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """One solution."""
         self.fields.append(snapshot.displacement)
         self.times.append(snapshot.time)
@@ -71,7 +71,7 @@ def continue_loads(entries: Entries) -> None:
     _fill(entries, trace, followed)
 
 
-def _rate(entries: Entries, problem: "Problem", times: FloatArray) -> FloatArray:
+def _rate(entries: Entries, problem: Problem, times: FloatArray) -> FloatArray:
     """Change of the load factors in a unit of time, the same all along."""
     factors = problem.loading.at(times)
     rate = (factors[-1] - factors[0]) / (times[-1] - times[0])
@@ -92,7 +92,7 @@ def _stability(entries: Entries) -> list[str]:
     return ["DIAG"] if given is True else words
 
 
-def _fill(entries: Entries, trace: "ArcTrace", followed: Followed) -> None:
+def _fill(entries: Entries, trace: ArcTrace, followed: Followed) -> None:
     table = entries.table
     table.set(Mot("TEMPS_PROG"), ListReel(np.array(trace.times)))
     if trace.negative:
