@@ -56,8 +56,8 @@ def test_tube_of_cubic_triangles_buckles_under_pressure_that_follows(tmp_path):
     U = RESO K (BSIG LO (PRES LO 'PRES' -1.E6)) ;
     KS = KSIG (SIGM MO MA U) MO MA FLAM ;
     KP = KP LO (MANU 'CHPO' T 1 'SCAL' -1.E6) FLAM ;
-    M1 = VIBR PROC (PROG 0.4) K (KP ET (-1. * KS)) ;
-    M2 = VIBR PROC (PROG 0.4) K (-1. * KS) ;
+    M1 = VIBR PROC (PROG 0.4) (KP ET (-1. * KS)) K ;
+    M2 = VIBR PROC (PROG 0.4) (-1. * KS) K ;
     X1 = (2. * PI * (M1 . 'MODES' . 1 . 'FREQUENCE')) ** 2 ;
     X2 = (2. * PI * (M2 . 'MODES' . 1 . 'FREQUENCE')) ** 2 ; """
     result = ran(text, output_directory=tmp_path)

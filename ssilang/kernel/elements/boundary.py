@@ -4,6 +4,7 @@ These absorb normally incident waves (Lysmer and Kuhlemeyer 1969).
 """
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
@@ -41,16 +42,24 @@ def face_rule(cell_type: str) -> Rule:
 
 
 def parents(faces: CellBlock, model: Model) -> Parents:
-    """Cells of a model on which faces lie (the first found)."""
+    """Cells of a model on which faces lie (the first found); a QUA4 of three nodes is a TRI3."""
     zone = np.full(len(faces), -1, dtype=np.int64)
     cell = np.full(len(faces), -1, dtype=np.int64)
-    for number, part in enumerate(model.zones):
-        sides = [s for kind, s in part.cells.kind.faces if kind == faces.cell_type]
-        if not sides or not len(part.cells):
+    kinds = {faces.cell_type: np.ones(len(faces), bool)}
+    if faces.cell_type == "QUA4":
+        order = np.sort(faces.connectivity, axis=1)
+        kinds["TRI3"] = (np.diff(order, axis=1) > 0).sum(axis=1) == 2
+    for (number, part), (wanted, mine) in product(enumerate(model.zones), kinds.items()):
+        sides = [s for kind, s in part.cells.kind.faces if kind == wanted]
+        if not sides or not len(part.cells) or not mine.any():
             continue
         table = np.concatenate([part.cells.connectivity[:, list(s)] for s in sides])
         owner = np.tile(np.arange(len(part.cells)), len(sides))
-        rows = rows_of(table, faces.connectivity)
+        given = faces.connectivity[mine]
+        if wanted != faces.cell_type:
+            given = np.array([np.unique(row) for row in given])
+        rows = np.full(len(faces), -1)
+        rows[mine] = rows_of(table, given)
         found = (rows >= 0) & (zone < 0)
         zone[found], cell[found] = number, owner[rows[found]]
     return Parents(zone, cell)

@@ -259,8 +259,14 @@ def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
 
 
 def inelastic(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Names of inelastic strains of those of strains: EIXX of EPXX or EXX, DIN of DRN."""
-    return tuple(n[0] + "I" + n[2 - (n[1] in "XYZ") :] for n in names)
+    """Names of inelastic strains of those of strains: EIXX of EPXX, FRN DRN, FEPS EPS, FFCX CX."""
+    return tuple(_inelastic(name) for name in names)
+
+
+def _inelastic(name: str) -> str:
+    if name[0] == "D":
+        return "F" + name[1:]
+    return "F" + name.rjust(3, "F") if len(name) < 4 else name[0] + "I" + name[2:]
 
 
 def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:

@@ -18,6 +18,7 @@ from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
 from ssilang.kernel.plasticity.solving.accelerated import AcceleratedSolver, is_accelerated
 from ssilang.kernel.plasticity.solving.dense import DenseSolver, is_small
+from ssilang.kernel.statics.stepping import lost
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps, leaves, memory, rebuilt, recall
 from ssilang.kernel.stepping.newmark import newmark_of
@@ -201,6 +202,11 @@ def _static_step(
             continue
         length = 0.5 * length
         if length < 0.5**HALVINGS:
+            if not outcome.turns:  # singular: of what nothing holds, from the first step on
+                virgin = run.bulk.respond(run.bulk.unloaded(), 0.0 * run.motion.u, times[0])
+                effective_of(run.problem, run.problem.K + virgin.tangent, 1.0, 1.0)
+            if run.problem.interface is not None and not (run.motion.t[:, -1] < 0.0).any():
+                raise lost(run.problem, run.motion, k, outcome)
             told = {"k": k, "time": solver.time, "residual": outcome.residual}
             told |= {"n_residuals": len(solver.residuals), "halvings": HALVINGS}
             raise ConvergenceError("kernel.plasticity.load-step-time-no", **told)

@@ -137,7 +137,7 @@ _ORDER = (
 _DISTINCT = key(
     "distinct",
     "UNIQ",
-    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, behind=True),
     en="without doubles, within a tolerance",
 )
 _COST = (

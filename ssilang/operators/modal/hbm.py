@@ -135,10 +135,8 @@ def _results(entries: Entries, names: Names) -> None:
             told = {"component": asked.component, "unknowns": names.unknowns}
             raise entries.error("operators.modal.no-such-component", **told)
         given = asked.table.get("COULEUR_HBM")
-        own = []
-        for place in range(names.places):
-            number += 1
-            own.append(number)
+        own = range(number + 1, number + 1 + names.places)
+        for place, number in enumerate(own):
             titles.append(_title(asked.title, place))
             found.set(number, _coefficient(asked, names, place, titles[-1], given))
         asked.table.set(Mot("INDICES_HBM"), ListEnti(np.array(own, dtype=np.int64)))
@@ -208,6 +206,7 @@ def zhpo(
     shown = entries.table.get("RESULTATS")
     if curves and isinstance(shown, Table):
         shown.set(Mot("RESULTATS_EVOL"), joined(curves))
+        entries.table.set(Mot("RESULTATS_EVOL"), joined(curves))
         shown.set(Mot("TITRE"), Table.numbered(titles))
 
 

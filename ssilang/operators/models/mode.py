@@ -20,7 +20,8 @@ LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 
 LAW_WORDS = (
     "ELASTIQUE", *behaviours.ELASTICITIES, *behaviours.JOINT_WORDS, *behaviours.PLASTIC_WORDS,
-    *behaviours.CREEP_WORDS, "IMPEDANCE", *behaviours.IMPEDANCE_LAWS,
+    *behaviours.OWN_LAWS, *(w for laws, _ in behaviours.OWN_LAWS.values() for w in laws),
+    "IMPEDANCE", *behaviours.IMPEDANCE_LAWS,
 )  # fmt: skip
 
 OF_JOINTS = tuple(w for w in behaviours.JOINT_WORDS if w != "PLASTIQUE")

@@ -55,7 +55,7 @@ from ssilang.operators.statics.pasapas_steering import (
     working_table,
 )
 from ssilang.operators.statics.path_following import control_asked, driven_parts, follow
-from ssilang.operators.statics.solve import NOT_SMALL, far, warn_of_weight
+from ssilang.operators.statics.solve import NOT_SMALL, far, is_anywhere, warn_of_weight
 from ssilang.operators.statics.temperatures import warn_of_temperatures
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
@@ -142,6 +142,8 @@ def _stretch(
         )
     elif start.reached is None:
         plausibility.warn_of_bodies(work, inputs)
+    if start.reached is None:
+        plausibility.warn_of_material(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     axis = "UZ" if "UZ" in problem.numbering.unknowns else "UY"
@@ -197,12 +199,21 @@ def _stretch(
     if not dynamic or finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     moved = reached.values.get("DEPLACEMENTS")
+    told = dynamic or entries.call.session.warned("operators.dynamics.load-on-supports")
+    if not told and moved is not None and not is_anywhere(moved) and _pushes(load, times[-1]):
+        entries.warn("operators.statics.nothing-moves")
     judged = not finite and not dynamic and not all(map(is_joint, zones))  # whose size is none
     for told in far(moved, NOT_SMALL) if moved is not None and judged else ():
         entries.warn("operators.statics.moves-far", operator="PASAPAS", **told)
     added = follows is not None or work.flag("PROCEDURE_CHARMECA")
     report(entries, problem, history, in_statics=not dynamic, added=added)
     return Table.of(reached.values)
+
+
+def _pushes(load: Load | None, time: Any) -> bool:
+    """Whether forces or pressures act at a time."""
+    parts = () if load is None else load.parts
+    return any(p.time and p.time.at(time) and p.name.strip() in ("MECA", "PRES") for p in parts)
 
 
 def _not_kept(work: Entries) -> list[str]:

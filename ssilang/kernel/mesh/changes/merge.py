@@ -35,7 +35,7 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
     """Merge nodes of one set with nodes of another, less than `tolerance` apart; nodes of the
     same set stay distinct.
 
-    Each node goes with the nearest free one of the other set.
+    Each node goes with the nearest free one of the other set, else onto one that both have.
     """
     _check(tolerance)
     a, b = np.unique(nodes.resolve(first)), np.unique(nodes.resolve(second))
@@ -53,6 +53,14 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
         if free_a[i] and free_b[j]:
             free_a[i] = free_b[j] = False
             pairs.append((a[i], b[j]))
+    left = np.concatenate([a[free_a], b[free_b]])
+    if len(common) and len(left):
+        at = spatial.cKDTree(nodes.coordinates[common]).query(
+            nodes.coordinates[left], distance_upper_bound=tolerance
+        )[1]
+        pairs += [
+            (i, common[k]) for i, k in zip(left, np.ravel(at), strict=True) if k < len(common)
+        ]
     table = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
     nodes.merge(table[:, 0], table[:, 1])
 

@@ -106,6 +106,8 @@ _JOINTS = {
     "TRI6": "LIA6",
     "QUA8": "LIA8",
 }
+_ROUNDING = 1e-9
+"""Sides that stand apart by the very tolerance are within it, however they were moved there."""
 _NORMAL_TO_FACE = 1e-6  # gaps smaller than this part of the cell size count as closed
 
 
@@ -134,6 +136,7 @@ def joint_mesh(first: Mesh, second: Mesh, tolerance: float, part: bool = False) 
     """
     if tolerance <= 0.0:
         raise MeshError("kernel.mesh.facing-cells-paired-within")
+    tolerance *= 1 + _ROUNDING
     made, joined = [], _Joined(first, second)
     for block in first.blocks:
         joint = _JOINTS.get(block.cell_type)

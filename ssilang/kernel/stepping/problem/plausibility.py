@@ -208,6 +208,8 @@ class Start:
         largest = float(np.abs(pushed).max(initial=0.0))
         excited = largest > ROUNDING * float(np.abs(forces).max(initial=0.0))
         closed, *ways = self._closed(motion), *(self.touches(s * motion) for s in (1.0, -1.0))
+        rubs = getattr(problem.contact, "friction", None)
+        closed = closed or (rubs is not None and np.abs(rubs.H @ motion).max(initial=0.0))
         if all(ways):
             return "held"
         if any(ways):
