@@ -1,8 +1,7 @@
 """Which loop a problem gets: a table of rules, the first that fits is taken.
 
 `python -m ssilang.kernel.stepping.choose` prints the table. What a loop needs besides (the step's
-system, the modes) is made once, when a rule asks for it. A problem loads the loops that it may get:
-each brings compiled functions, a hundredth of a second or two.
+system, the modes) is made once, when a rule asks for it.
 """
 
 from collections.abc import Callable
@@ -93,23 +92,19 @@ class Case:
         return iterated.pays(self.problem, self.A)
 
     @cached_property
-    def modal(self) -> "SmallLoop | None":
+    def modal(self) -> SmallLoop | None:
         """The loop on all modes of a small problem, if it has some."""
         if not self.problem.small:
             return None
-
         modes = modes_of(self.problem, self.effective)
         if modes is None:
             return None
         return SmallLoop(self.problem, self.motion, self.effective, modes)
 
     @cached_property
-    def stops(self) -> "ContactLoop | None":
+    def stops(self) -> ContactLoop | None:
         """The compiled loop of unilateral relations, if it can run the problem."""
-        if self.problem.contact is None:
-            return None
-
-        if not takes(self.problem):
+        if self.problem.contact is None or not takes(self.problem):
             return None
         return contact_loop(self.problem, self.motion, self.effective, self.closed)
 
@@ -184,7 +179,7 @@ RULES = (
         "few unknowns, relations without friction, no joints, supports at rest, diagonal damping",
         "kernel.stepping.loop-relations-on-modes",
         lambda c: c.stops is not None,
-        lambda c: cast("ContactLoop", c.stops),
+        lambda c: cast(ContactLoop, c.stops),
     ),
     Rule(
         "relations", "condensed",
@@ -198,14 +193,14 @@ RULES = (
         "small, diagonal damping, joints that only push",
         "kernel.stepping.loop-springs",
         lambda c: c.modal is not None and c.modal.springs is not None,
-        lambda c: cast("SmallLoop", c.modal).using("springs"),
+        lambda c: cast(SmallLoop, c.modal).using("springs"),
     ),
     Rule(
         "modes", "compiled",
         "small, supports at rest",
         "kernel.stepping.loop-modes",
         lambda c: c.modal is not None,
-        lambda c: cast("SmallLoop", c.modal).using("modes"),
+        lambda c: cast(SmallLoop, c.modal).using("modes"),
     ),
     Rule(
         "multigrid", "multigrid",
