@@ -10,6 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.boundary import walked
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable, told_coordinates
@@ -106,24 +107,11 @@ def line_chain(line: Mesh) -> IntArray:
 
 def _in_order(table: IntArray, nodes: NodeTable) -> IntArray:
     """Cells (n, 2 or 3) of one line that all run in the sense of the first, each behind another."""
-    at_node: dict[int, list[int]] = {}
-    for i, row in enumerate(table):
-        for node in (int(row[0]), int(row[-1])):
-            at_node.setdefault(node, []).append(i)
-    free = [node for node, cells in at_node.items() if len(cells) == 1]
-    at = free[0] if free else int(table[0, 0])
-    rows: list[int] = []
-    found = []
-    left = at_node[at][:1]
-    while left and len(rows) < len(table):
-        rows.append(left[0])
-        found.append(table[rows[-1]] if table[rows[-1], 0] == at else table[rows[-1], ::-1])
-        at = int(found[-1][-1])
-        left = [i for i in at_node[at] if i != rows[-1]]
-    if len(set(rows)) != len(table) or max(map(len, at_node.values())) > 2:
+    ends, times = np.unique(table[:, [0, -1]], return_counts=True)
+    line, places = walked(table, np.append(ends[times == 1], table[0, 0]))
+    if times.max() > 2 or not np.array_equal(line[1:, 0], line[:-1, -1]):
         raise MeshError("kernel.mesh.line-cells-not-follow", twice=_met_twice(table, nodes))
-    line = np.array(found)
-    return line if line[rows.index(0), 0] == table[0, 0] else line[::-1, ::-1]
+    return line if line[places == 0][0, 0] == table[0, 0] else line[::-1, ::-1]
 
 
 def _met_twice(table: IntArray, nodes: NodeTable) -> str:
