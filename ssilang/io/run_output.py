@@ -17,12 +17,12 @@ from typing import TYPE_CHECKING, Any
 from ssilang.io import atomic
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
+from ssilang.io.recording import Recording
 from ssilang.messages.message import Sentence
 from ssilang.system import AT_ONCE, GUARDED, POSIX, lock, read_at, system_reason, write_at
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Checkpoints, Deck
-    from ssilang.io.recording import Recording
     from ssilang.io.vtk.series import Series
 
 NAME = ".running"

@@ -96,6 +96,7 @@ def test_finds(text, code):
         ("X = 1 / 2 ; MESS X ;", "integer-division"),
         ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
         ("X = 1 ;", "unused-name"),
+        ("T = TABL ; T . 'A' = TABL ; T . 'A' . 1 = 2 ;", "unused-name"),
         ("X = FLUX 1. ; X = 2 ; MESS X ;", "not-built-yet"),
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
@@ -401,8 +402,8 @@ def test_words_of_operators_are_no_misspelt_names(text):
     [
         ("M = MODE S THERMIQUE ;", "operators.models.formulation-not-available", "THERMIQUE"),
         ("M = MODE S 'POREUX' ;", "operators.models.formulation-not-available", "'POREUX'"),
-        ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT MAZARS ;",
-         "operators.models.behaviour-not-available", "ENDOMMAGEMENT"),
+        ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT RICRAG ;",
+         "operators.models.behaviour-not-available", "RICRAG"),
         ("M = MODE S LIAISON PROFIL_PROFIL EXTERIEUR ;",
          "operators.models.link-not-available", "PROFIL_PROFIL"),
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BAEX ;",

@@ -13,7 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp, spla
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
@@ -63,10 +63,7 @@ def frequency_of(value: float) -> float:
 
 
 def modes_near(
-    stiffness: Matrix,
-    mass: Matrix,
-    wanted: Sequence[tuple[float, int]],
-    solver: Solver = FIRST_FIT,
+    stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, int]], solver: Solver = FIRST_FIT
 ) -> list[Mode]:
     """For each (frequency, number): the modes nearest by the square of frequency; increasing.
 
@@ -87,11 +84,7 @@ def modes_near(
 
 
 def modes_between(
-    stiffness: Matrix,
-    mass: Matrix,
-    low: float,
-    high: float,
-    solver: Solver = FIRST_FIT,
+    stiffness: Matrix, mass: Matrix, low: float, high: float, solver: Solver = FIRST_FIT
 ) -> list[Mode]:
     """All modes of frequencies in [low, high] Hz, increasing; 0 is a free motion's."""
     problem = reduced_problem(stiffness, mass, solver=solver)
@@ -190,8 +183,6 @@ def conjugate_modes(
 def _eigenpairs(
     problem: ReducedProblem, shift: complex, count: int
 ) -> tuple[ComplexArray, ComplexArray]:
-    import scipy.linalg as la
-
     A, B = _linear(problem)
     r = problem.size
     wanted = 2 * count + 6
@@ -200,12 +191,11 @@ def _eigenpairs(
         (top, bottom), vectors = pairs
         finite = np.abs(bottom) > 1e-13 * np.abs(top)
         return top[finite] / bottom[finite], vectors[:r, finite]
-    from scipy.sparse.linalg import ArpackError, eigs
 
     moved = shift * (1.0 + 1e-6) + 1e-6j
     try:
-        values, vectors = eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
-    except (ArpackError, RuntimeError) as problem_found:
+        values, vectors = spla.eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
+    except (spla.ArpackError, RuntimeError) as problem_found:
         raise KernelError(
             "kernel.modal.search-modes-not-converge", problem_found=problem_found
         ) from None

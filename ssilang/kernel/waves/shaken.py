@@ -13,6 +13,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.kernel.statics.cells_amiss import bordered_solids
@@ -20,8 +22,6 @@ from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
-    from ssilang.kernel.materials.model import Zone
-    from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
     from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -171,6 +171,24 @@ def unlike_sides(
                 if times and not ALIKE[base][0] < times < ALIKE[base][1]:
                     return int(block.nodes[met][0, local[0]]), float(times), base
     return None
+
+
+def absorbing_ends(stiffness: "Matrix", damping: "Matrix") -> tuple[IntArray, IntArray]:
+    """Nodes of the highest sides of cells if some have dashpots, of the lowest if none has."""
+    dampers = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+    solids, ends = bordered_solids(stiffness) if dampers else [], list[IntArray]()
+    braked = np.concatenate([face_keys(b.nodes) for b in dampers] or [np.zeros(0, np.int64)])
+    heights = [b.table.coordinates[b.nodes, z.cells.kind.dimension - 1] for b, z, _ in solids]
+    for level, absorbs in ((max((x.max() for x in heights), default=0.0), True),
+                           (min((x.min() for x in heights), default=0.0), False)):  # fmt: skip
+        faces = [braked[:0].reshape(0, 2)]
+        for (block, zone, border), x in zip(solids, heights, strict=True):
+            for (_, at), own in zip(zone.cells.kind.faces, border, strict=True):
+                flat = own & (np.abs(x[:, at] - level).max(axis=1) < SAME * np.ptp(x))
+                faces.append(block.nodes[flat][:, at])
+        on = any(np.isin(face_keys(f), braked).any() for f in faces if len(f))
+        ends.append(np.concatenate([f.ravel() for f in faces if on is absorbs] or [braked[:0]]))
+    return ends[0], ends[1]
 
 
 def _strained(

@@ -5,14 +5,11 @@ from itertools import count
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LINE_OPTIONS, LineStyle, parse_style
 from ssilang.io.plots.graphs.traces import seen
+from ssilang.io.recording import Recording
 from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing import pictures
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.io.recording import Recording
-
 
 _ENDS = (arg("low", "FLOTTANT", range=ANY_NUMBER), arg("high", "FLOTTANT", range=ANY_NUMBER))
 

@@ -9,14 +9,12 @@ from pathlib import Path
 from ssilang.io.atomic import write_text
 from ssilang.io.tables import write_parquet
 from ssilang.kernel.fields.node_algebra import restricted
+from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 from ssilang.language.values import promises
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
-    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
 
 PARQUET = ".parquet"
 NODAL = {"DEPL": "displacement", "VITE": "velocity", "ACCE": "acceleration"}
@@ -208,18 +206,12 @@ class CsvObserver:
     @property
     def table(self) -> Table:
         """RESULTATS_CSV: one LISTREEL a quantity."""
-        made = Table()
-        for name, values in self.columns.items():
-            made.set(Mot(name), ListReel(values))
-        return made
+        return Table.of({name: ListReel(values) for name, values in self.columns.items()})
 
 
 def forces_table(track: "ForceHistories") -> Table:
     """RESULTATS_RELATIONS: for each name TEMP and a LISTREEL of each component."""
-    made, entries = Table(), {name: Table() for name in track.named}
-    for name, entry in entries.items():
-        entry.set(Mot("TEMP"), ListReel(track.times))
-        made.set(Mot(name), entry)
+    made = Table.of({name: Table.of({"TEMP": ListReel(track.times)}) for name in track.named})
     for (name, dual), values in track.histories.items():
-        entries[name].set(Mot(dual), ListReel(values))
+        made.inner(name).set(Mot(dual), ListReel(values))
     return made

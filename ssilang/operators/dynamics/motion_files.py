@@ -2,23 +2,19 @@
 
 from ssilang.io.tables import is_there
 from ssilang.io.vtk.labels import Labels
+from ssilang.io.vtk.series import Part, Series
 from ssilang.kernel.elements.families import stress
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.operators.dynamics.histories import PARQUET, CsvObserver
 from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.files.writing_vtk import cell_labels
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
-
-if TYPE_CHECKING:
-    from ssilang.io.vtk.labels import Labels
-    from ssilang.io.vtk.series import Series
-    from ssilang.kernel.stepping.node_histories import ForceHistories
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.snapshot import Snapshot
-
 
 Steps = NDArray[np.bool_]
 
@@ -45,8 +41,6 @@ class VtkObserver:
 
     def receive(self, snapshot: "Snapshot") -> None:
         """Write one instant."""
-        from ssilang.io.vtk.series import Part
-
         u = snapshot.displacement
         moved = NodeField(u.table, {k: v for k, v in u.components.items() if k != "LX"}, u.nature)
         points = {
@@ -183,7 +177,6 @@ def force_track(entries: Entries, problem: "Problem", saved: BoolArray) -> "Forc
     asked = entries.inside("RELATIONS_SAUVEES")
     if asked is None:
         return None
-    from ssilang.kernel.stepping.node_histories import ForceHistories
 
     known, named = problem.multipliers, {}
     if problem.contact is not None:
@@ -200,8 +193,6 @@ def force_track(entries: Entries, problem: "Problem", saved: BoolArray) -> "Forc
 
 
 def csv_observer(entries: Entries, problem: "Problem") -> CsvObserver | None:
-    from ssilang.kernel.stepping.node_histories import NodeHistories
-
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         idle = [n for n in ("MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV") if entries.has(n)]
         if idle:

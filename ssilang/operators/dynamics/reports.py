@@ -1,16 +1,14 @@
 """What a calculation says when it is done, and the warnings before."""
 
+from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.laws.columns import LawCode
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.run import History
 from ssilang.kernel.waves.shaken import largest_motions
 from ssilang.language.values import promises
 from ssilang.messages.message import sentence
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.run import History
 
 ENERGY_LIMIT = 0.01
 """Imbalance of energy, as a part of the largest, above which it is told with what makes it."""

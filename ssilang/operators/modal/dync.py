@@ -1,22 +1,13 @@
 """DYNC: branches of periodic motions on modes by harmonic balance and continuation."""
 
 from ssilang.kernel.continuation.arc import Lengths
+from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
+from ssilang.kernel.continuation.response import Response, forced_response, normal_mode
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.operators.modal.dyne import (
-    TABLES,
-    System,
-    damping_of,
-    system_of,
-    tables_by_role,
-)
+from ssilang.operators.modal.dyne import TABLES, System, damping_of, system_of, tables_by_role
 from ssilang.operators.modal.dyne_links import links_of
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.continuation.arc import Lengths
-    from ssilang.kernel.continuation.harmonics import Oscillators
-    from ssilang.kernel.continuation.response import Response
 
 _ROLES = {
     "TMOD": "system", "TCHR": "loads", "TLIAI": "links", "TAMOR": "damping", "TINI": "start",
@@ -31,8 +22,6 @@ def _dync(
     harmonics: int = Arg("ENTIER", range=POSITIVE, en="number of harmonics"),
     samples: int = Arg("ENTIER", range=POSITIVE, en="instants of a period"),
 ) -> Table:
-    from ssilang.kernel.continuation.response import forced_response, normal_mode
-
     tables = tables_by_role(call, given, _ROLES)
     for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
         if role not in tables:
@@ -91,8 +80,6 @@ class Numbers:
 def _oscillators(
     call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
 ) -> "Oscillators":
-    from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
-
     n = len(system.M)
     forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])
     load = np.zeros((2 * harmonics + 1, n))
@@ -161,10 +148,8 @@ def _results(call: Call, found: "Response", system: System, free: bool) -> Table
         call.session.warn(
             "operators.modal.branch-lost", call.span, operator="DYNC", t=found.frequencies[-1]
         )
-    table = Table("RESULTAT_DYNC")
-    table.set(Mot("REPONSE"), _response(found, system, free))
-    table.set(Mot("BIFURCATION"), _bifurcations(found))
-    return table
+    entries = {"REPONSE": _response(found, system, free), "BIFURCATION": _bifurcations(found)}
+    return Table.of(entries, "RESULTAT_DYNC")
 
 
 def _response(found: "Response", system: System, free: bool) -> Table:

@@ -305,7 +305,10 @@ def opti(call: Call) -> None:
     ws = workspace(call.session)
     if ws.dimension and ws.mode.dimension != ws.dimension:
         told = {"mode": ws.mode.value, "dimension": ws.mode.dimension, "present": ws.dimension}
-        raise call.error("operators.session.mode-and-dimension", **told)
+        if ws.dimension != 3:
+            raise call.error("operators.session.mode-and-dimension", **told)
+        call.warn("operators.session.mode-in-space", mode=ws.mode.value)
+        ws.mode = Mode.THREE_DIMENSIONAL
 
 
 def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:

@@ -7,6 +7,7 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.statics.frequency import HarmonicInputs, default_frequencies, sweep
 from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
@@ -14,17 +15,12 @@ from ssilang.operators.statics.pasapas_contact import joined_matrix
 from ssilang.operators.statics.pasapas_stages import loads_taken
 from ssilang.operators.tables.entries import Entries
 
-if TYPE_CHECKING:
-    from ssilang.kernel.statics.frequency import HarmonicInputs
-
 _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 
 @operator("ZFRE", family="statics")
 def zfre(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
-    from ssilang.kernel.statics.frequency import sweep
-
     entries = Entries(call, table, "PASAPAS")
     if isinstance(entries.get("REPRISE"), Table):
         entries.refuse({"REPRISE": "operators.dynamics.not-kept-frequencies"})
@@ -60,8 +56,6 @@ def _at_rest(field: NodeField) -> NodeField:
 
 
 def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
-    from ssilang.kernel.statics.frequency import default_frequencies
-
     said = (entries.get(word) for word in ("TEMPS_CALCULES", "TEMPS_SAUVES"))
     given = next((values for values in said if values is not None), None)
     if given is None:
@@ -73,8 +67,6 @@ def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
 
 
 def _inputs(entries: Entries) -> "HarmonicInputs":
-    from ssilang.kernel.statics.frequency import HarmonicInputs
-
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")

@@ -6,15 +6,14 @@ from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.plasticity.following import no_bodies
 from ssilang.kernel.statics.thermal_load import along_normals, pressures
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 
 class LoadByProcedure:
@@ -32,10 +31,7 @@ class LoadByProcedure:
         numbering, table = self.problem.numbering, self.entries.table
         field = vector_to_field(u, numbering)
         kept = table.get("ESTIMATION") if table.has("ESTIMATION") else None
-        state = Table()
-        state.set(Mot("TEMPS"), time)
-        state.set(Mot("DEPLACEMENTS"), field)
-        table.set(Mot("ESTIMATION"), state)
+        table.set(Mot("ESTIMATION"), Table.of({"TEMPS": time, "DEPLACEMENTS": field}))
         try:
             with _moved(field, self.moves):
                 results = call_user(self.entries.call, "CHARMECA", table, time)
@@ -112,8 +108,6 @@ def loaded_bodies(
     """Bodies, if there are any, under a load that depends on where they are."""
 
     def make(problem: "Problem", inputs: "Inputs") -> tuple[Bulk, State]:
-        from ssilang.kernel.plasticity.following import no_bodies
-
         start: tuple[Bulk, State] = (no_bodies(problem), ())
         bulk, state = start if bodies is None else bodies(problem, inputs)
         first = float(problem.times[0])

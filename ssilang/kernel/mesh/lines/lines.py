@@ -10,6 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import csgraph, sp
 from ssilang.kernel.mesh.boundary import walked
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
@@ -87,9 +88,10 @@ def polyline(
 
 
 def line_chain(line: Mesh) -> IntArray:
-    """Nodes of a line in the order of its cells, middles included, shape (m,).
+    """Nodes of a line in the order and sense of its cells, middles included, shape (m,).
 
-    A closed line repeats its first node at the end.
+    A closed line repeats its first node at the end. Where cells run against each other, the sense
+    is the first one's.
 
     Raises
     ------
@@ -106,12 +108,12 @@ def line_chain(line: Mesh) -> IntArray:
 
 
 def _in_order(table: IntArray, nodes: NodeTable) -> IntArray:
-    """Cells (n, 2 or 3) of one line that all run in the sense of the first, each behind another."""
-    ends, times = np.unique(table[:, [0, -1]], return_counts=True)
-    line, places = walked(table, np.append(ends[times == 1], table[0, 0]))
-    if times.max() > 2 or not np.array_equal(line[1:, 0], line[:-1, -1]):
+    """Cells (n, 2 or 3) of one line, one behind the other, in the sense of the first of them."""
+    ends, counts = np.unique(table[:, [0, -1]], return_counts=True)
+    found, order = walked(table, np.append(ends[counts == 1], table[0, 0])[:1])
+    if len(order) != len(table) or counts.max() > 2:
         raise MeshError("kernel.mesh.line-cells-not-follow", twice=_met_twice(table, nodes))
-    return line if line[places == 0][0, 0] == table[0, 0] else line[::-1, ::-1]
+    return found if found[order == 0][0, 0] == table[0, 0] else found[::-1, ::-1]
 
 
 def _met_twice(table: IntArray, nodes: NodeTable) -> str:
@@ -161,9 +163,6 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
     MeshError
         If the mesh is not of lines of one kind, or no way leads from one node to the other.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import dijkstra
-
     block = network.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
         raise MeshError("kernel.mesh.line-of-segments-needed", kinds=block.cell_type)
@@ -176,8 +175,8 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
         raise MeshError("kernel.mesh.two-points-not-ends")
     gaps = np.diff(network.nodes.coordinates[nodes[pairs]], axis=1)[:, 0]
     lengths = np.maximum(np.linalg.norm(gaps, axis=1), np.finfo(float).tiny)
-    graph = coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
-    search: Any = dijkstra  # its stubs know fewer kinds of graphs
+    graph = sp.coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
+    search: Any = csgraph.dijkstra  # its stubs know fewer kinds of graphs
     _, before = search(graph, directed=False, indices=int(ends[0]), return_predecessors=True)
     cells = {frozenset(map(int, pair)): i for i, pair in enumerate(pairs)}
     rows: list[int] = []

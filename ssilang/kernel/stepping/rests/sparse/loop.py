@@ -4,12 +4,13 @@ Same steps as the compiled loops, which tests hold against this one.
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import for_products
+from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import accept, interface_energies
@@ -30,9 +31,6 @@ from ssilang.kernel.stepping.state import (
     Recorder,
 )
 from ssilang.kernel.stepping.track import View, whole_view
-
-if TYPE_CHECKING:
-    from ssilang.kernel.contact.impact import ImpactRule
 
 NOTHING = np.zeros(0)
 
