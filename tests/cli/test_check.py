@@ -96,6 +96,7 @@ def test_finds(text, code):
         ("X = 1 / 2 ; MESS X ;", "integer-division"),
         ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
         ("X = 1 ;", "unused-name"),
+        ("T = TABL ; T . 'A' = TABL ; T . 'A' . 1 = 2 ;", "unused-name"),
         ("X = FLUX 1. ; X = 2 ; MESS X ;", "not-built-yet"),
         ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
         ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),

@@ -25,10 +25,12 @@ def unused_names(script: tree.Script) -> list[SsiError]:
     """A warning for each name that no statement reads, at its first assignment.
 
     Names that stand in quoted words count as read: texts and computed names use them. A statement
-    with several names is left out when one of them is read.
+    with several names is left out when one of them is read. A table that TABL makes is not read
+    where it is filled.
     """
     read: set[str] = set()
     first: dict[str, tree.Name] = {}
+    filled, others = set[str](), set[str]()
     for statement in statements_of(script.body):
         words = _words(statement.items)
         if reads_all(statement):
@@ -37,8 +39,14 @@ def unused_names(script: tree.Script) -> list[SsiError]:
         for target in statement.targets:
             if isinstance(target, tree.Name):
                 first.setdefault(target.text, target)
+                word = (*statement.items, target)[0].span.text.upper()
+                others |= {target.text} if word[:4] != "TABL" else set()
+            elif isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
+                filled.add(target.base.text)
+                read |= _words(target.indices)
             else:
                 read |= _words((target,))
+    read |= filled & others
     for statement in statements_of(script.body):
         names = {t.text for t in statement.targets if isinstance(t, tree.Name)}
         if names & read:
@@ -109,10 +117,9 @@ def misspelt_names(
             near = nearest(item.text, long_names, VERY_LIKE)
             # a word with a letter in front or behind is a name made from a keyword
             made = near in item.text or item.text in near
-            if near and not made and item.text not in found:
-                found[item.text] = SsiError(
-                    "perhaps-misspelt", item.span, name=item.text, like=near
-                )
+            if near and not made:
+                told = {"name": item.text, "like": near}
+                found.setdefault(item.text, SsiError("perhaps-misspelt", item.span, **told))
     return list(found.values())
 
 

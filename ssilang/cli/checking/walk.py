@@ -31,6 +31,7 @@ from ssilang.language.run.results import results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
+from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, known_types
 from ssilang.messages.message import Sentence
 
@@ -361,8 +362,6 @@ def _until_fin(nodes: tuple[tree.Node, ...]) -> tuple[tree.Node, ...]:
 
 def _head(span: Any) -> Any:
     """The first line of a span."""
-    from ssilang.language.text.source import Span
-
     end = span.start + len(span.text.split("\n")[0].split(";")[0].rstrip())
     return Span(span.source, span.start, min(span.end, end))
 

@@ -40,9 +40,7 @@ def parse_value(text: str) -> Value:
         if math.isinf(number):
             raise GivenError("cli.value-too-large", text=text)
         return number
-    if text.upper() in ("VRAI", "FAUX"):
-        return text.upper() == "VRAI"
-    return text
+    return text.upper() == "VRAI" if text.upper() in ("VRAI", "FAUX") else text
 
 
 def parse_values(text: str) -> list[Value]:

@@ -35,9 +35,7 @@ def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results |
         )
     if isinstance(given, By):
         return given.of((values or {}).get(given.name))
-    if given is not None:
-        return given
-    return annotated(form.function)
+    return given if given is not None else annotated(form.function)
 
 
 @cache

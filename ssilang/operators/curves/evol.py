@@ -4,6 +4,7 @@ from weakref import WeakKeyDictionary
 
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
+from ssilang.kernel.waves.shaken import axes_of, is_shaken
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves import instants
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
@@ -62,23 +63,13 @@ _ENTRIES: dict[str, list[Entry]] = {
         opt("second_name", "MOT", en="name of the second"),
         _PARTS[1],
     ],
-    "CHPO": [
-        arg("field", "CHPOINT", en="field"),
-        _COMPONENT,
-        arg("line", "MAILLAGE", en="line"),
-    ],
+    "CHPO": [arg("field", "CHPOINT", en="field"), _COMPONENT, arg("line", "MAILLAGE", en="line")],
     "TEMP": [
         arg("history", "LISTCHPO", "TABLE", en="fields, or results"),
         TIMES,
         opt("index", "MOT", en="what of the results"),
         STEPS,
-        opt(
-            "names",
-            "MOT",
-            "LISTMOTS",
-            en="component, or several",
-            kind="component",
-        ),
+        opt("names", "MOT", "LISTMOTS", en="component, or several", kind="component"),
         opt("support", "POINT", "MAILLAGE", en="points"),
         many("cell", "ENTIER", en="zone, cell, point", range=POSITIVE),
     ],
@@ -297,7 +288,6 @@ def _are_relative(fields: Sequence[Any], index: str, name: str) -> bool:
     """Whether results are accelerations relative to a ground that shakes along their axis."""
     if index != "ACCE" or not isinstance(fields, instants.RecordedFields):
         return False
-    from ssilang.kernel.waves.shaken import is_shaken
 
     return is_shaken(fields.track.problem, name)
 
@@ -331,7 +321,6 @@ def _tell_rounding(
     if not isinstance(fields, instants.RecordedFields):
         return
     from ssilang.kernel.stepping.problem.bodies import held
-    from ssilang.kernel.waves.shaken import axes_of
 
     problem, code = fields.track.problem, "operators.curves.only-rounding"
     found = {n: fields.track.history(fields.name, n, node) for n in axes_of(problem)}
@@ -381,11 +370,7 @@ def _made(field: NodeField | instants.InstantField) -> NodeField:
 
 
 def _in_a_cell(
-    call: Call,
-    fields: Sequence[Any],
-    times: FloatArray,
-    colour: int,
-    unit_of: Callable[[str], str],
+    call: Call, fields: Sequence[Any], times: FloatArray, colour: int, unit_of: Callable[[str], str]
 ) -> Curve:
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()

@@ -15,7 +15,7 @@ from ssilang.language.text.parser import parse_statements
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, Script, print_items
-from ssilang.language.values import Objet, Texte
+from ssilang.language.values import Objet, Solution, Texte
 from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.session.configurations import Configuration
@@ -91,11 +91,13 @@ def _texte(text: str) -> Texte:
     return Texte(tuple(item for s in statements for item in s.items))
 
 
+_SOLUTION = Packing(lambda s: list(s.modes), lambda modes: Solution(tuple(modes)))
 for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
     register_packing(_cls, _cls.__name__, _list_packing(_cls))
 register_packing(Mot, "Mot", Packing(str, Mot))
 register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, _configuration))
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
+register_packing(Solution, "Solution", _SOLUTION)
 register_packing(Texte, "Texte", Packing(lambda v: print_items(v.items), _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
 for _table in (Table, LazyTable, LazyRows):  # what is made later is made to be saved

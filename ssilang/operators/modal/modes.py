@@ -4,6 +4,8 @@ from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
 from ssilang.kernel.modal.modes import Mode as RealMode
+from ssilang.kernel.statics import doubled
+from ssilang.language.values import Solution
 from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
@@ -90,8 +92,9 @@ def _modes(
     connections.warn_repeated(call.session, call.span, "VIBR", mass, "MASS", stiffness)
     if (found := connections.rotary_without_mass(mass)) is not None:
         call.warn("operators.matrices.rotary-alone", **found)
-    _warn_negative_mass(call, mass)
-    _warn_masses_alone(call, stiffness, mass)
+    _warn_of_mass(call, stiffness, mass)
+    if damping is None:
+        mass, stiffness = (_as_symmetric(m, stiffness) for m in (mass, stiffness))
     if damping is not None or not (
         assembly.is_symmetric(stiffness) and assembly.is_symmetric(mass)
     ):
@@ -101,10 +104,7 @@ def _modes(
         modes = modes_between(stiffness, mass, ends[0], ends[1], solver_of(call.session))
         if not modes and mass.inertial:  # a factor of buckling is no frequency
             call.warn("operators.modal.no-frequency-between", low=ends[0], high=ends[1])
-        if lowest:
-            modes = modes[:lowest]
-        elif highest:
-            modes = modes[-highest:]
+        modes = modes[:lowest] if lowest else modes[-highest:]
     else:
         wanted = _wanted(call, method)
         modes = modes_near(stiffness, mass, wanted, solver_of(call.session))
@@ -121,21 +121,24 @@ def _modes(
     return modal_table(call, mass, [_real_entry(m, signed) for m in modes])
 
 
-def _warn_masses_alone(call: Call, stiffness: Matrix, mass: Matrix) -> None:
-    """Tell of masses at nodes that the stiffness does not know."""
-    alone = np.setdiff1d(assembly.numbering_of(mass).nodes, assembly.numbering_of(stiffness).nodes)
-    if len(alone) and mass.inertial:
-        node = mass.table.told(int(alone[0]))
-        call.warn("operators.dynamics.masses-alone", count=len(alone), node=node)
-
-
-def _warn_negative_mass(call: Call, mass: Matrix) -> None:
-    """Tell of a mass of both signs, which is a buckling load made by hand or a slip."""
-    found = None
-    if mass.inertial:
-        numbering = assembly.numbering_of(mass)
-        found = assembly.negative_mass(assembly.assemble(mass, numbering), numbering)
-    if found is not None:
+def _warn_of_mass(call: Call, stiffness: Matrix, mass: Matrix) -> None:
+    """Tell of masses that the stiffness does not know, that supports hold, or of both signs."""
+    if not mass.inertial:
+        return  # a buckling load made by hand
+    known, heavy = assembly.numbering_of(stiffness), assembly.numbering_of(mass)
+    lumps = [b for b in mass.blocks if b.zone is None and b.raw_nodes.shape[1] == 1]
+    idle = doubled.idle_nodes(lumps, stiffness)
+    found = {
+        "operators.dynamics.masses-alone": np.setdiff1d(heavy.nodes, known.nodes),
+        "operators.matrices.masses-on-supports": idle if len(idle) == len(lumps) else idle[:0],
+    }
+    for code, nodes in found.items():
+        if len(nodes):
+            call.warn(code, count=len(nodes), node=mass.table.told(int(nodes[0])))
+    names = sorted({*heavy.unknowns} - {*known.unknowns})
+    if names and any(b.zone for b in stiffness.blocks):
+        call.warn("operators.matrices.mass-of-nothing", names=names)
+    if found := assembly.negative_mass(assembly.assemble(mass, heavy), heavy):
         call.warn("operators.modal.mass-of-both-signs", unknown=found[0], value=found[1])
 
 
@@ -151,11 +154,35 @@ def matrices_by_kind(
     mass = masses[0] if len(masses) == 1 else left[0 if mass_first else 1]
     left.remove(mass)
     damped = [m for m in left if m.kind.startswith("AMOR")]
-    if len(left) == 2:
-        damping = damped[0] if len(damped) == 1 else left[1]
-        left.remove(damping)
-        return left[0], mass, damping
-    return left[0], mass, None
+    if len(left) == 1:
+        return left[0], mass, None
+    damping = damped[0] if len(damped) == 1 else left[1]
+    left.remove(damping)
+    return left[0], mass, damping
+
+
+def _as_symmetric(matrix: Matrix, stiffness: Matrix) -> Matrix:
+    """The matrix of symmetric blocks where unsymmetric ones (KP ASYM) sum up to what is symmetric.
+
+    Unknowns that the stiffness holds do not count: pressure on a held edge is symmetric.
+    """
+    if assembly.is_symmetric(matrix) or any(r.dual is not None for r in matrix.relations):
+        return matrix
+    numbering = assembly.numbering_of(stiffness)
+    if not np.isin(assembly.numbering_of(matrix).nodes, numbering.nodes).all():
+        return matrix
+    rows = assembly.constraint_matrix(stiffness, numbering).C
+    held = rows[np.diff(rows.indptr) == 1].indices
+    K = assembly.assemble(matrix, numbering)
+    apart = abs(K - K.T).tocoo()
+    counts = ~(np.isin(apart.row, held) | np.isin(apart.col, held))
+    if apart.data[counts].max(initial=0.0) > 1e-9 * abs(K).max():
+        return matrix
+    parts = (
+        replace(b, values=(b.values + b.values.swapaxes(1, 2)) / 2, symmetric=True)
+        for b in matrix.blocks
+    )
+    return replace(matrix, blocks=tuple(parts))
 
 
 def _complex(
@@ -170,18 +197,6 @@ def _complex(
 
 
 # --- tables ----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Modes, each a table as those of a table BASE_DE_MODES."""
-
-    modes: tuple[Table, ...]
-
-    @property
-    def table(self) -> Table:
-        """They as a table BASE_DE_MODES."""
-        return Table.numbered(self.modes, "BASE_DE_MODES")
 
 
 def directions(values: Sequence[float]) -> Table:

@@ -9,6 +9,7 @@ from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
 from ssilang.language.search import nearest, nearest_names
+from ssilang.language.values import Texte
 from ssilang.operators.prelude import *
 from ssilang.operators.session.option_files import UNIT, include, read_file_option
 from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE
@@ -83,7 +84,7 @@ def value_word(call: Call) -> str:
             continue
         if isinstance(operand.value, str):
             break
-        if operand.name:
+        if operand.name and not isinstance(operand.value, Texte):
             call.operands.remove(operand)
             call.used.append(operand)
             return operand.name

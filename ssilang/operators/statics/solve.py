@@ -90,7 +90,7 @@ def _reso(
         down = load.components.get("FZ") if down is None else down  # of revolution
         if down is not None:
             warn_of_weight(call, matrix, (), matrix.table.resolve(down.nodes), -down.values)
-        if _is_anywhere(load) and not _is_anywhere(solution):
+        if is_anywhere(load) and not is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
         judged = workspace(call.session).units is not None
         if judged or "FLX" not in load.components:  # what is imposed may be a unit
@@ -123,7 +123,7 @@ def far(solution: NodeField, most: float) -> Iterator[dict[str, float]]:
             yield {"way": way, "size": size, "times": way / size}
 
 
-def _is_anywhere(field: NodeField) -> bool:
+def is_anywhere(field: NodeField) -> bool:
     """Whether a field has other values than zeros, multipliers left out."""
     return any(p.values.any() for n, p in field.components.items() if n != "LX")
 

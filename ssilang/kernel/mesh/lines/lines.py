@@ -10,6 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import csgraph, sp
 from ssilang.kernel.mesh.boundary import walked
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
@@ -162,9 +163,6 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
     MeshError
         If the mesh is not of lines of one kind, or no way leads from one node to the other.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import dijkstra
-
     block = network.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
         raise MeshError("kernel.mesh.line-of-segments-needed", kinds=block.cell_type)
@@ -177,8 +175,8 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
         raise MeshError("kernel.mesh.two-points-not-ends")
     gaps = np.diff(network.nodes.coordinates[nodes[pairs]], axis=1)[:, 0]
     lengths = np.maximum(np.linalg.norm(gaps, axis=1), np.finfo(float).tiny)
-    graph = coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
-    search: Any = dijkstra  # its stubs know fewer kinds of graphs
+    graph = sp.coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
+    search: Any = csgraph.dijkstra  # its stubs know fewer kinds of graphs
     _, before = search(graph, directed=False, indices=int(ends[0]), return_predecessors=True)
     cells = {frozenset(map(int, pair)): i for i, pair in enumerate(pairs)}
     rows: list[int] = []
