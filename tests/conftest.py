@@ -53,8 +53,11 @@ def tmp_path(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def one_after_the_other(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Runs of a sweep with one job are made in this process: a new one costs a second."""
+def one_after_the_other(unsaved: None, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Runs of a sweep with one job are made in this process: a new one costs a second.
+
+    Pictures of its figures are composed alone: to write them was most of the rest.
+    """
 
     def row_of(task: Task) -> Row:
         with pytest.MonkeyPatch.context() as patch:  # the objects of all tests are too many
@@ -83,6 +86,13 @@ def unsaved(monkeypatch: pytest.MonkeyPatch) -> None:
     for module in (figure, animation):
         monkeypatch.setattr(module, "figure_bytes", lambda *_: _PIXEL)
     monkeypatch.setattr(figure, "DPI", 15)
+
+
+@pytest.fixture
+def unplaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Parts of figures stay where they are put: room for texts is half of a picture's time."""
+    engine = "matplotlib.layout_engine.ConstrainedLayoutEngine"
+    monkeypatch.setattr(f"{engine}.execute", lambda *_: None)
 
 
 class _Nothing(set[str]):

@@ -12,12 +12,16 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from ssilang import __version__
+from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE, listening
 from ssilang.cli.usage import COMMANDS, parser
+from ssilang.io.errors import InputError, OutputError
+from ssilang.language.say.errors import SsiError, unprinted
+from ssilang.language.text.source import Source
 from ssilang.late_imports import lasting
 
 if TYPE_CHECKING:
     from ssilang.cli.run import RunOptions
-    from ssilang.language.text.source import Source
 
 OK, FAILED, USAGE = 0, 1, 2
 SELDOM = 10_000  # new objects between two searches for garbage: a start makes a hundred thousand
@@ -49,8 +53,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="replace")
     if not getattr(options, "debug", False):
         warnings.simplefilter("ignore")  # of libraries; the language's own are messages
-    from ssilang.cli.interrupts import listening
-
     if getattr(options, "allow_geo", False):
         from ssilang.io.mesh_files.geo import FREE
 
@@ -59,19 +61,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         with listening():
             code = _ACTIONS[options.command or "repl"](options)
             return _flushed(code)
-    except BrokenPipeError:
-        return _leave_quietly()
+    except BrokenPipeError:  # the reader left (`ssilang case.ssi | head -1`)
+        _silence()
+        return ENDED_BY_CLOSED_PIPE
     except OSError as problem:  # of a stream: what concerns files is told where it happens
         _told(problem, getattr(options, "lang", "en"))
         return FAILED
     except MemoryError:
-        from ssilang.language.say.errors import SsiError
-
         _told(SsiError("memory", None, operator="ssilang"), getattr(options, "lang", "en"))
         return FAILED
     except KeyboardInterrupt:  # while the program starts, or a check or a sweep goes on
         from ssilang.language.say.diagnostics import render
-        from ssilang.language.say.errors import SsiError
 
         told = render(SsiError("interrupted", None), getattr(options, "lang", "en"))
         sys.stderr.write(told + "\n")
@@ -109,8 +109,6 @@ def _folder_gone(language: str) -> int | None:
     try:
         Path.cwd()
     except OSError:
-        from ssilang.language.say.errors import SsiError
-
         _told(SsiError("cli.no-working-folder", None), language)
         return USAGE
     return None
@@ -127,7 +125,6 @@ def _flushed(code: int) -> int:
 def _told(problem: Exception, language: str) -> None:
     """Tell what ended the program, where that can be; nothing more is written."""
     from ssilang.language.say.diagnostics import render
-    from ssilang.language.say.errors import SsiError, unprinted
 
     said = unprinted(problem) if isinstance(problem, OSError) else problem
     assert isinstance(said, SsiError)
@@ -135,14 +132,6 @@ def _told(problem: Exception, language: str) -> None:
         sys.stderr.write(render(said, language) + "\n")
         sys.stderr.flush()
     _silence()
-
-
-def _leave_quietly() -> int:
-    """The reader of our output left (`ssilang case.ssi | head -1`): nothing more is written."""
-    from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE
-
-    _silence()
-    return ENDED_BY_CLOSED_PIPE
 
 
 def _silence() -> None:
@@ -156,9 +145,8 @@ def _silence() -> None:
 def _run(options: argparse.Namespace) -> int:
     with lasting():
         from ssilang.cli.run import run_source
+        from ssilang.kernel.base.compiled import ALLOWED
         from ssilang.language.say.diagnostics import render
-        from ssilang.language.say.errors import SsiError
-        from ssilang.language.text.source import Source
         from ssilang.language.text.source_files import read_source
 
     try:
@@ -169,8 +157,6 @@ def _run(options: argparse.Namespace) -> int:
     except SsiError as error:
         sys.stderr.write(render(error, options.lang) + "\n")
         return USAGE
-    from ssilang.kernel.base.compiled import ALLOWED
-
     ALLOWED.add("beside")
     _compile_ahead(source)
     run_options = _run_options(options)
@@ -184,7 +170,7 @@ def _run(options: argparse.Namespace) -> int:
     return result.exit_code
 
 
-def _compile_ahead(source: "Source") -> None:
+def _compile_ahead(source: Source) -> None:
     """Let the other process begin with joints, if the script steps some and there is no code yet.
 
     It compiles while this one reads and meshes.
@@ -203,7 +189,6 @@ def _run_options(options: argparse.Namespace) -> "RunOptions":
     from ssilang.cli.run import RunOptions
     from ssilang.io.atomic import resolved
     from ssilang.language.run.session import Limits
-    from ssilang.language.say.errors import SsiError
     from ssilang.system import limit_memory
 
     if options.max_memory is not None and not limit_memory(options.max_memory * 2**20):
@@ -230,7 +215,6 @@ def _given(settings: list[str], language: str) -> dict[str, object]:
     if not settings:
         return {}
     from ssilang.cli.sweeping.given import GivenError, axes_of
-    from ssilang.language.say.errors import SsiError
 
     try:
         axes = axes_of(settings)
@@ -244,9 +228,7 @@ def _given(settings: list[str], language: str) -> dict[str, object]:
 
 def _report(options: argparse.Namespace) -> int:
     from ssilang.cli.run import write_report
-    from ssilang.io.errors import InputError, OutputError
     from ssilang.language.say.diagnostics import render
-    from ssilang.language.say.errors import SsiError
 
     try:
         sys.stdout.write(write_report(options.folder, options.lang) + "\n")
@@ -288,7 +270,6 @@ def _warm(options: argparse.Namespace) -> int:
 def _check(options: argparse.Namespace) -> int:
     from ssilang.cli.check import check_file
     from ssilang.language.say.diagnostics import render
-    from ssilang.language.say.errors import SsiError
     from ssilang.language.text.source_files import read_source
 
     code, sources = OK, []
@@ -333,9 +314,7 @@ def _completion(options: argparse.Namespace) -> int:
 
 
 def _view(options: argparse.Namespace) -> int:
-    from ssilang.io.errors import InputError, OutputError
     from ssilang.io.viewer import Wish, looked_at
-    from ssilang.language.say.errors import SsiError
 
     wish = Wish(options.field, options.step, options.scale)
     try:
@@ -352,8 +331,6 @@ def _lsp(options: argparse.Namespace) -> int:
     except ModuleNotFoundError as missing:
         if missing.name not in ("pygls", "lsprotocol"):
             raise
-        from ssilang.language.say.errors import SsiError
-
         _told(SsiError("cli.lsp-extra", None), options.lang)
         return USAGE
     start(options.lang)
@@ -373,8 +350,6 @@ def _repl(options: argparse.Namespace) -> int:
 
 
 def _version(options: argparse.Namespace) -> int:
-    from ssilang import __version__
-
     sys.stdout.write(f"ssilang {__version__}\n")
     return OK
 

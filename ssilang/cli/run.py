@@ -20,6 +20,7 @@ from ssilang import __version__, private
 from ssilang.cli.interrupts import ENDED_BY_CLOSED_PIPE, holding, take
 from ssilang.cli.terminal.loop_progress import follow_loops
 from ssilang.cli.terminal.screen import coloured
+from ssilang.io.errors import InputError, OutputError
 from ssilang.language.run.jumps import StopRun
 from ssilang.language.run.session import Limits, Session
 from ssilang.language.say.diagnostics import render
@@ -38,6 +39,8 @@ from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import first_assignments, given_again
 from ssilang.language.values import Mot
 from ssilang.messages.message import sentence
+from ssilang.operators.files.outputs import run_output
+from ssilang.operators.workspace import open_session, workspace
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Deck
@@ -96,8 +99,6 @@ class RunOptions:
 
 def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
     """A session with all operators, ready to run `source`."""
-    from ssilang.operators.workspace import open_session
-
     folder = source.path.parent if source.path is not None else Path.cwd()
     case = source.path.stem if source.path is not None else "session"
     target = options.output_directory or Path("results") / case
@@ -118,7 +119,6 @@ def make_session(source: Source, options: RunOptions, out: TextIO) -> Session:
     )
     if options.petsc:
         from ssilang.kernel.solvers.petsc.client import PetscServer
-        from ssilang.operators.workspace import workspace
 
         workspace(session).petsc = PetscServer(options.petsc)
     return session
@@ -263,7 +263,6 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
     _tell_refused_folders(session)
     if options.verbose:
         _tell_plain_numba(session)
-    from ssilang.operators.files.outputs import run_output
 
     refused = link is not None or any(e.code == "io.folder-in-use" for e in errors)
     if not refused:
@@ -295,7 +294,6 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
 def _link_to_results(session: Session) -> Path | None:
     """A link where results go that the user has not named: nothing is written where it leads."""
     from ssilang.io.run_output import link_to
-    from ssilang.operators.files.outputs import run_output
 
     named, used = Path.cwd() / session.output_directory, run_output(session).directory
     return None if used == named else link_to(Path(session.output_directory)) or used
@@ -304,7 +302,6 @@ def _link_to_results(session: Session) -> Path | None:
 def _take_down(session: Session, source: Source) -> None:
     """Let the run take down what its report shows."""
     from ssilang.io.recording import FOLDER, Recording
-    from ssilang.operators.files.outputs import run_output
 
     output = run_output(session)
     if (output.directory / FOLDER).is_symlink():
@@ -315,9 +312,6 @@ def _take_down(session: Session, source: Source) -> None:
 
 def _end_recording(session: Session, errors: list[SsiError]) -> None:
     """Write what was taken down, also of a run that failed; what cannot be written is an error."""
-    from ssilang.io.errors import OutputError
-    from ssilang.operators.files.outputs import run_output
-
     output = run_output(session)
     if output.recording is None:
         return
@@ -332,8 +326,6 @@ def _end_recording(session: Session, errors: list[SsiError]) -> None:
 
 def _end_petsc(session: Session) -> None:
     """End PETSc's processes, if the run started some; what they were goes to the summary."""
-    from ssilang.operators.workspace import workspace
-
     server = workspace(session).petsc
     if server is not None:
         report = server.report()
@@ -350,9 +342,6 @@ def hold_folder(session: Session) -> None:
     SsiError
         'io.folder-in-use' if one runs there.
     """
-    from ssilang.io.errors import OutputError
-    from ssilang.operators.files.outputs import run_output
-
     try:
         run_output(session).hold()
     except OutputError as problem:
@@ -367,9 +356,6 @@ def keep_for(session: Session, source: Source, options: RunOptions) -> None:
     SsiError
         If another deck or version left it.
     """
-    from ssilang.io.errors import InputError
-    from ssilang.operators.files.outputs import run_output
-
     output = run_output(session)
     output.deck, output.resume = partial(deck_of, source, options.given), options.resume
     if not options.resume or output.checkpoints is None:
@@ -392,8 +378,6 @@ def deck_of(source: Source, given: Mapping[str, Any]) -> "Deck":
 
 def _tell_checkpoints(session: Session) -> None:
     """Say that calculations are kept, where the one that was ended has not said it."""
-    from ssilang.operators.files.outputs import run_output
-
     kept = run_output(session).checkpoints
     told = session.warned("operators.dynamics.checkpoint-left")
     if kept is not None and kept.kept and not told:
@@ -455,9 +439,6 @@ def _libraries_quiet(debug: bool) -> Iterator[None]:
 
 def _close_files(session: Session, errors: list[SsiError]) -> None:
     """Finish the files of the run, also of one that failed; what cannot be written is an error."""
-    from ssilang.io.errors import OutputError
-    from ssilang.operators.files.outputs import run_output
-
     try:
         run_output(session).close()
     except OutputError as problem:
@@ -467,8 +448,6 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
 def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool, again: int) -> None:
     """Write summary.json; one line says what the run leaves: files, warnings, energy."""
     from ssilang.cli.summary import write_summary
-    from ssilang.io.errors import OutputError
-    from ssilang.operators.files.outputs import run_output
 
     output = run_output(result.session)
     try:
@@ -496,9 +475,6 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool, agai
 
 def _report(result: RunResult, err: TextIO, quiet: bool) -> None:
     """Write report.html of what stands in the output folder; where that fails, the run fails."""
-    from ssilang.io.errors import InputError, OutputError
-    from ssilang.operators.files.outputs import run_output
-
     session = result.session
     try:
         text = write_report(run_output(session).directory, session.language)
@@ -553,8 +529,6 @@ def _energy(session: Session, calculations: list[dict[str, Any]]) -> dict[str, s
 
     Load steps of statics have none: the work of loads is taken along straight lines between them.
     """
-    from ssilang.operators.workspace import workspace
-
     found = [c for c in calculations if c.get("energy_imbalance") and not c["static"]]
     if not found:
         return {"energy": "", "amount": "", "off": ""}

@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
+from ssilang import __version__
 from ssilang.messages.message import Teller, teller
 
 COMMANDS = (
@@ -111,8 +112,6 @@ class Parser(argparse.ArgumentParser):
 
 def parser(words: Sequence[str]) -> Parser:
     """The parser, which speaks the language that the arguments ask for."""
-    from ssilang import __version__
-
     told = teller(_language(words))
     made = Parser(told, prog="ssilang", description="cli.usage-program", epilog="cli.usage-short")
     made.add_argument(

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.scientific import sp
 from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import Matrix
 
@@ -30,8 +31,6 @@ class System:
 
 def system_of(matrix: Matrix) -> System:
     """The system that RESO solves, before any elimination."""
-    import scipy.sparse as sp
-
     numbering = assembly.numbering_of(matrix)
     stiffness = assembly.assemble(matrix, numbering)
     held = assembly.constraint_matrix(matrix, numbering)
@@ -57,7 +56,6 @@ def system_of(matrix: Matrix) -> System:
 
 def market_text(system: System, title: str = "") -> bytes:
     """The Matrix Market file; rows and columns count from 1."""
-    import scipy.sparse as sp
     from scipy.io import mmwrite
 
     shape = (system.size, system.size)

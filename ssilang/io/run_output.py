@@ -17,12 +17,12 @@ from typing import TYPE_CHECKING, Any
 from ssilang.io import atomic
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures
+from ssilang.io.recording import Recording
 from ssilang.messages.message import Sentence
 from ssilang.system import AT_ONCE, GUARDED, POSIX, lock, read_at, system_reason, write_at
 
 if TYPE_CHECKING:
     from ssilang.io.checkpoint import Checkpoints, Deck
-    from ssilang.io.recording import Recording
     from ssilang.io.vtk.series import Series
 
 NAME = ".running"
@@ -192,7 +192,7 @@ class RunOutput:
     deck: "Callable[[], Deck] | None" = None
     resume: bool = False
     read: list[Path] = field(default_factory=list)
-    recording: "Recording | None" = None
+    recording: Recording | None = None
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
     _flushed_at: float = 0.0
 

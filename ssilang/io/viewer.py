@@ -23,7 +23,8 @@ from ssilang.io.plots.palette import shade
 from ssilang.io.plots.stage import hidden_plotter, light_up
 from ssilang.io.plots.view import DEFAULT_DIRECTION
 from ssilang.io.vtk.silence import silent
-from ssilang.io.vtk.vtkhdf import COMPONENT
+from ssilang.io.vtk.vtkhdf import COMPONENT, opened_hdf
+from ssilang.kernel.base.scientific import pyvista
 from ssilang.kernel.fields.deformed import round_down
 from ssilang.system import in_bounds
 
@@ -77,11 +78,9 @@ class Series:
     def _open(self) -> None:
         ending = self.path.suffix.lstrip(".").lower()
         try:
-            import pyvista
-
             if ending == "vtkhdf":
                 self._reader = _OneFile(self.path)
-                self.times = self._reader.time_values or [0.0]
+                self.times = self._reader.time_values
             elif ending == "pvd":
                 self._reader = pyvista.get_reader(str(self.path))
                 self.times = list(self._reader.time_values) or [0.0]
@@ -113,8 +112,6 @@ class Series:
     @silent()
     def at(self, row: int) -> Any:
         """The data set of an instant, parts together, from 0."""
-        import pyvista
-
         if self._one is not None:
             return self._one
         try:
@@ -129,22 +126,12 @@ class _OneFile:
     """Instants of a .vtkhdf, which pyvista reads without their times."""
 
     def __init__(self, path: Path) -> None:
-        from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-        from vtkmodules.vtkIOHDF import vtkHDFReader
-
-        self._reader = vtkHDFReader()
-        self._reader.SetFileName(str(path))
-        self._reader.UpdateInformation()
-        held = self._reader.GetOutputInformation(0)
-        steps = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
-        self.time_values = list(held.Get(steps)) if held.Has(steps) else []
+        self._reader, self.time_values = opened_hdf(path)
 
     def set_active_time_point(self, row: int) -> None:
         self._reader.SetStep(row)
 
     def read(self) -> Any:
-        import pyvista
-
         self._reader.Update()
         found = pyvista.wrap(self._reader.GetOutput())
         for part in found if isinstance(found, pyvista.MultiBlock) else (found,):
@@ -226,8 +213,6 @@ def show(path: Path, wish: Wish) -> Path:
     found = chosen_file(path)
     if not has_screen():
         raise OutputError("io.no-screen", path=path)
-    import pyvista
-
     series = Series(found)
     plotter = pyvista.Plotter(window_size=list(_SIZE), title=str(series.path), lighting="none")
     light_up(plotter)

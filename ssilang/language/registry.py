@@ -37,7 +37,7 @@ class Argument(Translated):
     means; `kind` is the kind of words of the vocabulary that a MOT is one of ('component',
     'parameter' ...). The `main` operand decides which form of an operator runs: it is the first
     of the types that the operator knows as main ones, one or two words may stand before it.
-    A repeated one leaves the last `leaving` operands of the types `left` for what follows; of a
+    A repeated one leaves the last `leaving` operands of the types `left` for what follows. Of a
     keyword's it may take only those `behind` the word. What `leads` is read before any keyword is
     looked for: it may be spelt like one. Of one that is `whole` the function gets the `Operand`:
     with its name and its place. Numbers outside of `range` are refused, of `usual` told, and those

@@ -5,6 +5,7 @@ objects of the language by `name_types`, which needs their names alone.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -161,6 +162,13 @@ class Table:
     def set(self, index: object, value: object) -> None:
         """Create or replace a value."""
         self._items[self._key(index)] = (index, value)
+
+    def inner(self, word: str) -> "Table":
+        """The table at a word, made where none stands there."""
+        found = self.get(word)
+        if not isinstance(found, Table):
+            self.set(Mot(word), found := Table())
+        return found
 
     def has(self, index: object) -> bool:
         """Whether the index exists."""
@@ -344,6 +352,18 @@ def promises(*words: str) -> dict[tuple[object, ...], tuple[object, object]]:
     return {key_of(Mot(word)): (Mot(word), PENDING) for word in words}
 
 
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Modes, each a table as those of a table BASE_DE_MODES."""
+
+    modes: tuple[Table, ...]
+
+    @property
+    def table(self) -> Table:
+        """They as a table BASE_DE_MODES."""
+        return Table.numbered(self.modes, "BASE_DE_MODES")
+
+
 class Procedure:
     """PROCEDUR: a definition; `origin` says where it came from (script, stdlib)."""
 
@@ -373,6 +393,7 @@ _TYPE_WORDS: dict[type, str] = {
     Mot: "MOT",
     str: "MOT",
     Texte: "TEXTE",
+    Solution: "SOLUTION",
     Annule: "ANNULE",
     ListReel: "LISTREEL",
     ListEnti: "LISTENTI",

@@ -30,7 +30,6 @@ name_types(
         "ssilang.kernel.fields.deformed:Deformed": "DEFORME",
         "ssilang.kernel.fields.deformed:Arrows": "VECTEUR",
         "ssilang.io.plots.labels:Annotation": "ANNOTATI",
-        "ssilang.operators.modal.modes:Solution": "SOLUTION",
         "ssilang.operators.session.configurations:Configuration": "CONFIGUR",
     }
 )

@@ -393,7 +393,7 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
     return made, faults
 
 
-_WORDS = {
+_OF_VIEWER = {
     "choose": "report.choose", "colour": "report.colour", "warp": "report.warp",
     "time": "report.time", "play": "report.play", "reset": "report.reset",
     "edges": "report.edges", "ghost": "report.ghost", "through": "report.see-through",
@@ -405,7 +405,7 @@ def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
     notes = "".join(f"<p class=note>{text(f)}</p>" for f in dict.fromkeys(faults))
     if not scenes:
         return notes
-    words = {w: text(told(code)) for w, code in _WORDS.items()}
+    words = {w: text(told(code)) for w, code in _OF_VIEWER.items()}
     options = "".join(
         f"<option value={i}>{text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
     )

@@ -20,8 +20,11 @@ from numpy.typing import NDArray
 
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.vtk.series import read_pvd
 from ssilang.io.vtk.silence import silent
+from ssilang.io.vtk.vtkhdf import opened_hdf
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.scientific import pyvista
 from ssilang.system import in_bounds
 
 FRAMES = 60
@@ -252,8 +255,6 @@ def _mises(s: FloatArray) -> FloatArray:
 
 def _cells_of(grid: Any) -> tuple[IntArray, IntArray]:
     """Where the points of each cell begin in the list of all, and that list."""
-    import pyvista
-
     cells = grid.GetCells()
     offset = pyvista.convert_array(cells.GetOffsetsArray())
     return np.asarray(offset), np.asarray(pyvista.convert_array(cells.GetConnectivityArray()))
@@ -269,23 +270,8 @@ def _corners(grid: Any, joints: BoolArray) -> Iterator[tuple[int, ...]]:
 
 def _edges_of(surface: Any) -> IntArray:
     """Pairs of points that the sides of the faces join, each once."""
-    faces = surface.faces
-    pairs = []
-    at = 0
-    while at < len(faces):  # runs of faces with as many corners
-        size = int(faces[at])
-        step = size + 1
-        most = (len(faces) - at) // step
-        block = faces[at : at + most * step].reshape(most, step)
-        same = block[:, 0] == size
-        run = int(most if same.all() else np.argmin(same))
-        corners = block[:run, 1:]
-        pairs.append(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2))
-        at += run * step
-    if not pairs:
-        return np.zeros(0, np.int64)
-    every = np.unique(np.sort(np.concatenate(pairs), axis=1), axis=0)
-    return every.ravel().astype(np.int64)
+    faces = pyvista.PolyData(surface.points, faces=surface.faces)
+    return faces.extract_all_edges().lines.reshape(-1, 3)[:, 1:].ravel()
 
 
 def _pairs(lines: IntArray) -> IntArray:
@@ -312,12 +298,12 @@ def _runs(cells: IntArray) -> Iterator[list[int]]:
 def _opened(path: Path) -> _Steps:
     """A series to read."""
     try:
-        import pyvista
+        import pyvista  # noqa: F401
     except ImportError as missing:
         raise SceneError("report.no-pyvista", problem=missing) from None
     if not path.is_file():
         raise SceneError("report.series-gone", name=path.name)
-    steps = (_of_hdf if path.suffix == ".vtkhdf" else _of_list)(path, pyvista)
+    steps = (_of_hdf if path.suffix == ".vtkhdf" else _of_list)(path)
     if not len(steps.times):
         raise SceneError("report.nothing-to-see", name=path.name)
     if not np.isfinite(steps.times).all():
@@ -325,17 +311,10 @@ def _opened(path: Path) -> _Steps:
     return steps
 
 
-def _of_hdf(path: Path, pyvista: Any) -> _Steps:
-    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-    from vtkmodules.vtkIOHDF import vtkHDFReader
-
-    reader = vtkHDFReader()
+def _of_hdf(path: Path) -> _Steps:
+    reader, times = opened_hdf(path)
     if not reader.CanReadFile(str(path)):
         raise SceneError("report.series-damaged", name=path.name)
-    reader.SetFileName(str(path))
-    reader.UpdateInformation()
-    key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
-    times = reader.GetOutputInformation(0).Get(key) or (0.0,)
 
     def grid(step: int) -> Any:
         reader.SetStep(step)
@@ -345,9 +324,7 @@ def _of_hdf(path: Path, pyvista: Any) -> _Steps:
     return _Steps(np.array(times, float), grid)
 
 
-def _of_list(path: Path, pyvista: Any) -> _Steps:
-    from ssilang.io.vtk.series import read_pvd
-
+def _of_list(path: Path) -> _Steps:
     try:
         entries = read_pvd(path)
     except (OSError, ValueError, InputError, OutputError):

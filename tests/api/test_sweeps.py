@@ -46,6 +46,7 @@ def test_a_script_without_a_guard_gets_a_frame_and_leaves_nothing(tmp_path):
     assert [row["peak"] for row in rows] == [1.5, 2.5, None, None]
     assert [row["exit_code"] for row in rows] == [0, 0, 1, 1]
     assert told.startswith("True 2 of 4 runs failed; the first: ")
+    assert "too strong" in told
     assert {p.name for p in tmp_path.iterdir()} == before
 
 

@@ -405,8 +405,8 @@ def test_words_of_operators_are_no_misspelt_names(text):
     [
         ("M = MODE S THERMIQUE ;", "operators.models.formulation-not-available", "THERMIQUE"),
         ("M = MODE S 'POREUX' ;", "operators.models.formulation-not-available", "'POREUX'"),
-        ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT MAZARS ;",
-         "operators.models.behaviour-not-available", "ENDOMMAGEMENT"),
+        ("M = MODE S MECANIQUE ELASTIQUE ENDOMMAGEMENT RICRAG ;",
+         "operators.models.behaviour-not-available", "RICRAG"),
         ("M = MODE S LIAISON PROFIL_PROFIL EXTERIEUR ;",
          "operators.models.link-not-available", "PROFIL_PROFIL"),
         ("M = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BAEX ;",

@@ -156,7 +156,7 @@ def name_of(deck: Path) -> str:
 
 
 @pytest.fixture
-def in_one_format(monkeypatch: pytest.MonkeyPatch) -> None:
+def in_one_format(unplaced: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Curves are drawn as SVG alone, scenes as PNG: what is drawn is the same."""
     asked = pictures.picture_formats
     monkeypatch.setattr(pictures, "picture_formats", lambda *given: asked(*given)[-1:])

@@ -226,9 +226,9 @@ REFUSED = {
             words("impedance", "IMPEDANCE", "SOL"),
             words("impedance", "IMPEDANCE", "MODAL", "STATIQUE"),
         ],
-        "elements-family-not-creep": [words("joint", "FLUAGE", "NORTON")],
-        "law-creep": [words("solid", "FLUAGE"), words("solid", "FLUAGE", "NORTON", "NORTON")],
-        "creep-goes-elasticity-isotrope": [words("solid", "ORTHOTROPE", "FLUAGE", "NORTON")],
+        "family-without-law": [words("joint", "FLUAGE", "NORTON")],
+        "which-law": [words("solid", "FLUAGE"), words("solid", "FLUAGE", "NORTON", "NORTON")],
+        "law-of-isotropic-bodies": [words("solid", "ORTHOTROPE", "FLUAGE", "NORTON")],
         "beam-fibres-elastique-section": [words("fibre", "PLASTIQUE", "SECTION")],
         "elements-family-no-plastic": [
             words("solid", "PLASTIQUE", "BETON_BAEL"), words("fibre", "PLASTIQUE", "CAM_CLAY")

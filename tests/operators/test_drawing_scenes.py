@@ -28,6 +28,9 @@ PLATE = (
 )
 
 
+pytestmark = pytest.mark.usefixtures("unplaced")
+
+
 def run(text: str, folder: Path | None = None) -> RunResult:
     return ran(PLATE + text, folder)
 

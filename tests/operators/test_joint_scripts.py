@@ -398,7 +398,7 @@ def test_a_sheared_dilatant_joint_lifts_what_stands_on_it(found):
         SHEARED + "PASAPAS T ; U = EXTR (T . deplacements . 2) 'UZ' P ;\n"
         "S = T . contraintes . 2 ; D = T . deformations_inelastiques . 2 ;\n"
         "E = T . deformations . 2 ; S1 = EXTR S 'SMN' 2 1 1 ; S2 = EXTR S 'SMS1' 2 1 1 ;\n"
-        "D1 = EXTR (REDU D J) 'DIN' 1 1 1 ; D2 = EXTR (REDU D J) 'DIS1' 1 1 1 ;\n"
+        "D1 = EXTR (REDU D J) 'FRN' 1 1 1 ; D2 = EXTR (REDU D J) 'FRS1' 1 1 1 ;\n"
         "E1 = EXTR (REDU E J) 'DRS1' 1 1 1 ; E2 = MAXI 'ABS' (EXCO 'EPXX' E) ;",
         *("U", "S1", "S2", "D1", "D2", "E1", "E2"),
     )

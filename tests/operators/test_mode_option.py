@@ -23,6 +23,12 @@ def test_mode_is_set_again_by_its_own_word(dimension, mode, said):
     assert result.session.root.find("L") is True
 
 
+def test_a_mode_of_the_plane_gives_way_in_space():
+    result = ran("OPTI 'DIME' 3 'ELEM' CUB8 'MODE' 'PLAN' ; M = VALE 'MODE' ;")
+    assert result.session.root.find("M") == "TRID"
+    assert [w.code for w in result.session.warnings] == ["operators.session.mode-in-space"]
+
+
 @together("word, told", [("JAUMANN", 1), ("'QUAD'", 1), ("LINEAIRE", 0)])
 def test_a_measure_of_strains_that_changes_nothing_is_told(word, told):
     warnings = ran(f"OPTI EPSILON {word} ;").session.warnings

@@ -46,6 +46,13 @@ def test_corrected_record_ends_at_rest_and_is_the_nearest_such(found, rule):
     assert abs(other @ (a - b)) < 1e-9
 
 
+def test_a_displacement_is_integrated_by_its_own_rule():
+    t = np.linspace(0.0, 2.0, 9)
+    assert displacement_integral(6.0 * t, 0.25, True) == pytest.approx(4.0)  # of t^3
+    _, d = integrated(6.0 * t, 0.25)
+    assert displacement_integral(6.0 * t, 0.25) == pytest.approx(np.trapezoid(d, t))
+
+
 # ---- spectra
 
 

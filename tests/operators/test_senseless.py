@@ -270,6 +270,12 @@ DATA: dict[str, dict[str, object]] = {
     "a pulse between load steps": {"time": 0.5, "value": 1.0, "seen": 0.0, "name": "MECA"},
     "loads that begin late": {"begin": 0.5, "value": 3.0, "first": 0.0},
     "loads that end early": {"end": 0.5, "value": 4.0, "last": 1.0},
+    "lead bearings beside the damping of the fixed base": {
+        "frequency": math.sqrt(2.5e6 / (8 * 2500.0 + 3e5)) / (2 * math.pi)
+    },
+    "pendulums beside the damping of the fixed base": {
+        "frequency": math.sqrt(9.81 / 2.0) / (2 * math.pi)
+    },
     "loads of a later time": {"begin": 5.0, "end": 7.0, "first": 0.0, "last": 1.0},
 }
 """What is told of some of them, reckoned by hand."""

@@ -56,8 +56,8 @@ def test_tube_of_cubic_triangles_buckles_under_pressure_that_follows(tmp_path):
     U = RESO K (BSIG LO (PRES LO 'PRES' -1.E6)) ;
     KS = KSIG (SIGM MO MA U) MO MA FLAM ;
     KP = KP LO (MANU 'CHPO' T 1 'SCAL' -1.E6) FLAM ;
-    M1 = VIBR PROC (PROG 0.4) K (KP ET (-1. * KS)) ;
-    M2 = VIBR PROC (PROG 0.4) K (-1. * KS) ;
+    M1 = VIBR PROC (PROG 0.4) (KP ET (-1. * KS)) K ;
+    M2 = VIBR PROC (PROG 0.4) (-1. * KS) K ;
     X1 = (2. * PI * (M1 . 'MODES' . 1 . 'FREQUENCE')) ** 2 ;
     X2 = (2. * PI * (M2 . 'MODES' . 1 . 'FREQUENCE')) ** 2 ; """
     result = ran(text, output_directory=tmp_path)
@@ -83,22 +83,27 @@ def test_shells_of_bricks_are_turned_to_go_across_along_a_direction(aim, tmp_pat
 
 
 @together(
-    "cells, held",
-    [("G = MANU 'POI1' P ;", ""), ("G = MANU 'SEG2' P (1. 0.) ;", "ET (BLOQ 'UX' (1. 0.))")],
+    "cells, held, named",
+    [
+        ("G = MANU 'POI1' P ;", "", ""),
+        ("G = MANU 'SEG2' P (1. 0.) ;", "ET (BLOQ 'UX' (1. 0.))", "'BARR'"),
+    ],
 )
-def test_a_spring_and_a_dashpot_in_series_move_in_time_as_maxwell_says(cells, held):
+def test_a_spring_and_a_dashpot_in_series_move_in_time_as_maxwell_says(cells, held, named):
     """`m v' = -f, f' = k v - (k / c) f`, by the exponential of its matrix."""
     k, c = 400.0, 12.0
     hold = "" if not held else "ET (BLOQ 'UX' (G POIN 2))"
     result = ran(
         f"OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; {cells} "
-        "MO = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' (MOTS UX) ; "
+        f"MO = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' {named} (MOTS UX) ; "
         f"CA = MATE MO 'RAID' {k} 'VISC' {c} ; T1 = TABL ; "
         f"T1 . 'RIGI' = (RIGI MO CA) {hold} ; T1 . 'AMOR' = AMOR MO CA ; "
         "T1 . 'MASS' = MASS 'UX' 1. P ; T1 . 'VITE' = MANU 'CHPO' P 'UX' 1. ; "
         "T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.5 ; T2 = DYNAMIC T1 ; "
         "E1 = EVOL 'TEMP' T2 'DEPL' 'UX' P ;"
     )
+    told = ["operators.models.element-of-impedances"] if named else []
+    assert [w.code for w in result.session.warnings if ".models." in w.code] == told
     part = result.session.root.find("E1").parts[0]
     motion = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [0.0, k, -k / c]])
     exact = [(expm(motion * t) @ [0.0, 1.0, 0.0])[0] for t in part.abscissas]

@@ -21,7 +21,7 @@ from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.materials.behaviours import FORMULATIONS
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import LINKS
-from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, DAMAGE_LAWS, PLASTIC_LAWS
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
 from ssilang.language.registry import find_operator, keywords_of
@@ -49,7 +49,12 @@ def components():
     for element in ELEMENTS:
         for part in words.components_of(element):
             names |= {*part.unknowns, *part.strains, *part.stresses}
-    laws = (*PLASTIC_LAWS.values(), *CREEP_LAWS.values(), *JOINT_LAWS.values())
+    laws = (
+        *PLASTIC_LAWS.values(),
+        *CREEP_LAWS.values(),
+        *DAMAGE_LAWS.values(),
+        *JOINT_LAWS.values(),
+    )
     return names.union(*(law.variables for law in laws))
 
 
@@ -302,6 +307,7 @@ def test_the_help_of_mate_has_a_table_of_each_law(language):
     tables = {t.title.split(" : ")[0]: t for t in law_tables(language)}
     assert {f"PLASTIQUE {name}" for name in PLASTIC_LAWS} - set(tables) == {"PLASTIQUE SECTION"}
     assert {f"FLUAGE {name}" for name in CREEP_LAWS} <= set(tables)
+    assert {f"ENDOMMAGEMENT {name}" for name in DAMAGE_LAWS} <= set(tables)
     assert {"ELASTIQUE", *(f"ELASTIQUE {n}" for n in JOINT_LAWS if n != "ELASTIQUE")} <= set(tables)
     told = page_text(operator_page(find_operator("MATE")), language)
     for title, table in tables.items():
@@ -352,14 +358,18 @@ def test_a_formulation_lists_its_own_laws(name, own, other):
 def test_the_zone_that_shows_a_law_has_it(law):
     zone = words.sample_of_law(law)
     if zone is None:
-        assert law.name not in {*PLASTIC_LAWS, *CREEP_LAWS, *JOINT_LAWS} - {"SECTION", "ELASTIQUE"}
+        assert law.name not in {*PLASTIC_LAWS, *CREEP_LAWS, *DAMAGE_LAWS, *JOINT_LAWS} - {
+            "SECTION",
+            "ELASTIQUE",
+        }
         return
     assert law.name in zone.behaviour
     if law.kind == "joint":
         alone = JOINT_LAWS[law.name].macro or JOINT_LAWS[law.name].two_points
         assert zone.element == ("JOI1" if alone else "JOI2")
-    elif law.kind in ("plastic", "creep"):
-        assert zone.behaviour[-2:] == ("PLASTIQUE" if law.kind == "plastic" else "FLUAGE", law.name)
+    elif law.kind in ("plastic", "creep", "damage"):
+        group = {"plastic": "PLASTIQUE", "creep": "FLUAGE"}.get(law.kind, "ENDOMMAGEMENT")
+        assert zone.behaviour[-2:] == (group, law.name)
     assert zone.element in words.elements_of_law(law)
 
 

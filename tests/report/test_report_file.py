@@ -15,6 +15,7 @@ from together import together
 
 from ssilang.cli.main import main
 from ssilang.cli.run import RunOptions, run_file, run_text, write_report
+from ssilang.report.html import asset
 from ssilang.report.results import read_results
 from ssilang.report.scenes import LARGEST, SceneError, packed_scene
 
@@ -90,6 +91,8 @@ def test_the_page_shows_what_ran(rocking: Path) -> None:
     assert set(wanted) <= set(titles)
     assert "drift of the top" in titles
     assert any(t.startswith("top.csv: DEPL") for t in titles)
+    read = re.findall(r"\bwords\.(\w+)", asset("charts.js") + asset("scene.js"))
+    assert {"play", "zoomIn"} <= {*read} <= data(text, "words").keys()
 
 
 def test_the_page_asks_for_nothing_elsewhere(rocking: Path) -> None:

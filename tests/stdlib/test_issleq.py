@@ -80,8 +80,9 @@ def equivalent_linear(n_layers):
     shares, dampings = np.ones(n_layers), np.full(n_layers, DAMPINGS[0])
     for _ in range(60):
         strains = column(shares, dampings)
-        shares = np.interp(CHI * strains, STRAINS, SHARES)
-        dampings = np.interp(CHI * strains, STRAINS, DAMPINGS)
+        logarithm = np.log(CHI * strains)
+        shares = np.interp(logarithm, np.log(STRAINS + 1e-12), SHARES)
+        dampings = np.interp(logarithm, np.log(STRAINS + 1e-12), DAMPINGS)
     return shares, dampings, strains
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from ssilang.language.registry import ANY
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.text import tree
-from ssilang.language.values import Mot
+from ssilang.language.values import Mot, type_of
 
 
 class Ambiguous(Exception):
@@ -74,8 +74,6 @@ def same(a: Any, b: Any) -> Any:
 
 def kind_word(value: Any) -> str:
     """Type word of a stand-in or value, '' when unknown."""
-    from ssilang.language.values import type_of
-
     known = value is not UNKNOWN and value is not SOMETHING and type(value) is not NotBuilt
     return type_of(value) if known else ""
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import Any
 
 from ssilang.cli.checking.kinds import (
@@ -36,7 +36,7 @@ Report = Callable[[SsiError], None]
 
 _COMPARISONS = frozenset({"EGA", "NEG", ">", "<", ">EG", "<EG"})
 _SCALARS = frozenset({"ENTIER", "FLOTTANT"})
-_NEVER = frozenset({"LOGIQUE", "MOT", "LISTMOTS", "MAILLAGE", "MMODEL"})  # no signs on these
+_NEVER = frozenset({"LOGIQUE", "MOT", "LISTMOTS", "MAILLAGE"})  # no signs on these
 
 
 class AbstractCall(Call):
@@ -156,7 +156,7 @@ class PhraseReader:
         if found.name == "ET" and self._joined(call):
             return
         if found.name in _GUESSED:
-            _GUESSED[found.name](call)
+            _GUESSED[found.name](self, call)
         bound = self._bound(found, call)
         results = results_of(bound.form, bound.values)
         if bound.form.by_hand:
@@ -173,7 +173,7 @@ class PhraseReader:
 
         words = tuple(str(word) for word in values.get("said", ()))  # not every form has them
         if ANY_WORD not in words:
-            self._trial(call, lambda: refuse_words(call, words))
+            self.trial(call, lambda: refuse_words(call, words))
         if "mesh" in values:  # not of contacts
             call.operands[0].value = known_model(words)
 
@@ -190,9 +190,9 @@ class PhraseReader:
         if zone is None:
             return
         pairs = [(str(name), value) for name, value in values["pairs"]]
-        self._trial(call, lambda: refuse_constants(call, zone, pairs))
+        self.trial(call, lambda: refuse_constants(call, zone, pairs))
 
-    def _trial(self, call: AbstractCall, action: Callable[[], None]) -> None:
+    def trial(self, call: AbstractCall, action: Callable[[], None]) -> None:
         """Report what a part of an operator refuses and warns of, as a run does."""
         before = len(self.session.warnings)
         try:
@@ -263,7 +263,9 @@ class PhraseReader:
         kinds = kind_word(left.value), kind_word(right.value)
         if "" in kinds:
             raise Ambiguous
-        del call.operands[:2]
+        behind = kind_word(call.operands[2].value) if len(call.operands) > 2 else ""
+        told = sign in ("EGA", "NEG") and behind in _SCALARS
+        del call.operands[: 2 + told]  # with a tolerance
         span = left.span.to(right.span)
         if sign in _COMPARISONS:
             call.operands.insert(0, Operand(typed("LOGIQUE"), span, result=True))
@@ -440,17 +442,34 @@ class PhraseReader:
         return [Operand(UNKNOWN, item.span)]
 
 
-def _only_unknown_is_mesh(call: AbstractCall) -> None:
-    """MODE cannot do without a mesh: where none is known, the one unknown operand is it."""
+def _only_unknown_is_mesh(reader: PhraseReader, call: AbstractCall) -> None:
+    """MODE cannot do without a mesh: where none is known, the one unknown operand is it.
+
+    Where others are unknown, the words that stand before any keyword say the law nevertheless.
+    """
+    from ssilang.operators.models.foreseen import refuse_words
+
     unknown = [o for o in call.operands if o.value is UNKNOWN]
     meshes = [o for o in call.operands if kind_word(o.value) in ("MAILLAGE", "POINT")]
     if len(unknown) == 1 and not meshes:
         unknown[0].value = typed("MAILLAGE")
+    elif unknown:
+        keys = _keywords("MODE")
+        own = call.operands[: call.operands.index(unknown[not meshes])]
+        call.used = [o for o in own if isinstance(o.value, Mot)]
+        words = takewhile(
+            lambda w: w is not ANY_WORD and str(w)[:4] not in keys, (o.value for o in call.used)
+        )
+        reader.trial(call, lambda: refuse_words(call, map(str, words)))
 
 
-def _unknown_is_value(call: AbstractCall) -> None:
+def _keywords(operator: str) -> set[str]:
+    return {word[:4].rstrip() for word in registry.keywords_of(registry.OPERATORS[operator])}
+
+
+def _unknown_is_value(reader: PhraseReader, call: AbstractCall) -> None:
     """What stands behind a word of MATE that is neither keyword nor operator is a value."""
-    keywords = {word[:4].rstrip() for word in registry.keywords_of(registry.OPERATORS["MATE"])}
+    keywords = _keywords("MATE")
     for name, operand in pairwise(call.operands):
         if operand.value is not UNKNOWN or not isinstance(name.value, Mot) or name.result:
             continue

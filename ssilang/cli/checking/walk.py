@@ -1,5 +1,6 @@
 """Walks a script, statement after statement, and collects what is certainly wrong or doubtful."""
 
+import re
 from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
@@ -30,11 +31,14 @@ from ssilang.language.run.results import results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
+from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, known_types
 from ssilang.messages.message import Sentence
 
 # statements that may bring names the text does not show
-_OPENING = frozenset({"REST", "ACQU", "LIRE", "NOMM", "OBTE", "ARGU", "SAIS", "MENU"})
+_OPENING = frozenset({"REST", "LIRE", "NOMM", "SAIS", "MENU"})
+_DIMENSION = re.compile(r"^[^*].*\bOPTI\w*'?\s[^;]*\bDIME'?\s+\d", re.IGNORECASE | re.MULTILINE)
+_NAMING = frozenset({"ARGU", "ACQU", "OBTE"})  # they give values to the names that they show
 
 
 class Checker:
@@ -210,6 +214,7 @@ class Checker:
         scope.open = outer.open or library
         scope.dimension = None
         scope.inside = (node.name, *self._loops)  # it may be called inside of any of them
+        scope.values.setdefault("WTAB", UNKNOWN)  # of PASAPAS or CONTINU, which may call it
         for p in node.parameters:
             known = not p.optional and p.type and p.type not in ("MOT", "FLOTTANT")
             scope.values[p.name] = typed(p.type) if known else UNKNOWN
@@ -225,6 +230,10 @@ class Checker:
         if not statement.assigns:
             self._effects(statement, word, scope)
         values = self._values(statement, scope)
+        for name in bare_names(statement.items):
+            called = scope.values.get(name.text, self.session.library.find(name.text))
+            if isinstance(called, Procedure) and _DIMENSION.search(called.definition.span.text):
+                scope.dimension = None
         for i, target in enumerate(statement.targets):
             if isinstance(target, tree.Name):
                 known = values is not None and i < len(values)
@@ -285,12 +294,16 @@ class Checker:
         ]
         if len(words) == 1 and scope.values.get(statement.first_word) is UNKNOWN:
             scope.open = True  # a TEXTE runs, which may give names to results
-        if word in _OPENING or (word == "OPTI" and "DONN" in words):
+        behind = statement.items[words.index("DONN") + 1 :] if "DONN" in words else ()
+        read = word == "OPTI" and behind and not isinstance(behind[0], tree.Number)  # a file
+        if word in _OPENING or read:
             scope.open = True
             scope.dimension = None
             named = [i.text for i in statement.items[1:] if isinstance(i, tree.Name)]
             # without names all that was saved comes back, under any name
             scope.forget(named if named or word != "REST" else tuple(scope.values))
+        if word in _NAMING:
+            scope.forget(i.text for i in statement.items[1:] if isinstance(i, tree.Name))
         if word == "OPTI" and "DIME" in words:
             at = words.index("DIME") + 1
             item = statement.items[at] if at < len(words) else None
@@ -349,8 +362,6 @@ def _until_fin(nodes: tuple[tree.Node, ...]) -> tuple[tree.Node, ...]:
 
 def _head(span: Any) -> Any:
     """The first line of a span."""
-    from ssilang.language.text.source import Span
-
     end = span.start + len(span.text.split("\n")[0].split(";")[0].rstrip())
     return Span(span.source, span.start, min(span.end, end))
 

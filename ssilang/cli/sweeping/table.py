@@ -1,11 +1,13 @@
 """The table of a sweep, CSV and Parquet, and a picture of each figure against what was swept."""
 
+import csv
 import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from ssilang.cli.sweeping.given import MOTION
+from ssilang.io.atomic import replacing, write_text
 from ssilang.report.sweep_table import grouped, is_still
 
 Row = dict[str, Any]
@@ -27,8 +29,6 @@ def write_table(rows: Sequence[Row], path: Path) -> None:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    from ssilang.io.atomic import replacing
-
     columns = {}
     for name in columns_of(rows):
         values = [row.get(name) for row in rows]
@@ -44,10 +44,7 @@ def write_table(rows: Sequence[Row], path: Path) -> None:
 
 def write_plain_table(rows: Sequence[Row], path: Path) -> None:
     """Write rows as CSV between semicolons, titles first; what a run does not have is empty."""
-    import csv
     import io
-
-    from ssilang.io.atomic import write_text
 
     text = io.StringIO()
     writer = csv.DictWriter(text, columns_of(rows), delimiter=";", lineterminator="\n")

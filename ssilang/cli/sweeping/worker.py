@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ssilang.cli.sweeping.given import MOTION, Value
+from ssilang.io.atomic import inside, write_text
 from ssilang.messages.message import Sentence
 
 if TYPE_CHECKING:
@@ -50,7 +51,6 @@ def run_task(task: Task) -> Row:
     and its messages) and, when all is done, its row.
     """
     from ssilang.cli.run import RunOptions, run_file
-    from ssilang.io.atomic import write_text
     from ssilang.kernel.solvers.backends import keep_factors
     from ssilang.language.run.session import Limits
     from ssilang.operators.dynamics.verdicts import figures_of
@@ -118,7 +118,6 @@ def row_of(task: Task, deck: "Deck") -> Row | Sentence | None:
     dict, Sentence or None
         Why it does not hold any more, if what the run computed with has changed; None without one.
     """
-    from ssilang.io.atomic import inside
     from ssilang.io.checkpoint import changed_names, digest_of_file
     from ssilang.report.records import read_json
 

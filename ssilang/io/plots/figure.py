@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import replacing
+from ssilang.io.plots.markup import cut, to_mathtext
+from ssilang.io.plots.stage import Stage
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from ssilang.io.plots.stage import Stage
 
 DPI = 150
 _STYLE: dict[str, Any] = {
@@ -102,8 +102,6 @@ def _share_what_is_read() -> None:
 
 def head(figure: "Figure", title: str) -> None:
     """Write a title over a figure, on several lines if it is long."""
-    from ssilang.io.plots.markup import cut, to_mathtext
-
     text = cut(title.strip())
     if text:
         lines = textwrap.wrap(text, max(20, int(8.0 * figure.get_figwidth())))
@@ -124,10 +122,8 @@ class Pictures:
         self._count = 0
 
     @cached_property
-    def stage(self) -> "Stage":
+    def stage(self) -> Stage:
         """Draws what stands in space, for all pictures of the run."""
-        from ssilang.io.plots.stage import Stage
-
         return Stage()
 
     def close(self) -> None:

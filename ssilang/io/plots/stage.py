@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from ssilang.io.errors import NoGraphicsError
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.scientific import pyvista
 from ssilang.remembered import remembered
 
 Inks = NDArray[np.float64]  # (n, 4) red green blue opacity
@@ -201,8 +202,6 @@ def hidden_plotter(size: tuple[int, int] | None = None) -> Any:
         If this system has nothing that draws in space.
     """
     kind = _window_kind()
-    import pyvista
-
     if kind:
         os.environ[_CHOSEN] = kind
     try:
@@ -216,8 +215,6 @@ def hidden_plotter(size: tuple[int, int] | None = None) -> Any:
 
 def light_up(plotter: Any) -> None:
     """White paper, and one lamp that goes with the eye."""
-    import pyvista
-
     plotter.background_color = "white"
     plotter.add_light(pyvista.Light(position=_LAMP, light_type="camera light"))
 
@@ -314,28 +311,24 @@ def _library(name: str) -> str:
 
 def _colours(window: Any, columns: int, rows: int) -> NDArray[np.uint8]:
     """What a window shows, from the upper left corner."""
-    from pyvista import convert_array
     from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
     values = vtkUnsignedCharArray()
     window.GetPixelData(0, 0, columns - 1, rows - 1, 0, values, 0)
-    return np.asarray(convert_array(values)).reshape(rows, columns, 3)[::-1]
+    return np.asarray(pyvista.convert_array(values)).reshape(rows, columns, 3)[::-1]
 
 
 def _depths(window: Any, columns: int, rows: int) -> NDArray[np.float32]:
     """The z-buffer of a window, from the upper left corner."""
-    from pyvista import convert_array
     from vtkmodules.vtkCommonCore import vtkFloatArray
 
     values = vtkFloatArray()
     window.GetZbufferData(0, 0, columns - 1, rows - 1, values)
-    return np.asarray(convert_array(values)).reshape(rows, columns)[::-1]
+    return np.asarray(pyvista.convert_array(values)).reshape(rows, columns)[::-1]
 
 
 def _add_polygons(plotter: Any, thing: Polygons, sheet: _Sheet, per_point: float) -> None:
     n, k, _ = thing.points.shape
-    import pyvista
-
     rows = np.arange(n * k).reshape(n, k)
     colours = (255 * np.clip(thing.inks, 0, 1)).round().astype(np.uint8)
     made = pyvista.PolyData()
@@ -362,8 +355,6 @@ def _add_polygons(plotter: Any, thing: Polygons, sheet: _Sheet, per_point: float
 
 
 def _add_dots(plotter: Any, thing: Dots, sheet: _Sheet, per_point: float) -> None:
-    import pyvista
-
     made = pyvista.PolyData(sheet.put(thing.points))
     made.point_data["ink"] = (255 * np.clip(thing.inks, 0, 1)).round().astype(np.uint8)
     plotter.add_mesh(
@@ -374,8 +365,6 @@ def _add_dots(plotter: Any, thing: Dots, sheet: _Sheet, per_point: float) -> Non
 
 
 def _add_darts(plotter: Any, thing: Darts, sheet: _Sheet, per_point: float) -> None:
-    import pyvista
-
     made = pyvista.PolyData(sheet.put(thing.start))
     made.point_data["step"] = sheet.turn(thing.step)
     slim = pyvista.Arrow(

@@ -10,6 +10,7 @@ Both change in one commit, behind everything else that the step has.
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -373,3 +374,15 @@ def _plain_name(name: str) -> str:
 
 def _plain_names(arrays: Mapping[str, DataArray]) -> dict[str, DataArray]:
     return {_plain_name(name): array for name, array in arrays.items()}
+
+
+def opened_hdf(path: Path) -> tuple[Any, list[float]]:
+    """VTK's reader of a .vtkhdf, and its instants: pyvista gives no times of these files."""
+    from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    reader = vtkHDFReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    held, steps = reader.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    return reader, list(held.Get(steps) if held.Has(steps) else ()) or [0.0]

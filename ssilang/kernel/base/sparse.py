@@ -1,30 +1,14 @@
-"""scipy.sparse under the name `sp`, loaded when it is first used.
-
-Loading it takes 0.2 s, which a script without matrices does not need.
-"""
+"""Sparse matrices, `sp` being scipy's module of them: products, and sums of element matrices."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
-
-if TYPE_CHECKING:
-    import scipy.sparse as sp
-else:
-
-    class _Deferred:
-        def __getattr__(self, name: str) -> Any:
-            import scipy.sparse
-
-            value = getattr(scipy.sparse, name)
-            setattr(self, name, value)
-            return value
-
-    sp = _Deferred()
+from ssilang.kernel.base.scientific import sp
 
 __all__ = ["assemble_triplets", "for_products", "sp"]
 

@@ -13,6 +13,7 @@ solved by active sets, with friction by Newton's method on projections (Josephy 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.contact.conserving import ConservingSolver
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.interface import response
@@ -176,8 +177,6 @@ def stopped_motions(contact: ContactRows, free: FloatArray) -> FloatArray:
 def step_solver(problem: Problem, effective: Effective) -> StepSolver:
     """The condensed interface, with active sets where there are unilateral relations."""
     if problem.contact is not None and problem.scheme.conserving:
-        from ssilang.kernel.contact.conserving import ConservingSolver
-
         return ConservingSolver(problem, effective, problem.contact)
     if problem.contact is not None:
         return ContactSolver(problem, effective, problem.contact)

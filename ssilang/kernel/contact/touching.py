@@ -17,6 +17,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.contact.unilateral import BEHIND, FACING, NOTHING, OUTSIDE, side_of
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
@@ -92,11 +93,10 @@ def within(one: Mesh, other: Mesh, reach: float) -> tuple[Mesh, Mesh]:
     MeshError
         If there are none.
     """
-    from scipy.spatial import cKDTree
 
     def near(mesh: Mesh, side: Mesh) -> Mesh:
         nodes, points = mesh.node_ids, mesh.nodes.coordinates
-        apart = np.asarray(cKDTree(points[side.node_ids]).query(points[nodes])[0])
+        apart = np.asarray(spatial.cKDTree(points[side.node_ids]).query(points[nodes])[0])
         if (nearest := float(apart.min())) > reach:
             raise MeshError("kernel.contact.sides-out-of-reach", reach=reach, nearest=nearest)
         close = nodes[apart <= reach]

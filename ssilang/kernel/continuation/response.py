@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.scientific import la
 from ssilang.kernel.continuation.arc import Branch, Lengths, Point, Tracer
 from ssilang.kernel.continuation.harmonics import Oscillators, crossing, derivative_matrix, unstable
 
@@ -69,8 +70,6 @@ class FreeMotion:
 
     def guess(self, energy: float) -> FloatArray:
         """The linear mode with this energy."""
-        import scipy.linalg as la
-
         o = self.oscillators
         squares, shapes = la.eigh(o.K, o.M)
         own = int(np.argmax(np.abs(shapes[self.mode])))

@@ -8,6 +8,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.scientific import interpolate
 from ssilang.kernel.curves.curve import Curve, CurvePart
 
 _COMPLEX = {"PREE": "PIMA", "MODU": "PHAS"}
@@ -154,8 +155,6 @@ def spline(
     x: FloatArray, y: FloatArray, at: FloatArray, left: float | None, right: float | None
 ) -> FloatArray:
     """Cubic spline at `at`: natural ends, or given first derivatives."""
-    from scipy.interpolate import CubicSpline
-
     if len(x) < 2:
         raise FieldError("kernel.curves.spline-needs-two-points", n_x=len(x))
     if len(x) != len(y):
@@ -164,7 +163,7 @@ def spline(
     ends: Any = ((2, 0.0) if left is None else (1, left), (2, 0.0) if right is None else (1, right))
     if np.any(np.diff(x[order]) <= 0):
         raise FieldError("kernel.curves.abscissas-spline-must-increase")
-    return CubicSpline(x[order], y[order], bc_type=ends)(at)
+    return interpolate.CubicSpline(x[order], y[order], bc_type=ends)(at)
 
 
 def interpolated(x: FloatArray, y: FloatArray, at: FloatArray) -> FloatArray:

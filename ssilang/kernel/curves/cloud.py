@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.scientific import interpolate
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,8 +104,6 @@ def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> Float
 
     Points outside of the grid take the value at its border.
     """
-    from scipy.interpolate import RegularGridInterpolator
-
     sizes = [len(a) for a in axes]
     if int(np.prod(sizes)) != len(values):
         told = {"grid": " x ".join(map(str, sizes)), "wanted": np.prod(sizes)}
@@ -114,4 +113,4 @@ def on_grid(axes: list[FloatArray], values: FloatArray, at: FloatArray) -> Float
         raise FieldError("kernel.curves.coordinates-grid-must-increase")
     table = values.reshape(sizes, order="F")
     inside = np.clip(at, [a[0] for a in axes], [a[-1] for a in axes])
-    return RegularGridInterpolator(axes, table)(inside)
+    return interpolate.RegularGridInterpolator(axes, table)(inside)

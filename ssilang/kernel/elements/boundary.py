@@ -19,6 +19,7 @@ from ssilang.kernel.elements.zone_fields import rows_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.changes.merge import regenerate
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 # points that integrate two shape functions of the face times a linear field
@@ -128,7 +129,7 @@ def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Mat
     """
     blocks = [
         _damping(zone, faces, rows, of_cells, material)
-        for faces in boundary.blocks
+        for faces in regenerate(boundary).blocks
         for of in (require_parents(faces, model),)
         for zone, rows in zones_of_faces(of, model)
         for of_cells in (of.cell[rows],)

@@ -259,8 +259,12 @@ def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
 
 
 def inelastic(names: tuple[str, ...]) -> tuple[str, ...]:
-    """Names of inelastic strains of those of strains: EIXX of EPXX or EXX, DIN of DRN."""
-    return tuple(n[0] + "I" + n[2 - (n[1] in "XYZ") :] for n in names)
+    """Names of inelastic strains of those of strains: EIXX of EPXX, FRN DRN, FEPS EPS, FFCX CX."""
+    own = ("F" + (n[1:] if n[0] == "D" else n.rjust(3, "F")) for n in names)
+    return tuple(
+        f if n[0] == "D" or len(n) < 4 else n[0] + "I" + n[2:]
+        for n, f in zip(names, own, strict=True)
+    )
 
 
 def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 
 Places = tuple[tuple[str, NDArray[np.int64]], ...]
@@ -71,8 +71,6 @@ def _by_unknowns(
     series: FloatArray, weighted: FloatArray, metric: sp.csr_array | None
 ) -> tuple[FloatArray, FloatArray]:
     """Eigenvalues and eigenvectors (as rows) of the correlation of the unknowns."""
-    import scipy.linalg as la
-
     n = len(series)
     if metric is None:
         values, vectors = np.linalg.eigh(series.T @ series / n)

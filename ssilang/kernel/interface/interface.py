@@ -465,9 +465,9 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
     energy stored and lost so far at the point (J/m2; J for a joint of two points).
 
     JOINT_SDM: SAUT (largest irreversible opening), GLI1, GLI2 (slip). Mohr-Coulomb joints: EPSE
-    (cumulated plastic jump), STAT (1 open, 2 in contact), EPOU (opening), LAM1 (plastic
-    compression), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump). Macro-elements whose
-    ground yields: see `bed_results`.
+    (cumulated plastic jump), STAT (1 open, 2 in contact), EPOU (opening), LAM1 (openings, added
+    up), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump), LAM3, EPCO (plastic compression,
+    less than zero in EPCO). Macro-elements whose ground yields: see `bed_results`.
     """
     blocks, start = [], 0
     arrays = (interface.codes, w, t, state, interface.parameters)

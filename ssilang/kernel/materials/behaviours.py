@@ -5,7 +5,12 @@ from collections.abc import Collection
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import SOLID_FAMILIES
 from ssilang.kernel.interface.laws.law_table import LAWS
-from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS, plastic_law
+from ssilang.kernel.materials.plastic.laws import (
+    CREEP_LAWS,
+    DAMAGE_LAWS,
+    PLASTIC_LAWS,
+    plastic_law,
+)
 
 FORMULATIONS = ("MECANIQUE", "CHARGEMENT", "CONTACT", "LIAISON")
 OTHER_FORMULATIONS = {
@@ -59,7 +64,13 @@ UNIAXIAL_FAMILIES = ("fibre", "bar")
 CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "thick", "plate", "meridian")
 """Families of elements that creep, thin shells by the forces of their sections."""
 
-CREEP_WORDS = ("FLUAGE", *CREEP_LAWS)
+DAMAGE_FAMILIES = ("solid", "bar", "hoop")
+"""Families of elements that are damaged."""
+
+OWN_LAWS = {
+    "FLUAGE": (CREEP_LAWS, CREEP_FAMILIES), "ENDOMMAGEMENT": (DAMAGE_LAWS, DAMAGE_FAMILIES),
+}  # fmt: skip
+"""Words that name a law behind them, beside PLASTIQUE: the laws, who has them."""
 
 FIBRE_LAWS = (*UNIAXIAL_LAWS, "PARFAIT", "ISOTROPE", "CINEMATIQUE")
 """Plastic laws of the fibres of sections."""
@@ -71,18 +82,18 @@ OTHER_LINKS = ("PROFIL_PROFIL", "PALIER_FLUIDE", "NEWMARK")
 """Links between modes that Cast3M has and that are not built."""
 
 OTHER_BEHAVIOURS = (
-    "NON_LINEAIRE", "HOMOGENEISE", "CAOUTCHOUC",
+    "NON_LINEAIRE", "NON_LOCAL", "HOMOGENEISE", "CAOUTCHOUC",
     # plasticity: of metals, concrete, pipes and global sections, of rock joints, of soils
     "CHABOCHE1", "CHABOCHE2", "GAUVAIN", "GURSON", "STEINBERG", "ZERILLI", "PRESTON", "HINTE",
     "BETON", "OTTOSEN", "OTTOVARI", "BETOCYCL", "DRUCKER_PRAGER_2", "ENDOMMAGEABLE", "GLOBAL",
-    "TUYAU_FISSURE", "LINESPRING", "BILIN_MOMY", "BILIN_EFFZ", "TAKEDA_MOMY", "TAKEMO_EFFZ",
-    "BA1D", "ACIER_ANCRAGE", "INTIMP", "FRAGILE_UNI", "STRUT_UNI",
+    "TUYAU_FISSURE", "LINESPRING", "BILIN_MOMY", "BILIN_EFFX", "BILIN_EFFZ", "TAKEDA_MOMY",
+    "TAKEMO_EFFZ", "BA1D", "ACIER_ANCRAGE", "INTIMP", "FRAGILE_UNI", "STRUT_UNI",
     "CISAIL_NL", "INFILL_UNI", "PARFAIT_ANCRAGE", "RICBET_UNI", "OUGLOVA", "LIAISON_ACBE",
     "ANCRAGE_ELIGEHAUSEN", "INTJOI", "AMADEI", "HUJEUX", "UBIQUITOUS",
     "MOHR_COULOMB", "MRS_LADE", "DP_SOL", "IWPR3D_SOL", "VMT_FEFP", "RHMC_FEFP",
     "POWDER_FEFP", "POWDERCAP_FEFP",
     # damage
-    "ENDOMMAGEMENT", "MAZARS", "ROTATING_CRACK", "SIC_SIC", "MVM", "SICSCAL", "SICTENS",
+    "UNILATERAL", "ROTATING_CRACK", "SIC_SIC", "MVM", "SICSCAL", "SICTENS",
     "DAMAGE_TC", "DESMORAT", "FATSIN", "RICRAG", "GLRC_DM", "EFEM", "RICBET", "RICCOQ", "CONCYC",
     "PLASTIQUE_ENDOM", "PSURY", "ROUSSELIER", "GURSON2", "DRAGON", "BETON_URGC", "BETON_INSA",
     "BETON_DYNAR_LMT", "ENDO_PLAS",
@@ -143,8 +154,8 @@ def normalised(words: list[str], family: str) -> tuple[str, ...]:
         )
     if rest and rest[0] == "PLASTIQUE" and family != "joint":
         return ("ELASTIQUE", kind or "ISOTROPE", *_plastic_words(rest, kind, family))
-    if rest and rest[0] == "FLUAGE":
-        return ("ELASTIQUE", kind or "ISOTROPE", *_creep_words(rest, kind, family))
+    if rest and rest[0] in OWN_LAWS:
+        return ("ELASTIQUE", kind or "ISOTROPE", *_own_words(rest, kind, family))
     if rest and family != "joint":
         raise MaterialError("kernel.materials.behaviour-joints-only", rest=rest[0])
     if rest[1:2] and rest[0] == "PLASTIQUE" and rest[1] in PLASTIC_WORDS:
@@ -167,17 +178,18 @@ def _impedance_words(words: list[str], family: str) -> tuple[str, ...]:
     return ("ELASTIQUE", *shape, "IMPEDANCE", *(law or ["ELASTIQUE"]))
 
 
-def _creep_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:
-    """FLUAGE and the law behind it."""
-    if family not in CREEP_FAMILIES:
-        raise MaterialError("kernel.materials.elements-family-not-creep", family=family)
-    if len(words) != 2 or words[1] not in CREEP_LAWS:
-        raise MaterialError("kernel.materials.law-creep", join=", FLUAGE ".join(CREEP_LAWS))
+def _own_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:
+    """FLUAGE or ENDOMMAGEMENT, and the law behind it."""
+    laws, families = OWN_LAWS[words[0]]
+    if family not in families:
+        told = {"family": family, "group": words[0], "families": families}
+        raise MaterialError("kernel.materials.family-without-law", **told)
+    if len(words) != 2 or words[1] not in laws:
+        raise MaterialError("kernel.materials.which-law", group=words[0], laws=laws)
     if elasticity not in ("", "ISOTROPE"):
-        raise MaterialError(
-            "kernel.materials.creep-goes-elasticity-isotrope", elasticity=elasticity
-        )
-    return ("FLUAGE", words[1])
+        told = {"group": words[0], "elasticity": elasticity}
+        raise MaterialError("kernel.materials.law-of-isotropic-bodies", **told)
+    return (words[0], words[1])
 
 
 def _plastic_words(words: list[str], elasticity: str, family: str) -> tuple[str, str]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import sp, spatial
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     Numbering,
@@ -210,8 +210,6 @@ def filter_weights(
     Row i has `(1 - d_ij / radius)^power w_j` over their sum, for nodes nearer than the radius;
     terms not above `least` are dropped (after the division).
     """
-    from scipy.spatial import cKDTree
-
     names = list(weights.components)
     if len(names) != 1:
         raise FieldError("kernel.matrices.component-weights-needed", names=names)
@@ -219,7 +217,7 @@ def filter_weights(
     n = len(part.nodes)
     if radius > 0.0:
         points = weights.table.coordinates[part.nodes]
-        tree = cKDTree(points)
+        tree = spatial.cKDTree(points)
         near = tree.sparse_distance_matrix(tree, radius, output_type="coo_matrix")
         other = near.row != near.col
         i = np.concatenate([near.row[other], np.arange(n)]).astype(np.int64)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.elements.shapes.polygons import SIDES, polygon_excess
 from ssilang.kernel.elements.shapes.reference import (
     reference_cell,
@@ -38,14 +39,12 @@ def locate(mesh: Mesh, points: FloatArray, tolerance: float = 1e-5) -> list[Foun
 def _in_block(
     block: CellBlock, points: FloatArray, wanted: IntArray, tolerance: float
 ) -> list[tuple[IntArray, IntArray, FloatArray]]:
-    from scipy.spatial import cKDTree
-
     if len(wanted) == 0 or len(block) == 0:
         return []
     corners = block.coordinates
     centres = corners.mean(axis=1)
     radius = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1) * (1.01 + tolerance)
-    near = cKDTree(points[wanted]).query_ball_point(centres, radius)
+    near = spatial.cKDTree(points[wanted]).query_ball_point(centres, radius)
     counts = np.array([len(n) for n in near])
     cell = np.repeat(np.arange(len(block)), counts)
     place = wanted[np.concatenate([np.asarray(n, dtype=np.int64) for n in near])]

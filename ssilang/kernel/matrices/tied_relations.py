@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import Term, across, joined, relation_rows, rows_from_table
 from ssilang.kernel.mesh.changes.degree import known_middles
@@ -205,8 +206,6 @@ def _held(
     nodes: IntArray, mesh: Mesh, tolerance: float
 ) -> Iterator[tuple[NDArray[np.bool_], IntArray, FloatArray]]:
     """Nodes in cells, block by block: which of them, they and their cells' nodes, their weights."""
-    from ssilang.kernel.matrices.location import locate
-
     found = locate(mesh, mesh.nodes.coordinates[nodes], tolerance)
     for block, (which, shapes) in zip(mesh.blocks, found, strict=True):
         inside = which >= 0

@@ -134,6 +134,7 @@ class Mesh:
     nodes: NodeTable
     blocks: tuple[CellBlock, ...]
     sides: "tuple[Mesh, ...]" = ()
+    _order: list[tuple[int, IntArray]] = field(default_factory=list, init=False, repr=False)
 
     @classmethod
     def of(
@@ -155,11 +156,12 @@ class Mesh:
     @property
     def node_ids(self) -> IntArray:
         """Node numbers in order of first appearance, each once, shape (n,)."""
-        if not self.blocks:
-            return np.empty(0, dtype=np.int64)
-        flat = np.concatenate([b.connectivity.ravel() for b in self.blocks])
-        _, first = np.unique(flat, return_index=True)
-        return flat[np.sort(first)]
+        version = self.nodes.version
+        if self.blocks and (not self._order or self._order[0][0] != version):
+            flat = np.concatenate([b.connectivity.ravel() for b in self.blocks])
+            _, first = np.unique(flat, return_index=True)
+            self._order[:] = [(version, flat[np.sort(first)])]
+        return self._order[0][1] if self.blocks else np.empty(0, dtype=np.int64)
 
     @property
     def sorted_node_ids(self) -> IntArray:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp, spla
 from ssilang.kernel.matrices.assembly import may_be_positive
 from ssilang.kernel.modal.basis import ReducedProblem
 from ssilang.kernel.solvers.backends import dissection_pays, factorise, goes_to_petsc
@@ -180,8 +180,6 @@ def _by_petsc(A: sp.csr_array, problem: ReducedProblem, scale: FloatArray) -> Fa
 
 def _all(problem: ReducedProblem, moved: float, solve: Solve) -> tuple[FloatArray, FloatArray]:
     """All theta and shapes: `R^T A^-1 R y = theta y` with `M = R R^T`, `x = A^-1 R y`."""
-    import scipy.linalg as la
-
     weights, vectors = la.eigh(problem.M.toarray())
     if weights[0] < -1e-10 * abs(weights[-1]):
         return _indefinite(problem, moved, solve)
@@ -201,8 +199,6 @@ def _indefinite(
     With `A^-1 = L L^T` and `x = L y`: `L^T M L y = theta y`. A shift above the first load that
     buckles leaves A without such an L; K has one.
     """
-    import scipy.linalg as la
-
     lower, base = _root(problem, solve), moved
     if lower is None:
         elastic = shifted_inverse(problem, 0.0)
@@ -219,8 +215,6 @@ def _indefinite(
 
 def _root(problem: ReducedProblem, solve: Solve) -> FloatArray | None:
     """L (r, r) of the inverse `L L^T` that `solve` applies; None if that is not positive."""
-    import scipy.linalg as la
-
     inverse = solve(np.eye(problem.size))
     try:
         lower: FloatArray = la.cholesky(0.5 * (inverse + inverse.T), lower=True)
@@ -236,11 +230,9 @@ def _some(
 
     Vectors are measured by the mass, or by K where the "mass" is a load (buckling).
     """
-    from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
-
     n = problem.size
     wanted = min(count + 4, n - 1)
-    inverse = LinearOperator((n, n), matvec=solve, dtype=float)
+    inverse = spla.LinearOperator((n, n), matvec=solve, dtype=float)
     start = solve(problem.M @ np.random.default_rng(4).standard_normal(n))
     asked: dict[str, Any] = {
         "v0": start,
@@ -251,16 +243,16 @@ def _some(
     K, M = problem.K, problem.M
     try:
         if not may_be_positive(M) and moved == 0.0:
-            theta, shapes = eigsh(M, wanted, M=K, Minv=inverse, **asked)
+            theta, shapes = spla.eigsh(M, wanted, M=K, Minv=inverse, **asked)
         elif not may_be_positive(M):
-            values, shapes = eigsh(
+            values, shapes = spla.eigsh(
                 K, wanted, M=M, sigma=moved, mode="buckling", OPinv=inverse, **asked
             )
             theta = 1.0 / (values - moved)
         else:
-            values, shapes = eigsh(K, wanted, M=M, sigma=0.0, OPinv=inverse, **asked)
+            values, shapes = spla.eigsh(K, wanted, M=M, sigma=0.0, OPinv=inverse, **asked)
             theta = 1.0 / values
-    except ArpackError as problem_found:
+    except spla.ArpackError as problem_found:
         raise KernelError(
             "kernel.modal.search-modes-not-converge", problem_found=problem_found
         ) from None

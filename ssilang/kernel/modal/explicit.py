@@ -10,6 +10,15 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.modal.explicit_loops import (
+    Loads,
+    Motion,
+    Plan,
+    Saved,
+    System,
+    de_vogelaere,
+    newmark,
+)
 from ssilang.kernel.modal.link_laws import RECORDS, STATES, LinkArrays
 
 SCHEMES = ("DE_VOGELAERE", "DIFFERENCES_CENTREES", "ACCELERATION_MOYENNE", "FOX_GOODWIN")
@@ -76,16 +85,6 @@ def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps)
     KernelError
         For a singular mass, a step too long for the scheme, or a run that diverges.
     """
-    from ssilang.kernel.modal.explicit_loops import (
-        Loads,
-        Motion,
-        Plan,
-        Saved,
-        System,
-        de_vogelaere,
-        newmark,
-    )
-
     M, C, K, links = problem.M, problem.C, problem.K, problem.links
     h, count, every, scheme = steps.h, steps.count, steps.every, steps.scheme
     if h <= 0.0 or count < 1 or every < 1:

@@ -13,7 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp, spla
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import Numbering, vector_to_field
 from ssilang.kernel.matrices.matrix import Matrix
@@ -98,17 +98,10 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
     squares, found = problem.stiffness.multiply(problem.stiffness), []
     free = directions * (abs(problem.T).sum(axis=1) > 0.0)[:, None]
     moving = tuple((free * (problem.mass @ free)).sum(axis=0).tolist())
-    named = {part + name for name in set().union(*TRANSLATIONS) for part in ("", "I")}
-    codes = [c for c, name in enumerate(problem.numbering.unknowns) if name in named]
-    translates = np.isin(problem.numbering.codes, codes)
     for value, q in zip(pairs.values, pairs.shapes.T, strict=True):
         u = problem.T @ q
-        # translations that are rounding beside the rotations (a shaft in torsion) do not count
-        moved = np.where(translates, u, 0.0)
-        if np.abs(moved).max(initial=0.0) <= ROUNDING * np.abs(u).max(initial=0.0):
-            moved = u
-        sizes = np.abs(moved)
-        u = u / float(moved[np.argmax(sizes > (1.0 - 1e-9) * sizes.max())])
+        sizes = np.abs(u)
+        u = u / float(u[np.argmax(sizes > (1.0 - 1e-9) * sizes.max())])
         inertia = problem.mass @ u
         multipliers = (problem.multipliers, problem.reactions(u, float(value)))
         shape = vector_to_field(u, problem.numbering, multipliers=multipliers)
@@ -190,8 +183,6 @@ def conjugate_modes(
 def _eigenpairs(
     problem: ReducedProblem, shift: complex, count: int
 ) -> tuple[ComplexArray, ComplexArray]:
-    import scipy.linalg as la
-
     A, B = _linear(problem)
     r = problem.size
     wanted = 2 * count + 6
@@ -200,12 +191,11 @@ def _eigenpairs(
         (top, bottom), vectors = pairs
         finite = np.abs(bottom) > 1e-13 * np.abs(top)
         return top[finite] / bottom[finite], vectors[:r, finite]
-    from scipy.sparse.linalg import ArpackError, eigs
 
     moved = shift * (1.0 + 1e-6) + 1e-6j
     try:
-        values, vectors = eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
-    except (ArpackError, RuntimeError) as problem_found:
+        values, vectors = spla.eigs(A.astype(complex), wanted, M=B.astype(complex), sigma=moved)
+    except (spla.ArpackError, RuntimeError) as problem_found:
         raise KernelError(
             "kernel.modal.search-modes-not-converge", problem_found=problem_found
         ) from None

@@ -69,7 +69,7 @@ class ShapePoint:
     field: NodeField
     frequency: float  # of modes (0 for static shapes)
     mass: float
-    damping: float  # generalised (N s/m for a shape in metres)
+    damping: float  # over sqrt(k m): twice the reduced one of a mode
     push: NodeField | None  # stiffness of the body times the shape (RIDE)
     inertia: NodeField | None  # mass of the body times the shape (MADE)
 
@@ -126,7 +126,8 @@ def _mass(a: ShapePoint, b: ShapePoint) -> float:
 
 
 def _damping(a: ShapePoint, b: ShapePoint) -> float:
-    return a.damping if a is b else 0.0
+    """AMOR times `sqrt(k m)`: of a mode, twice its reduced damping."""
+    return a.damping * np.sqrt(abs(_stiffness(a, a) * _mass(a, a))) if a is b else 0.0
 
 
 _TERMS = {"RIGIDITE": _stiffness, "MASSE": _mass, "AMORTISSEMENT": _damping}

@@ -19,11 +19,12 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import Numbering, assemble_terms, block_indices
 from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.plasticity.layered_points import drilling_stiffness
 from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState
-from ssilang.kernel.plasticity.zone_points import plastic_points
+from ssilang.kernel.plasticity.solving.blocks import ZonePass
+from ssilang.kernel.plasticity.zone_points import plastic_points, zone_pass
 
 if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.solving.blocks import ZonePass
     from ssilang.kernel.plasticity.solving.positive import Pattern
 
 FreeStrain = Callable[[float], FloatArray]
@@ -316,7 +317,6 @@ def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> Zo
     plain = type(points) is PlasticPoints and (law.cone is not None or law.parts is not None)
     if not plain or points.count < least:
         return None
-    from ssilang.kernel.plasticity.zone_points import zone_pass
 
     return zone_pass(points, places)
 
@@ -332,8 +332,6 @@ def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numb
 
 def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
-    from ssilang.kernel.plasticity.layered_points import drilling_stiffness
-
     drilled = ELEMENTS[zone.element].family in ("plate", "thick")
     return drilling_stiffness(zone, characteristics) if drilled else without_stiffness(zone)
 

@@ -178,9 +178,10 @@ class ArcControl:
 
 @dataclass
 class ArcTrace(Trace):
-    """Times, and the negative terms of the tangent stiffness at each."""
+    """Times, displacements and the negative terms of the tangent stiffness at each."""
 
     negative: list[float] = field(default_factory=list)
+    motions: list[FloatArray] = field(default_factory=list)
 
 
 def follow_arc(
@@ -207,6 +208,7 @@ def follow_arc(
     control = ArcControl(lengths, lengths.start)
     path.settle(start)
     path.save(t)
+    trace.motions.append(run.motion.u.copy())
     if stability:
         trace.negative.append(_negative(path))
     began = t
@@ -226,6 +228,7 @@ def follow_arc(
         control.ds = float(np.clip(control.ds * ease, lengths.least, lengths.most))
         trace.times.append(t)
         trace.parameters.append(step)
+        trace.motions.append(run.motion.u.copy())
         if stability:
             trace.negative.append(_negative(path))
         ended = not inside(t) or number == most

@@ -1,9 +1,6 @@
 """The step by Newton's method on all unknowns: plastic bodies and joints together."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,14 +9,12 @@ from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.response import Trial, new_trial
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
+from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 from ssilang.kernel.solvers.backends import DISSECTION, dissection_pays
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 from ssilang.kernel.stepping.rests.sparse.loop import StepOutcome
 from ssilang.kernel.stepping.state import Motion
-
-if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
 TURNS = 30
 TOLERANCE = 1e-10
@@ -237,6 +232,5 @@ def _positive_factors(problem: Problem, bulk: Bulk) -> PositiveFactors | None:
         return None
     if not dissection_pays(problem.numbering.size):
         return None
-    from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
     return PositiveFactors(problem)

@@ -16,10 +16,14 @@ from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+from ssilang.kernel.plasticity.solving.accelerated import AcceleratedSolver, is_accelerated
+from ssilang.kernel.plasticity.solving.dense import DenseSolver, is_small
+from ssilang.kernel.statics.stepping import lost
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps, leaves, memory, rebuilt, recall
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem import initial
+from ssilang.kernel.stepping.problem.initial import accelerated, with_contact
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.sparse.loop import (
     SparseLoop,
@@ -198,6 +202,11 @@ def _static_step(
             continue
         length = 0.5 * length
         if length < 0.5**HALVINGS:
+            if not outcome.turns:  # singular: of what nothing holds, from the first step on
+                virgin = run.bulk.respond(run.bulk.unloaded(), 0.0 * run.motion.u, times[0])
+                effective_of(run.problem, run.problem.K + virgin.tangent, 1.0, 1.0)
+            if run.problem.interface is not None and not (run.motion.t[:, -1] < 0.0).any():
+                raise lost(run.problem, run.motion, k, outcome)
             told = {"k": k, "time": solver.time, "residual": outcome.residual}
             told |= {"n_residuals": len(solver.residuals), "halvings": HALVINGS}
             raise ConvergenceError("kernel.plasticity.load-step-time-no", **told)
@@ -286,8 +295,6 @@ def _moving_step(
 
 def _start(run: BulkRun, factors: FloatArray) -> None:
     """Initial velocity, acceleration, reactions, kinetic energy."""
-    from ssilang.kernel.stepping.problem.initial import accelerated, with_contact
-
     p, m = run.problem, run.motion
     m.v[:] = initial.admissible_velocity(p)
     rest = run.imbalance(run.force, factors) + p.C @ m.v
@@ -300,8 +307,6 @@ def newton_solver(
     problem: Problem, A: sp.csr_array, share: float, bulk: Bulk, state: State
 ) -> BulkSolver:
     """Newton's method on all unknowns, with dense matrices where these are few."""
-    from ssilang.kernel.plasticity.solving.dense import DenseSolver, is_small
-
     chosen = DenseSolver if is_small(problem, bulk) else BulkSolver
     return chosen(problem, A, share, bulk, state)
 
@@ -363,8 +368,6 @@ class _BulkLoop(SparseLoop):
         bulk, state = self.bulk_run.bulk, self.bulk_run.state
         if self.bulk_run.full or self.problem.numbering.size < MANY:
             return newton_solver(self.problem, A, share, bulk, state)
-        from ssilang.kernel.plasticity.solving.accelerated import AcceleratedSolver, is_accelerated
-
         if is_accelerated(self.problem, bulk, A):
             return AcceleratedSolver(self.problem, A, dt, share, bulk, state)
         return BulkSolver(self.problem, A, share, bulk, state)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.scientific import signal
 
 _PAD = 1.5
 """Zeros on either side of a record, in periods of its lowest corner times the order."""
@@ -41,8 +42,6 @@ def butterworth(
         If the order is not from 1 to 12, or corners are not between 0 and half the sampling
         frequency in their order.
     """
-    from scipy.signal import butter, sosfilt
-
     nyquist = 0.5 / step
     corners = [f for f in (low, high) if f is not None]
     if not 1 <= order <= 12:
@@ -59,10 +58,10 @@ def butterworth(
     for kind, corner in kinds:
         if corner is None:
             continue
-        sections = butter(order, corner, kind, fs=1.0 / step, output="sos")
-        found = sosfilt(sections, found)
+        sections = signal.butter(order, corner, kind, fs=1.0 / step, output="sos")
+        found = signal.sosfilt(sections, found)
         if not causal:
-            found = sosfilt(sections, found[::-1])[::-1]
+            found = signal.sosfilt(sections, found[::-1])[::-1]
     return np.array(found[size : size + len(values)])
 
 

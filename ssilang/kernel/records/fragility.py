@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.scientific import optimize, special, stats
 
 _FARTHEST = 700.0  # logarithm of a median that is still a number
 LEAST_RUNS = 3
@@ -60,15 +61,11 @@ class Fragility:
 
     def probability(self, intensities: FloatArray) -> FloatArray:
         """Probabilities (n,) of exceedance at intensities above zero."""
-        from scipy.stats import lognorm
-
-        return np.asarray(lognorm.cdf(intensities, self.dispersion, scale=self.median), float)
+        return np.asarray(stats.lognorm.cdf(intensities, self.dispersion, scale=self.median), float)
 
     def bounds(self, level: float = 0.95) -> tuple[float, float]:
         """Interval of confidence of the median, normal in its logarithm."""
-        from scipy.stats import norm
-
-        spread = np.exp(norm.ppf(0.5 + 0.5 * level) * self.median_error)
+        spread = np.exp(stats.norm.ppf(0.5 + 0.5 * level) * self.median_error)
         return float(self.median / spread), float(self.median * spread)
 
 
@@ -94,10 +91,6 @@ def of_exceedances(
     FieldError
         If no maximum exists, or exceedances do not grow with intensity.
     """
-    from scipy.optimize import minimize
-    from scipy.special import log_ndtr
-    from scipy.stats import norm
-
     x = _logarithms(intensities, exceeded, runs)
     if ((exceeded < 0.0) | (exceeded > runs)).any():
         raise FieldError("kernel.records.fragility-counts")
@@ -121,8 +114,8 @@ def of_exceedances(
     def terms(p: FloatArray) -> tuple[float, FloatArray, FloatArray]:
         """What is lost of the likelihood, scores (n, 2), information (2, 2)."""
         eta, held = rows @ p, runs - exceeded
-        up, down = (np.exp(norm.logpdf(eta) - log_ndtr(s * eta)) for s in (1.0, -1.0))
-        missed = -float(exceeded @ log_ndtr(eta) + held @ log_ndtr(-eta))
+        up, down = (np.exp(stats.norm.logpdf(eta) - special.log_ndtr(s * eta)) for s in (1.0, -1.0))
+        missed = -float(exceeded @ special.log_ndtr(eta) + held @ special.log_ndtr(-eta))
         weights = exceeded * up * (up + eta) + held * down * (down - eta)
         return (
             missed,
@@ -130,21 +123,15 @@ def of_exceedances(
             rows.T @ (weights[:, None] * rows),
         )
 
-    start = np.array([float(norm.ppf(passed / total)), 1.0])
-
-    def lost(p: FloatArray) -> float:
-        return terms(p)[0]
-
-    def slope(p: FloatArray) -> FloatArray:
-        return np.asarray(-terms(p)[1].sum(axis=0), float)
-
-    def curvature(p: FloatArray) -> FloatArray:
-        return terms(p)[2]
-
-    found = minimize(
-        lost, start, jac=slope, hess=curvature,
-        method="trust-exact", tol=1e-10 * float(total),
-    ).x  # fmt: skip
+    start = np.array([float(stats.norm.ppf(passed / total)), 1.0])
+    found = optimize.minimize(
+        lambda p: terms(p)[0],
+        start,
+        method="trust-exact",
+        jac=lambda p: -terms(p)[1].sum(axis=0),
+        hess=lambda p: terms(p)[2],
+        tol=1e-10 * float(total),
+    ).x
     a, b = found[0] - found[1] * centre / scale, found[1] / scale
     if not found[1] > _LEAST_SLOPE:
         raise FieldError("kernel.records.fragility-falls")
@@ -188,8 +175,6 @@ def of_cloud(
     FieldError
         For demands that have no logarithm, or do not move towards the limit with intensity.
     """
-    from scipy.stats import linregress
-
     x = _logarithms(intensities, demands)
     n = len(x)
     if n < LEAST_RUNS:
@@ -203,7 +188,7 @@ def of_cloud(
     if not np.ptp(x) > _SAME:
         raise FieldError("kernel.records.fragility-one-level", intensity=intensities[0])
     y = np.log(demands)
-    line = linregress(x, y)
+    line = stats.linregress(x, y)
     a, b = float(line.intercept), float(line.slope)
     goes, away = (b < 0.0 if below else b > 0.0), np.log(limit) - a
     if not goes or abs(away) > _FARTHEST * abs(b):  # a slope of rounding

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.scientific import la
 from ssilang.kernel.records.power import gauss_points, largest_value
 
 
@@ -109,8 +110,6 @@ def answers(
     `a` is `m(t) e^(2 i pi f t)` with m linear in each piece. Phases are counted from each end:
     moments do not see them.
     """
-    from scipy.linalg import expm
-
     s = 2j * np.pi * f
     # answers H e^(st) to e^(st) and (H' + H t) e^(st) to t e^(st)
     inverse = np.linalg.inv(s[:, None, None] * np.eye(len(b)) - A)
@@ -120,7 +119,7 @@ def answers(
     for length, first, last in pieces:
         step = float(f"{length:.12g}")  # those that rounding alone tells apart are one
         if step not in kept:
-            kept[step] = expm(A * step), np.exp(-s * step)
+            kept[step] = la.expm(A * step), np.exp(-s * step)
         free, back = kept[step]
         slope = (last - first) / step
         x = free @ (x - (first * steady + slope * grown)) * back

@@ -106,10 +106,7 @@ def transform(
     values: FloatArray, step: float, n: int, scale: FloatArray, pulsation: float
 ) -> ComplexArray:
     """Transform (n_scales, n) of a signal on `n` samples (cut, or filled with zeros)."""
-    signal = np.zeros(n)
-    kept = min(n, len(values))
-    signal[:kept] = values[:kept]
-    spectrum = np.fft.fft(signal)
+    spectrum = np.fft.fft(values, n)
     omega = 2.0 * np.pi * np.fft.fftfreq(n, step)
     window = np.exp(-0.5 * (np.outer(scale, omega) - pulsation) ** 2)
     return np.asarray(2.0 * np.fft.ifft(spectrum * window, axis=1))

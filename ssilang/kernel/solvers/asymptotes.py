@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.scientific import optimize
 
 LIMIT = 0.1
 """Share of the way to an asymptote that a step leaves free."""
@@ -79,8 +80,6 @@ def least(problem: Shares, x: FloatArray, ceiling: FloatArray) -> FloatArray:
     `ceiling` (m,) bounds the multipliers: a condition whose multiplier gets there is given up,
     which is what a slack variable of that cost does. Infinite where the condition must hold.
     """
-    from scipy.optimize import minimize
-
     count = len(ceiling)
     if count == 0:
         return problem.nearest(np.zeros(0), x)
@@ -89,7 +88,7 @@ def least(problem: Shares, x: FloatArray, ceiling: FloatArray) -> FloatArray:
         values = problem.values(problem.nearest(multipliers, x))
         return -float(values[0] + multipliers @ values[1:]), -values[1:]
 
-    found = minimize(
+    found = optimize.minimize(
         dual,
         np.zeros(count),
         jac=True,
@@ -111,12 +110,10 @@ def least_linear(
 
     Conditions of finite `ceiling` (m,) may be missed at that cost (a slack variable each).
     """
-    from scipy.optimize import linprog
-
     soft = np.flatnonzero(np.isfinite(ceiling))
     slack = np.zeros((len(ceiling), len(soft)))
     slack[soft, np.arange(len(soft))] = -1.0
-    found = linprog(
+    found = optimize.linprog(
         np.concatenate([slopes[0], ceiling[soft]]),
         A_ub=np.hstack([slopes[1:], slack]) if len(ceiling) else None,
         b_ub=slopes[1:] @ x - values[1:] if len(ceiling) else None,

@@ -18,7 +18,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.memory import fits
+from ssilang.kernel.base.scientific import sp, spla
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 
 if TYPE_CHECKING:
@@ -44,8 +45,6 @@ class SuperLUFactor:
     name = "SuperLU"
 
     def __init__(self, A: sp.csr_array, positive: bool) -> None:
-        import scipy.sparse.linalg as spla
-
         options: dict[str, Any] = {"permc_spec": "COLAMD"}
         if positive:
             options = {
@@ -284,7 +283,6 @@ def factor_pays(A: sp.csr_array, ordering: Ordering, solves: int) -> bool:
     """Whether a positive A (n, n) that is solved so often is better factorised than iterated on."""
     if not dissection_pays(A.shape[0]):
         return True
-    from ssilang.kernel.base.memory import fits
     from ssilang.kernel.solvers.cholesky.dissection import dissection
     from ssilang.kernel.solvers.cholesky.multifrontal import factor_bytes
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import sp, spla
 from ssilang.kernel.interface.laws.columns import Parameter
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.solvers.backends import MULTIGRID
@@ -68,8 +68,6 @@ def condition_number(A: sp.csr_array) -> float:
 
     Infinite if A is singular.
     """
-    import scipy.sparse.linalg as spla
-
     if A.shape[0] == 0:
         return 1.0
     size = np.abs(A.diagonal())
@@ -94,8 +92,6 @@ def _product(
     solve: Callable[[FloatArray], FloatArray],
     solve_transposed: Callable[[FloatArray], FloatArray],
 ) -> float:
-    import scipy.sparse.linalg as spla
-
     n = A.shape[0]
     norm = _norm(A)
     if n < 4:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -130,11 +131,10 @@ def lying_on(table: NodeTable, nodes: IntArray, others: IntArray) -> tuple[IntAr
     """The `nodes` at the place of one of `others`, and these (n,), pairwise."""
     if not len(nodes) or not len(others):
         return nodes[:0], others[:0]
-    from scipy.spatial import KDTree
 
     points = table.coordinates
     near = NEAR * float(np.ptp(points[others], axis=0).max())
-    distance, nearest = KDTree(points[others]).query(points[nodes])
+    distance, nearest = spatial.KDTree(points[others]).query(points[nodes])
     at: IntArray = np.asarray(nearest)
     found = np.flatnonzero(np.asarray(distance) <= near)
     return nodes[found], others[at[found]]

@@ -9,10 +9,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import scipy.sparse as sp
 
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, KernelError, SingularMatrixError
+from ssilang.kernel.base.scientific import la, sp, spla
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.elements.springs import dynamic_stiffness
@@ -157,10 +157,8 @@ class _System:
 
 
 def _solved(A: sp.csc_array, b: ComplexArray | FloatArray, frequency: float) -> ComplexArray:
-    from scipy.sparse.linalg import splu
-
     try:
-        x = np.linalg.solve(A.toarray(), b) if len(b) <= _DENSE else splu(A).solve(b)
+        x = np.linalg.solve(A.toarray(), b) if len(b) <= _DENSE else spla.splu(A).solve(b)
     except (np.linalg.LinAlgError, RuntimeError):
         x = np.full(len(b), np.nan)
     size = float(np.abs(b).max()) if len(b) else 0.0
@@ -243,17 +241,15 @@ def _closer_near(natural: FloatArray, low: float, high: float) -> FloatArray:
 
 def natural_frequencies(system: _System) -> FloatArray:
     """Undamped natural frequencies in Hz, increasing, rigid motions left out."""
-    from scipy.linalg import eig, null_space
-
     free = np.eye(system.numbering.size)
     if system.rows.C.shape[0]:
-        free = null_space(system.rows.C.toarray())
+        free = la.null_space(system.rows.C.toarray())
     springs = [r for r, _ in system._spring_blocks(0.0)]
     K = system.K + (
         assembly.assemble_blocks(springs, system.numbering) if springs else 0.0 * system.K
     )
     pair = [np.asarray(free.T @ np.asarray(matrix @ free)) for matrix in (K, system.M)]
-    values = np.asarray(eig(pair[0], pair[1], right=False))
+    values = np.asarray(la.eig(pair[0], pair[1], right=False))
     real = np.asarray(values[np.isfinite(values)].real, float)
     if not len(real) or real.max() <= 0.0:
         return np.zeros(0)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import optimize
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
@@ -147,7 +148,6 @@ def _slipped(
     if gone(last) <= slip:  # all of it slips back: T' = c exp(h)
         c = (float((T * flexible).sum()) - slip) / float((np.exp(h) * flexible).sum())
         return np.maximum(c * np.exp(h), 0.0)
-    from scipy.optimize import brentq
 
-    H = brentq(lambda v: gone(v) - slip, 0.0, last, xtol=1e-14)
+    H = optimize.brentq(lambda v: gone(v) - slip, 0.0, last, xtol=1e-14)
     return np.where(h < H, force * np.exp(h - 2 * H), T)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import is_symmetric, vector_to_field
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, imaginary
@@ -112,6 +112,4 @@ def count_negative(A: sp.csr_array) -> int:
 
 
 def _by_eigenvalues(A: sp.csr_array, size: float) -> int:
-    import scipy.linalg as la
-
     return int(np.sum(la.eigvalsh(A.toarray()) < -1e-12 * size))

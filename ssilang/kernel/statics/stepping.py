@@ -110,7 +110,7 @@ def _at_load_step(
             "kernel.statics.at-load-step", step=k, time=problem.times[k], failure=failure
         ) from None
     if outcome.turns <= 0:
-        raise _lost(problem, motion, k, outcome)
+        raise lost(problem, motion, k, outcome)
     return outcome
 
 
@@ -303,7 +303,8 @@ def _ground_gives_way(
     )
 
 
-def _lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
+def lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
+    """What is said of a step without equilibrium: ground that yields, joints all open, or not."""
     joints, at = problem.interface, dict[str, Any](step=step, time=problem.times[step])
     if joints is not None and joints.beds:
         return _ground_gives_way(problem, joints, motion, step)

@@ -1,7 +1,6 @@
 """Yield criteria of stresses: negative inside, zero on the surface, in the unit of the stress."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,15 +18,12 @@ from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic import rounded_coulomb
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
 from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.points import PlasticPoints, is_plastic
 from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.statics.constitutive import joint_points, joint_state, section_stress
 from ssilang.kernel.stepping.problem.plausibility import solver_of
-from ssilang.kernel.stepping.problem.problem import closed_stiffness
-
-if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.bulk import Bulk, State
-    from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, closed_stiffness
 
 Criterion = Callable[[PointParameters, FloatArray, FloatArray], FloatArray]
 """Criterion (m,) from parameters, stresses (m, 6), internal variables (m, k)."""
@@ -46,7 +42,7 @@ FAR, MOST, MANY = 5.0, 0.5, 0.1
 """Times what points bear without pressure; shares of points that yield, and go so far."""
 
 
-def unconfined(problem: "Problem", bulk: "Bulk", state: "State") -> tuple[str, float, float] | None:
+def unconfined(problem: Problem, bulk: Bulk, state: State) -> tuple[str, float, float] | None:
     """Points that forces of an elastic first step take beyond what they bear without pressure.
 
     Returns

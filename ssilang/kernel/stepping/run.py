@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,19 +19,17 @@ from ssilang.kernel.stepping.choose import (
     refuse_combinations,
     rule_named,
 )
+from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.problem import initial
 from ssilang.kernel.stepping.problem.bodies import full_uplift
 from ssilang.kernel.stepping.problem.problem import Problem, react
+from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, kept_instant, snapshot_of
 from ssilang.kernel.stepping.state import N_ENERGIES, Motion, recorder_of, rows_of
 from ssilang.kernel.stepping.times import SAME, Run, runs_of
 from ssilang.kernel.stepping.track import Taps, Track, rows_of_tap
 from ssilang.messages.message import Sentence
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.driven import Driver
-    from ssilang.kernel.stepping.rests.reduced.basis import Reduction
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
@@ -71,7 +69,7 @@ class History:
     solver: str = ""
     loop: str = ""
     seconds: float = 0.0
-    reduction: "Reduction | None" = None
+    reduction: Reduction | None = None
     method: Sentence | None = None
     beyond: dict[str, float] = field(default_factory=dict)
 
@@ -116,7 +114,7 @@ class Integration:
     observers: Sequence[Observer] = ()
     progress: Progress | None = None
     full_newton: bool = False
-    driver: "Driver | None" = None
+    driver: Driver | None = None
     keeper: keeping.Keeper | None = None
     motion: Motion = field(init=False)
     taps: Taps = field(init=False)
@@ -128,8 +126,6 @@ class Integration:
             size = p.numbering.size
             raise KernelError("kernel.stepping.conditions-hold-every-unknown", count=size)
         if self.driver is not None:
-            from ssilang.kernel.stepping.driven import Drive
-
             self._drive = Drive(self.problem, self.driver, self.full_newton)
             p = self._drive.start()
         joints = initial.joint_state(p)
@@ -377,7 +373,7 @@ def integrate(
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
     full_newton: bool = False,
-    driver: "Driver | None" = None,
+    driver: Driver | None = None,
     keeper: keeping.Keeper | None = None,
 ) -> History:
     """Integrate a problem over its times.

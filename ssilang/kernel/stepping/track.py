@@ -15,7 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.problem.problem import Problem, joint_forces
 from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.state import Motion, Peaks, Room, Tap, peaks_of, tap_of
 
@@ -217,8 +217,6 @@ class Balance:
         for part in forces:
             found += part.T
         if p.interface is not None:
-            from ssilang.kernel.stepping.problem.problem import joint_forces
-
             J = p.interface.J[:, self.at]
             found = found + joint_forces(p, rows.joints.t) @ J if J.nnz else found
         return found

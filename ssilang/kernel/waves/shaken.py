@@ -13,6 +13,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.kernel.statics.cells_amiss import bordered_solids
@@ -20,8 +22,6 @@ from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.waves.resolution import ELEMENTS_A_WAVE, longest_sides
 
 if TYPE_CHECKING:
-    from ssilang.kernel.materials.model import Zone
-    from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
     from ssilang.kernel.stepping.problem.problem import Problem
 
 AXES = ("UX", "UY", "UZ")
@@ -138,7 +138,7 @@ class Long:
 
 
 def unlike_sides(
-    stiffness: "Matrix", mass: "Matrix", damping: "Matrix"
+    stiffness: Matrix, mass: Matrix, damping: Matrix
 ) -> tuple[int, float, bool] | None:
     """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
 
@@ -173,9 +173,27 @@ def unlike_sides(
     return None
 
 
+def absorbing_ends(stiffness: "Matrix", damping: "Matrix") -> tuple[IntArray, IntArray]:
+    """Nodes of the highest sides of cells if some have dashpots, of the lowest if none has."""
+    dampers = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+    solids, ends = bordered_solids(stiffness) if dampers else [], list[IntArray]()
+    braked = np.concatenate([face_keys(b.nodes) for b in dampers] or [np.zeros(0, np.int64)])
+    heights = [b.table.coordinates[b.nodes, z.cells.kind.dimension - 1] for b, z, _ in solids]
+    for level, absorbs in ((max((x.max() for x in heights), default=0.0), True),
+                           (min((x.min() for x in heights), default=0.0), False)):  # fmt: skip
+        faces = [braked[:0].reshape(0, 2)]
+        for (block, zone, border), x in zip(solids, heights, strict=True):
+            for (_, at), own in zip(zone.cells.kind.faces, border, strict=True):
+                flat = own & (np.abs(x[:, at] - level).max(axis=1) < SAME * np.ptp(x))
+                faces.append(block.nodes[flat][:, at])
+        on = any(np.isin(face_keys(f), braked).any() for f in faces if len(f))
+        ends.append(np.concatenate([f.ravel() for f in faces if on is absorbs] or [braked[:0]]))
+    return ends[0], ends[1]
+
+
 def _strained(
-    block: "ElementMatrices",
-    mass: "ElementMatrices",
+    block: ElementMatrices,
+    mass: ElementMatrices,
     some: slice | IntArray,
     x: FloatArray,
     name: str,
@@ -188,7 +206,7 @@ def _strained(
 
 
 def longest_cell(
-    stiffness: "Matrix", mass: "Matrix", axis: str, frequency: float, upwards: bool = True
+    stiffness: Matrix, mass: Matrix, axis: str, frequency: float, upwards: bool = True
 ) -> Long | None:
     """The cell that is longest for shear waves of a frequency (Hz), None without cells.
 
@@ -209,8 +227,8 @@ def longest_cell(
 
 
 def _sheared(
-    stiffness: "Matrix", mass: "Matrix", axis: str
-) -> "Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]":
+    stiffness: Matrix, mass: Matrix, axis: str
+) -> Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]:
     """Some cells of solids with mass: `s K s` and `t M t` of a shear of one and a translation."""
     heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
     for block in stiffness.blocks:
@@ -224,7 +242,7 @@ def _sheared(
             yield block, zone, some, *_strained(block, heavy[id(block.raw_nodes)], some, up, axis)
 
 
-def matter(stiffness: "Matrix", mass: "Matrix") -> FloatArray:
+def matter(stiffness: Matrix, mass: Matrix) -> FloatArray:
     """Node, height, density, speed of shear waves (n, 4) of some cells of solids that have mass."""
     found = [np.zeros((0, 4))]
     for block, zone, some, stiff, whole in _sheared(stiffness, mass, "UX"):

@@ -205,9 +205,9 @@ class Binder:
             return self._several(a, after)
         if NAME in a.types:
             return self.call.take_name(a.optional)
-        if a.optional and a.types == ("MOT",) and self.call.peek_word() in SCALAR_RULES:
-            return a.default  # the ET, EGA ... behind the phrase is no name
-        operand = self.call.read(*a.types, after=after)
+        if a.optional and a.types == ("MOT",) and self._joins():
+            return a.default
+        operand = self.call.read(*a.types, after=after, only=a.behind)
         if operand is not None:
             return self._given(a, operand)
         if a.optional:
@@ -265,7 +265,7 @@ class Binder:
             values = []
             words = accepts(a.types, Mot(""))
             only = a.behind
-            while True:
+            while not (words and self._joins()):
                 operand = call.read(*a.types, after=after, only=only)
                 if operand is None:
                     # a keyword may stand between two operands, but for those of a keyword itself
@@ -347,9 +347,15 @@ class Binder:
     def _may_begin(self, g: Group) -> bool:
         """Whether the operand that a group begins with may stand there; no more is looked at."""
         first = g.entries[0] if g.entries else None
+        if type(first) is Argument and "MOT" in first.types and self._joins():
+            return False
         if not self._wordless or type(first) is not Argument or first.optional:
             return True
         return any(accepts(first.types, o.value) for o in self.call.operands)
+
+    def _joins(self) -> bool:
+        """Whether the next word is the ET, EGA ... behind the phrase, and no name."""
+        return self.call.peek_word() in SCALAR_RULES
 
     def _kept(self) -> _Kept:
         """The operands, and what the open levels have, as they stand."""

@@ -15,7 +15,8 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.errors import ReaderLeft, SeveralErrors, SsiError
 from ssilang.language.search import nearest
 from ssilang.language.text import tree
-from ssilang.language.text.source import Span
+from ssilang.language.text.parser import parse_statements
+from ssilang.language.text.source import Source, Span
 from ssilang.language.values import (
     MAY_BE_EMPTY,
     LazyRows,
@@ -331,9 +332,6 @@ def _empty_ones(operands: Iterable[Operand]) -> Iterator[Operand]:
 
 def _words_of(item: tree.Quoted) -> list[list[tree.Item]]:
     """Items of the text of a quoted part of a TEXTE, and the names in front of its `=`."""
-    from ssilang.language.text.parser import parse_statements
-    from ssilang.language.text.source import Source
-
     # behind a blank: a sign * in the first column would begin a comment
     source = Source(item.span.source.name, " " + item.text + ";")
     try:

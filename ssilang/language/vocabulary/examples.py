@@ -72,6 +72,10 @@ EXAMPLES: dict[str, str] = {
     "law creep": _SQUARE
     + "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'FLUAGE' 'NORTON' ;\n"
     + "A = MATE M 'YOUN' 2.E11 'NU' 0.3 'AF1' 1.E-30 'AF2' 3. 'AF3' 1. ;\nLIST (TYPE A) ;",
+    "law damage": _SQUARE
+    + "M = MODE S 'MECANIQUE' 'ELASTIQUE' 'ENDOMMAGEMENT' 'MAZARS' ;\n"
+    + "A = MATE M 'YOUN' 3.1E10 'NU' 0.2 'KTR0' 1.E-4 'ATRA' 0.8 'BTRA' 17000. 'ACOM' 1.4\n"
+    + "    'BCOM' 1900. ;\nLIST (TYPE A) ;",
     "law joint": _SIDES
     + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ;\n"
     + "A = MATE M 'KN' 1.E10 'KS' 1.E10 'FROT' 0.5 ;\nLIST (TYPE (RIGI M A)) ;",

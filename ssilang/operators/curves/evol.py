@@ -4,6 +4,7 @@ from weakref import WeakKeyDictionary
 
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
+from ssilang.kernel.waves.shaken import axes_of, is_shaken
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves import instants
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
@@ -287,7 +288,6 @@ def _are_relative(fields: Sequence[Any], index: str, name: str) -> bool:
     """Whether results are accelerations relative to a ground that shakes along their axis."""
     if index != "ACCE" or not isinstance(fields, instants.RecordedFields):
         return False
-    from ssilang.kernel.waves.shaken import is_shaken
 
     return is_shaken(fields.track.problem, name)
 
@@ -321,7 +321,6 @@ def _tell_rounding(
     if not isinstance(fields, instants.RecordedFields):
         return
     from ssilang.kernel.stepping.problem.bodies import held
-    from ssilang.kernel.waves.shaken import axes_of
 
     problem, code = fields.track.problem, "operators.curves.only-rounding"
     found = {n: fields.track.history(fields.name, n, node) for n in axes_of(problem)}

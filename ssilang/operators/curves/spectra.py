@@ -3,6 +3,7 @@
 from ssilang.io.plots.palette import index_of
 from ssilang.kernel.modal.oscillator import default_frequencies, response, spectrum
 from ssilang.kernel.records.floors import Storey, floor_spectrum
+from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
 from ssilang.kernel.records.signals import rotated_spectra
 from ssilang.operators.curves.words import *
 from ssilang.operators.mesh.selection.boundaries import enve
@@ -190,8 +191,6 @@ def _spon(
     ),
     colour: str = Key("COUL", "MOT", kind="colour", default="DEFA", en="colour"),
 ) -> Curve:
-    from ssilang.kernel.records.inelastic import limits_for_ductility, yielding_peaks
-
     if takeda:
         raise call.error("operators.curves.takeda-not-available")
     if law is None or len(kinds) != 2:
@@ -265,7 +264,5 @@ def envelope_of_spectra(call: Call, table: Table = Arg("TABLE", en="spectra")) -
             if abs(d - damping) <= SAME * max(damping, 1e-12)
         ]
         parts.append(largest(same))
-    made = Table()
-    made.set(Mot("SPECTRE"), Curve(tuple(parts), spectra[0][0].title))
-    made.set(Mot("AMORTISSEMENT"), ListReel(kept))
-    return made
+    envelope = Curve(tuple(parts), spectra[0][0].title)
+    return Table.of({"SPECTRE": envelope, "AMORTISSEMENT": ListReel(kept)})

@@ -5,14 +5,11 @@ from itertools import count
 from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
 from ssilang.io.plots.graphs.line_style import DASHES, LINE_OPTIONS, LineStyle, parse_style
 from ssilang.io.plots.graphs.traces import seen
+from ssilang.io.recording import Recording
 from ssilang.language.registry import Select, words_in
 from ssilang.operators.drawing import pictures
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.io.recording import Recording
-
 
 _ENDS = (arg("low", "FLOTTANT", range=ANY_NUMBER), arg("high", "FLOTTANT", range=ANY_NUMBER))
 
@@ -190,7 +187,7 @@ def _told_apart(curves: tuple[Operand, ...]) -> dict[int, str]:
 
 
 def _take_down(
-    recording: "Recording", curve: Curve, options: CurveOptions, title: str, files: list[str]
+    recording: Recording, curve: Curve, options: CurveOptions, title: str, files: list[str]
 ) -> None:
     """The same curves for the run's report, where they are of numbers."""
     numbers = options.chosen or range(1, len(curve.parts) + 1)

@@ -1,15 +1,13 @@
 """CHARMECA: what a procedure of the script adds to matrices and loads at each step of DYNAMIC."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ssilang.kernel.matrices.assembly import vector_to_field
+from ssilang.kernel.stepping.driven import Additions, State
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.language.values import Mot, Table
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.driven import Additions, State
-    from ssilang.kernel.stepping.problem.problem import Problem
 
 TERMS = {
     "ADDI_KNL": "stiffness",
@@ -29,10 +27,8 @@ class AddedByProcedure:
     def __init__(self, entries: Entries) -> None:
         self.entries = entries
 
-    def __call__(self, time: float, state: "State", problem: "Problem") -> "Additions":
+    def __call__(self, time: float, state: State, problem: Problem) -> Additions:
         """Additions at `time`."""
-        from ssilang.kernel.stepping.driven import Additions
-
         self.entries.table.set(Mot("ETAT"), _table_of(state, problem))
         results = call_user(self.entries.call, "CHARMECA", self.entries.table, time)
         if len(results) != 1 or not isinstance(results[0], Table):
@@ -43,9 +39,7 @@ class AddedByProcedure:
         return Additions(**given)
 
 
-def _table_of(state: "State", problem: "Problem") -> Table:
-    table = Table()
-    table.set(Mot("TEMP"), state.time)
-    for word, values in (("DEPL", state.u), ("VITE", state.v), ("ACCE", state.a)):
-        table.set(Mot(word), vector_to_field(values, problem.numbering))
-    return table
+def _table_of(state: State, problem: Problem) -> Table:
+    motion = {"DEPL": state.u, "VITE": state.v, "ACCE": state.a}
+    fields = {word: vector_to_field(x, problem.numbering) for word, x in motion.items()}
+    return Table.of({"TEMP": state.time, **fields})

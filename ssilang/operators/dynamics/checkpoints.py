@@ -5,27 +5,26 @@ and the instants that they were given. An observer that says what it holds (`con
 (`restore`); tracks get their rows back, the others are given their instants again.
 """
 
-from __future__ import annotations
-
 import time
 from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
+from ssilang.io.checkpoint import Checkpoints, Kept, Rows, changed_names
+from ssilang.kernel.base.compiled.machine import processor
+from ssilang.kernel.plasticity.bulk import Bulk
+from ssilang.kernel.plasticity.bulk import State as BulkState
+from ssilang.kernel.plasticity.snapshot import BulkSnapshot
+from ssilang.kernel.stepping.keeping import State, digest_of, fitting, leaves, rebuilt, stride_of
+from ssilang.kernel.stepping.problem.problem import Problem
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.track import Rows as TrackRows
+from ssilang.kernel.stepping.track import Track, View
 from ssilang.operators.files.outputs import digests_of_read, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 from ssilang.threads import blas
-
-if TYPE_CHECKING:
-    from ssilang.io.checkpoint import Checkpoints, Kept, Rows
-    from ssilang.kernel.plasticity.bulk import Bulk
-    from ssilang.kernel.plasticity.bulk import State as BulkState
-    from ssilang.kernel.stepping.keeping import State
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-    from ssilang.kernel.stepping.track import Rows as TrackRows
 
 Bodies = tuple["Bulk", "BulkState"]
 
@@ -84,8 +83,6 @@ class KeptCalculation:
         """Keep an instant for those that are given it again."""
         found = [snapshot.step, *(getattr(snapshot, name) for name in PARTS)]
         if self.bodies is not None:
-            from ssilang.kernel.stepping.keeping import leaves
-
             found += leaves(getattr(snapshot, "bulk_state"))  # noqa: B009
         self._waiting.append(found)
 
@@ -96,8 +93,6 @@ class KeptCalculation:
 
     def stride(self, done: int, unknowns: int) -> int:
         """Steps up to the next instant at which the state may be kept."""
-        from ssilang.kernel.stepping.keeping import stride_of
-
         return stride_of(done, unknowns, self.every)
 
     @contextmanager
@@ -141,8 +136,6 @@ class KeptCalculation:
 
     def last(self) -> State | None:
         """What an earlier run kept; the observers get what they had."""
-        from ssilang.kernel.stepping.keeping import fitting
-
         kept = self.checkpoints.read(self.number)
         if kept is None:
             return None
@@ -150,8 +143,6 @@ class KeptCalculation:
             return self._taken(kept)
 
     def _taken(self, kept: Kept) -> State:
-        from ssilang.io.checkpoint import changed_names
-
         self._check(kept.call)
         for batch in kept.rows:
             for i, track in enumerate(self._tracks):
@@ -199,10 +190,6 @@ class KeptCalculation:
         return dict(zip(names, columns, strict=False))
 
     def _instants(self, rows: Rows) -> Iterator[Snapshot]:
-        from ssilang.kernel.plasticity.snapshot import BulkSnapshot
-        from ssilang.kernel.stepping.keeping import rebuilt
-        from ssilang.kernel.stepping.snapshot import Snapshot
-
         times = self.problem.times
         for k, step in enumerate(rows["step"].tolist() if "step" in rows else ()):
             parts = {name: rows[name][k] for name in PARTS}
@@ -218,8 +205,6 @@ class KeptCalculation:
     # ---- whose it is
 
     def _call(self) -> dict[str, Any]:
-        from ssilang.kernel.stepping.keeping import digest_of, leaves
-
         p = self.problem
         self._known = self._known or digest_of(p)
         bodies = [] if self.bodies is None else [str(np.shape(x)) for x in leaves(self.bodies[1])]
@@ -235,8 +220,6 @@ class KeptCalculation:
 
     def _check(self, kept: dict[str, Any]) -> None:
         """Refuse what an earlier run kept of another calculation, or read from other files."""
-        from ssilang.io.checkpoint import changed_names
-
         own, folder = self._call(), self.checkpoints.folder
         if changed := changed_names(kept["files"], own["files"]):
             raise self.entries.error(
@@ -261,8 +244,6 @@ def arithmetic() -> dict[str, str]:
     """What the last bits of a result depend on, by name."""
     import scipy
 
-    from ssilang.kernel.base.compiled.machine import processor
-
     found = {"numpy": np.__version__, "scipy": scipy.__version__}
     for library in (np, scipy):
         kernels, threads = blas(Path(str(library.__file__)).parent)
@@ -277,8 +258,6 @@ def _holds(observer: Observer) -> bool:
 
 def _is_track(observer: Observer) -> bool:
     """Whether an observer takes rows (a table of whole instants does not)."""
-    from ssilang.kernel.stepping.track import Track
-
     return isinstance(observer, Track) and not getattr(observer, "whole", False)
 
 
@@ -330,9 +309,6 @@ def _parts_of(rows: TrackRows) -> dict[str, NDArray[Any]]:
 
 
 def _piece_of(problem: Problem, unknowns: IntArray, parts: dict[str, NDArray[Any]]) -> TrackRows:
-    from ssilang.kernel.stepping.track import Rows as TrackRows
-    from ssilang.kernel.stepping.track import View
-
     steps = parts["step"]
     shapes = {name: x.shape[1:] for name, x in parts.items() if name != "step"}
     view = View(unknowns, shapes)

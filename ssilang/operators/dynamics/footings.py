@@ -123,27 +123,21 @@ def _results(
     u: FloatArray,
 ) -> Table:
     normal = footing.normal[: interface.dimension]
-    result = Table()
-    for name, values in {
+    lists = {
         "PART": loads.share,
         "FORCE": loads.force,
         "CISA": shear,
         "PRESSION": loads.pressure,
         "OUVERTURE": loads.opening,
         "ENFONCEMENT": -_mean_motion(interface.joints, numbering, u, normal),
-    }.items():
-        result.set(name, ListReel(values))
-    result.set("AIRE", footing.area)
+    }
     levers = (
         _arms(interface.joints, footing) if footing.outline is None else footing.outline.levers()
     )
-    for name, rows in (
-        ("MOMENT", loads.moment.T),
-        ("ROTATION", loads.rotation.T),
-        ("BRAS", levers),
-    ):
-        result.set(name, Table.numbered(ListReel(values) for values in rows))
-    return result
+    axes = {"MOMENT": loads.moment.T, "ROTATION": loads.rotation.T, "BRAS": levers}
+    found: dict[str, Any] = {name: ListReel(values) for name, values in lists.items()}
+    inner = {name: Table.numbered(map(ListReel, rows)) for name, rows in axes.items()}
+    return Table.of(found | {"AIRE": footing.area} | inner)
 
 
 def _mean_motion(

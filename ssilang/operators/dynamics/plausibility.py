@@ -1,13 +1,14 @@
 """What DYNAMIC warns of before it steps: inputs that are well typed and make no sense together."""
 
-from __future__ import annotations
-
 import numpy as np
 
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.families import unlike
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.interface.interface import is_macro, joint_zones, replaced_blocks
+from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones, replaced_blocks
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import LAWS, law_of
 from ssilang.kernel.materials.model import same_elements
@@ -16,6 +17,8 @@ from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
 from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
 from ssilang.kernel.statics.linear_motion import rigid_motions
+from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, held, loose_bodies
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.plausibility import (
@@ -29,6 +32,7 @@ from ssilang.kernel.stepping.problem.plausibility import (
     overloads,
     stiffness_contrast,
 )
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.kernel.waves.shaken import AXES, translations
 from ssilang.operators.dynamics.damped import OVERDAMPED, damped_heavily
 from ssilang.operators.dynamics.reports import conserved
@@ -36,6 +40,7 @@ from ssilang.operators.dynamics.shaking import (
     beside_free_field,
     bridged,
     sides_unlike,
+    stops_on_held,
     warn_of_shaking,
 )
 from ssilang.operators.dynamics.standing import (
@@ -49,6 +54,7 @@ from ssilang.operators.dynamics.standing import (
     masses_apart,
     matter_amiss,
     out_of_balance,
+    rest_of_others,
     rotary_alone,
     stops_across,
     stops_turned,
@@ -61,14 +67,6 @@ from ssilang.operators.dynamics.standing import (
 from ssilang.operators.matrices.connections import warn_connections, warn_repeated
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-    from ssilang.kernel.curves.curve import Load
-    from ssilang.kernel.interface.interface import Interface
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.node_histories import NodeHistories
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 NAMED = 4  # values and bodies that a warning names
 NOUGHT = 1e-3  # part of a curve's largest value that counts as nought at its ends
@@ -254,15 +252,16 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
     _joints_of_others, _on_supports, _mass_held, _viscosity_unread, bridged, unequal_joints,
     ground_twice, footing_too_wide, sides_unlike, beside_free_field, matter_amiss,
     rotary_alone, weak_cores, mass_of_both, damped_heavily, stops_turned, stops_across,
-    weight_of_part, mass_of_beam, masses_apart, _mass_missing, hangs_on_springs,
+    weight_of_part, mass_of_beam, masses_apart, _mass_missing, hangs_on_springs, stops_on_held,
 )  # fmt: skip
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
+    stops_on_held,
 )  # fmt: skip
 OF_STIFFNESS = (
     _masses_alone, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
-    braked,
+    braked, rest_of_others,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 
@@ -439,6 +438,22 @@ def warn_of_bodies(entries: Entries, inputs: Inputs) -> None:
     if len(nodes) and not any(z.formulation == "CONTACT" for z in zones):
         told = {"count": len(nodes), "node": inputs.stiffness.table.told(int(nodes[0]))}
         entries.warn("operators.matrices.bodies-apart", **told)
+
+
+def warn_of_material(entries: Entries, inputs: Inputs) -> None:
+    """Warn of conditions on cells that have a material and stand in no model."""
+    model, given = entries.get("MODELE"), entries.get("CARACTERISTIQUES")
+    stiff, zones = inputs.stiffness, () if model is None else model.zones
+    resolve, none = stiff.table.resolve, np.zeros(0, np.int64)
+    known = [b.nodes.ravel() for b in stiff.blocks]
+    known += [resolve(z.cells.raw).ravel() for z in zones]
+    held = [resolve(r.nodes) for r in stiff.relations]
+    lost = np.setdiff1d(np.concatenate([none, *held]), np.concatenate([none, *known]))
+    for block in given.blocks if isinstance(given, CellField) and len(lost) else ():
+        if len(own := np.intersect1d(resolve(block.cells.raw), lost)):
+            told = {"count": len(block.cells), "node": stiff.table.told(int(own[0]))}
+            entries.warn("operators.statics.material-without-model", **told)
+            return
 
 
 def warn_of_connections(entries: Entries, inputs: Inputs) -> None:

@@ -1,31 +1,28 @@
 """What `--report` takes down of a calculation: footings, energies, some instants of what moves."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ssilang.io.recording import Recording
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.interface.footing import Footing, Loads
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
+from ssilang.kernel.stepping.run import History
+from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics.motion_files import VtkObserver, stress_of
 from ssilang.operators.dynamics.reports import ENERGIES
+from ssilang.operators.dynamics.watching import joint_places
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
-
-if TYPE_CHECKING:
-    from ssilang.kernel.interface.footing import Footing, Loads
-    from ssilang.kernel.stepping.extremes import Extremes
-    from ssilang.kernel.stepping.node_histories import FootingHistories
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-    from ssilang.kernel.stepping.run import History
-    from ssilang.kernel.stepping.snapshot import Observer
 
 INSTANTS = 2000
 """Instants at most of the histories."""
@@ -100,8 +97,6 @@ def calculation_record(
     entries: Entries, problem: Problem, inputs: Inputs
 ) -> CalculationRecord | None:
     """What takes the calculation down; None if nobody asked, or enough have been."""
-    from ssilang.kernel.stepping.node_histories import footing_histories
-
     output = run_output(entries.call.session)
     recording = output.recording
     if recording is None or not recording.takes_more:
@@ -184,8 +179,6 @@ def _told(footing: Footing, problem: Problem) -> dict[str, Any]:
 
 def _largest(extremes: Extremes) -> list[dict[str, Any]]:
     """Largest values over all steps, for `contents.json`."""
-    from ssilang.operators.dynamics.watching import joint_places
-
     problem, found = extremes.problem, []
     table = problem.numbering.table
     for (kind, name), peak in extremes.found().items():

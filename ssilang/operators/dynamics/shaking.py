@@ -26,6 +26,7 @@ from ssilang.kernel.waves.shaken import (
     GRAVITIES,
     LARGE,
     SAME,
+    absorbing_ends,
     is_record,
     longest_cell,
     shares,
@@ -89,7 +90,7 @@ class _Entering:
             yield "operators.dynamics.damped-against-ground", {}
         yield from self._twice_along()
         finds = self._sides(), self._masses_one_way(), self._long_cells(), self._columns()
-        yield from chain(*finds, self._driven_in_part())
+        yield from chain(*finds, self._driven_in_part(), self._driven_beyond())
 
     def _twice_along(self) -> Told:
         """Records along one axis, each by its load, while nothing shakes along another."""
@@ -189,6 +190,24 @@ class _Entering:
                     yield "operators.dynamics.driven-in-part", {**told, "whole": whole[body]}
                     return
 
+    def _driven_beyond(self) -> Told:
+        """Records that drive nodes by a mass that these have not, and all others by their own."""
+        problem, curves = self.problem, self.problem.loading.curves
+        for k in (k for k in np.flatnonzero(self.changing) if is_record(curves[k][1])):
+            for axis, e in zip(self.axes, self.along.T, strict=True):
+                force, mass = np.abs(problem.loading.forces[:, k]) * e, (problem.M @ e) * e
+                driven = np.flatnonzero(force * (mass >= 0.0))
+                pull = force[driven] / np.maximum(mass[driven], 1e-300)
+                usual = float(np.median(pull)) if len(pull) else 0.0
+                same = np.abs(pull - usual) < SAME * usual
+                if same.sum() < MANY or not (same | (pull > usual)).all() or same.all():
+                    continue
+                worst = driven[pull.argmax()]
+                told = {"driven": force[worst] / usual, "mass": mass[worst], "axis": axis}
+                told["node"] = problem.numbering.table.told(problem.numbering.nodes[worst])
+                yield "operators.dynamics.driven-beyond", told | {"name": self.start.names[k]}
+                return
+
     def _long_cells(self) -> Told:
         """Cells with too few of them in a wavelength of what shakes, the worst of each load."""
         load, mass = self.inputs.load, self.inputs.mass
@@ -272,6 +291,10 @@ def sides_unlike(start: Start) -> Told:
         if found is not None:
             told = {"node": inputs.mass.table.told(found[0]), "times": found[1], "base": found[2]}
             yield "operators.dynamics.sides-unlike", told
+        top, bottom = absorbing_ends(inputs.stiffness, inputs.damping)
+        known = start.problem.numbering.nodes
+        if len(top) and len(bottom) and not held(start.problem)[np.isin(known, bottom)].any():
+            yield "operators.dynamics.surface-absorbs", {"node": inputs.mass.table.told(top[0])}
 
 
 def beside_free_field(start: Start) -> Told:
@@ -318,6 +341,18 @@ def bridged(start: Start) -> Told:
         yield from _ground_held(problem, own, lower, axis)
 
 
+def stops_on_held(start: Start) -> Told:
+    """Sides in contact that are held whole, on cells that go on below them."""
+    contact, numbering = start.problem.contact, start.problem.numbering
+    for sign in (1.0, -1.0) if contact is not None and len(contact) else ():
+        assert contact is not None
+        side = contact.G.indices[contact.G.data * sign > 0.0]
+        push = np.bincount(numbering.codes[side], np.abs(contact.G.data[contact.G.data * sign > 0]))
+        if len(side) and (axis := numbering.unknowns[int(push.argmax())]) in AXES:
+            lower = np.unique(numbering.nodes[side])
+            yield from _ground_held(start.problem, start.inputs.stiffness, lower, axis)
+
+
 def _across(
     block: ElementMatrices, lower: IntArray, upper: IntArray, axis: str, least: float
 ) -> IntArray:
@@ -334,7 +369,8 @@ def _ground_held(problem: Problem, stiffness: Matrix, lower: IntArray, axis: str
     """A joint's lower side held whole, on cells that go on below it."""
     numbering, free = problem.numbering, ~held(problem)
     along = numbering.nodes[(numbering.codes == numbering.code(axis)) & free]
-    if np.isin(lower, along).any() or problem.loading.imposed.any():
+    moved = abs(problem.constraints.C.T) @ np.abs(problem.loading.imposed).sum(axis=1) > 0.0
+    if np.isin(lower, along).any() or np.isin(lower, numbering.nodes[moved]).any():
         return
     zoned = [b for b in stiffness.blocks if b.zone is not None and not is_joint(b.zone)]
     solid = [b.nodes for b in zoned if b.zone and b.zone.cells.kind.dimension > 1]

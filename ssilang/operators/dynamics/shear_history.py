@@ -3,12 +3,11 @@
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.results.tensors import largest_shear_strain
+from ssilang.kernel.stepping.node_histories import NodeHistories
+from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.curves.instants import AnyField, InstantField, RecordedFields
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import tell_no_unknown
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.node_histories import NodeHistories
 
 MOST_VALUES = 1 << 20
 """Values of element vectors held at a time."""
@@ -21,8 +20,6 @@ def zgam(
     motion: ListChpo | Table = Arg("LISTCHPO", "TABLE", en="displacements, or results of DYNAMIC"),
 ) -> CellField:
     """Largest strain zone by zone."""
-    from ssilang.operators.curves.evol import results_in_time
-
     fields: Sequence[AnyField] = (
         results_in_time(motion, "DEPL", unmade=True)[0]
         if isinstance(motion, Table)
@@ -45,7 +42,7 @@ def _vectors(layout: Layout, fields: Sequence[AnyField]) -> Iterator[FloatArray]
         yield layout.gather(made)[None]
 
 
-def _recorded(layout: Layout, track: "NodeHistories") -> Iterator[FloatArray]:
+def _recorded(layout: Layout, track: NodeHistories) -> Iterator[FloatArray]:
     """As `_vectors`, of what was recorded: no field is made."""
     numbering = track.problem.numbering
     nodes = layout.table.resolve(layout.raw_nodes)[:, layout.local]

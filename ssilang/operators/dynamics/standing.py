@@ -41,6 +41,7 @@ WEIGHT_TWICE = "operators.dynamics.weight-twice"
 FAR_MASS = 20.0  # sizes of the model that a radius of gyration may be: a chimney has ten widths
 LARGEST = 100.0  # m; a structure that is a point on a short joint may have less
 OFF = 1e-3  # of a load's factor: less is no other one
+REST_OFF = 0.02  # of the forces of joints: more are those of others
 FEW_STOPS = 50
 NEAR = 1.1  # times a load that stays as it is: what is held by more was pulled, to let it go
 AWAY = 0.2  # of the largest push: a mean that drives a body from its support
@@ -84,6 +85,25 @@ def out_of_balance(start: Start) -> Told:
         still = start.changing[k] or share[k] > NEAR * begins[k]
         if share[k] > OFF and (abs(ends[k] - share[k]) <= OFF * share[k] or not still):
             yield "operators.dynamics.out-of-balance", {"begins": begins[k], "held": share[k]}
+
+
+def rest_of_others(start: Start) -> Told:
+    """Displacements at which bodies are in balance with the loads of the start, joints are not.
+
+    Neither closed nor as they are: those that open or slip at rest are closed in RESO.
+    """
+    problem, joints = start.problem, start.problem.interface
+    loading, T = problem.loading, problem.constraints.T
+    if joints is None or problem.contact is not None or not problem.u.any():
+        return
+    acting, of_joints = T.T @ (loading.forces @ start.factors[0]), abs(joints.J @ T).sum(axis=0) > 0
+    held = _held_at_start(problem), closed_forces(problem, problem.u)
+    off = np.abs(T.T @ np.stack(held, axis=1) - acting[:, None])
+    balanced = off[~of_joints, 0].max(initial=0.0) < OFF * np.abs(acting).max(initial=0.0)
+    size = np.abs(T.T @ (held[0] - problem.K @ problem.u)).max(initial=0.0) or np.inf
+    part = off[of_joints].max(axis=0, initial=0.0).min() / size
+    if balanced and acting[~of_joints].any() and part > REST_OFF:
+        yield "operators.dynamics.rest-of-others", {"part": 100.0 * part}
 
 
 def weight_of_part(start: Start) -> Told:

@@ -25,11 +25,9 @@ KINDS = ("DEPL", "REACTIONS", "OUVERTURE", "COMPRESSION", "CISAILLEMENT")
 
 def extremes_table(extremes: Extremes) -> Table:
     """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
-    problem, made, inner = extremes.problem, Table(), dict[str, Table]()
+    problem, made = extremes.problem, Table()
     for (kind, name), peak in extremes.found().items():
-        entry = Table()
-        entry.set(Mot("VALEUR"), peak.value)
-        entry.set(Mot("TEMPS"), float(problem.times[peak.step]))
+        entry = Table.of({"VALEUR": peak.value, "TEMPS": float(problem.times[peak.step])})
         if not name:
             assert problem.interface is not None
             x = problem.numbering.table.shown(joint_places(problem.interface)[peak.place])
@@ -38,10 +36,7 @@ def extremes_table(extremes: Extremes) -> Table:
             continue
         node = problem.numbering.nodes[peak.place]
         entry.set(Mot("POINT"), Point(problem.numbering.table, int(node)))
-        if kind not in inner:
-            inner[kind] = Table()
-            made.set(Mot(kind), inner[kind])
-        inner[kind].set(Mot(name), entry)
+        made.inner(kind).set(Mot(name), entry)
     return made
 
 

@@ -114,7 +114,8 @@ def extr_value(
         raise call.error(
             "operators.fields.no-such-point", point, n_points=values.shape[1], point=point
         )
-    return values[cell - 1, 0 if values.shape[1] == 1 else point - 1]
+    value = values[cell - 1, 0 if values.shape[1] == 1 else point - 1]
+    return ListReel(value.ravel()) if isinstance(value, np.ndarray) else value  # Hooke's matrix
 
 
 def join_cell_fields(first: CellField, second: CellField) -> CellField:

@@ -110,8 +110,7 @@ def redu_dealt(
     table: Table = Arg("TABLE", en="models or meshes"),
 ) -> Table:
     """Field in cells on each part of a model."""
-    made = Table()
-    made.set(Mot("SOUSTYPE"), Mot("ESCLAVE"))
+    made = Table("ESCLAVE")
     for index, part in table.items():
         if isinstance(part, Model | Mesh):
             made.set(index, redu_cells(field, part))

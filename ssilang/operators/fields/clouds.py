@@ -59,7 +59,7 @@ def cloud_by_hand(call: Call) -> Cloud:
         if not call.operands or call.operands[0].span.text != "*":
             raise call.error("operators.fields.component-type-missing", name=name)
         call.operands.pop(0)
-        kinds[name] = str(call.required("MOT")).rstrip().upper()
+        kinds[name] = str(call.required("MOT")).rstrip().upper()[:8]
     if not kinds:
         raise call.missing(("MOT",))
     rows: list[list[object]] = []

@@ -31,11 +31,9 @@ def sens_of_fields(
     names = component_names(first)
     if len(names) != 1 or component_names(second) != names:
         raise call.error("operators.fields.one-component-compared", second)
-    made, start = Table(), 1
+    means: list[float] = []
     for block in added(first, second, -1.0).blocks:
         one = block.components[names[0]]
         values = np.broadcast_to(one, (len(block.cells), one.shape[1]))
-        for number, mean in enumerate(values.astype(float).mean(axis=1), start):
-            made.set(number, float(mean))
-        start += len(block.cells)
-    return made
+        means += values.astype(float).mean(axis=1).tolist()
+    return Table.numbered(means)

@@ -1,5 +1,6 @@
 """PSIP: signed distances to lines and surfaces."""
 
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.queries.signed_distance import beyond_front, beyond_tip, signed_distance
 from ssilang.operators.prelude import *
 
@@ -41,9 +42,7 @@ def psip(
 
 def _near(points: Any, mesh: Mesh, reach: float) -> Any:
     """Points within a reach (largest coordinate) of a node of the mesh."""
-    from scipy.spatial import cKDTree
-
-    tree = cKDTree(mesh.nodes.coordinates[mesh.sorted_node_ids])
+    tree = spatial.cKDTree(mesh.nodes.coordinates[mesh.sorted_node_ids])
     return tree.query(points, p=np.inf)[0] <= reach
 
 

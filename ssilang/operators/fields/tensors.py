@@ -233,7 +233,8 @@ def jaco(model: Model = MODEL) -> CellField:
             geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
             weights = support_rule(zone.element, "RIGIDITE").weights
             return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
-        if not (skin.is_shell(zone) or structural_gradients.is_structural(zone)):
+        shell = skin.is_shell(zone) or skin.is_thick_shell(zone)
+        if not (shell or structural_gradients.is_structural(zone)):
             raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         points = support_rule(zone.element, "RIGIDITE").points
         slopes = shape_gradients(zone.cells.cell_type, points)

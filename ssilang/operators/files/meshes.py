@@ -65,7 +65,7 @@ def mesh_table(call: Call, name: str, kind: str = "") -> Table:
         call.warn("operators.files.cells-left-out", name=path.name, told=told)
     if kind == "STL":
         warn_flat(call, path.name, read.points)
-    return _table(call, read, path.name)
+    return _table(call, read, path.name, kind)
 
 
 def _formats(word: str) -> dict[str, Any]:
@@ -73,11 +73,14 @@ def _formats(word: str) -> dict[str, Any]:
     return {"word": word, "near": nearest(word, known, 0.5), "known": known}
 
 
-def _table(call: Call, read: FileMesh, name: str) -> Table:
+def _table(call: Call, read: FileMesh, name: str, kind: str) -> Table:
     ws = workspace(call.session)
     dimension = ws.dimension
     outside = np.abs(read.points[:, dimension:]).max(axis=1, initial=0.0)
-    if dimension and (outside > 1e-9 * np.abs(read.points).max(initial=0.0)).any():
+    beyond = dimension and (outside > 1e-9 * np.abs(read.points).max(initial=0.0)).any()
+    if beyond and kind == "UNV":
+        ws.dimension, ws.mode, dimension = 3, Mode.THREE_DIMENSIONAL, 3
+    elif beyond:
         raise call.error(
             "operators.files.mesh-not-of-dimension", name=name, dimension=dimension,
             count=int((outside > 0).sum()),
@@ -110,6 +113,9 @@ def _table(call: Call, read: FileMesh, name: str) -> Table:
             made.set(Mot(index), _sound(Mesh(ws.nodes, cells)))
         if len(part.nodes):
             made.set(Mot(f"{index}_GN" if cells else index), poi1(ws.nodes, ids[part.nodes]))
+    if kind == "NASTRAN":
+        parts = {i: v for i, v in made.items() if str(i) in read.parts}
+        made.set(Mot("MAILLAGES"), Table.of(parts))
     return made
 
 

@@ -94,21 +94,15 @@ def _avs_table(call: Call, structure: Structure) -> Table:
     nodes = workspace(call.session).nodes
     ids = nodes.add(structure.points)
     blocks = [CellBlock.make(nodes, kind, ids[t]) for kind, _, t in structure.cells]
-    made, parts = Table(), Table()
-    for i, block in enumerate(blocks, start=1):
-        parts.set(i, Mesh(nodes, (block,)))
-    made.set(Mot("MAILSUPP"), poi1(nodes, ids))
     whole = Mesh(nodes, tuple(blocks))
     warn_repeated_cells(call, option_name(call.session, "LECT", 4), whole)
-    made.set(Mot("LEMAILLA"), whole)
-    made.set(Mot("SOUMAILA"), parts)
+    parts = Table.numbered(Mesh(nodes, (block,)) for block in blocks)
+    found: dict[str, Any] = {"MAILSUPP": poi1(nodes, ids), "LEMAILLA": whole, "SOUMAILA": parts}
     if structure.node_values:
-        made.set(Mot("LECHPOIN"), NodeField.of(nodes, ids, structure.node_values))
+        found["LECHPOIN"] = NodeField.of(nodes, ids, structure.node_values)
     if structure.cell_values:
-        made.set(Mot("LEMCHAML"), CellField(_cell_parts(structure, blocks), "SCALAIRE"))
-    for index, value in structure.model_values.items():
-        made.set(Mot(index), value)
-    return made
+        found["LEMCHAML"] = CellField(_cell_parts(structure, blocks), "SCALAIRE")
+    return Table.of(found | dict(structure.model_values))
 
 
 def _cell_parts(structure: Structure, blocks: list[CellBlock]) -> tuple[CellFieldBlock, ...]:

@@ -8,13 +8,14 @@ import ssilang.kernel.interface.family
 import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
+from ssilang.language.registry import find_operator
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import parse_statements
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.text.tree import Definition, Script, print_items
-from ssilang.language.values import Objet, Texte
+from ssilang.language.values import Objet, Solution, Texte
 from ssilang.operators.files.outputs import input_path, option_name, output_path, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.session.configurations import Configuration
@@ -90,11 +91,13 @@ def _texte(text: str) -> Texte:
     return Texte(tuple(item for s in statements for item in s.items))
 
 
+_SOLUTION = Packing(lambda s: list(s.modes), lambda modes: Solution(tuple(modes)))
 for _cls in (ListReel, ListEnti, ListMots, ListChpo, ListObje):
     register_packing(_cls, _cls.__name__, _list_packing(_cls))
 register_packing(Mot, "Mot", Packing(str, Mot))
 register_packing(Configuration, "Configuration", Packing(lambda c: c.coordinates, _configuration))
 register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
+register_packing(Solution, "Solution", _SOLUTION)
 register_packing(Texte, "Texte", Packing(lambda v: print_items(v.items), _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
 for _table in (Table, LazyTable, LazyRows):  # what is made later is made to be saved
@@ -139,9 +142,13 @@ def sauv(
     """Add a record to the file and write it."""
     frame = call.session.frame
     operands = [(o.name, o.value) for o in objects]
-    for name, value in operands:
-        if not name and isinstance(value, str) and frame.find(value.upper()) is None:
+    for name, value in [*operands]:
+        if name or not isinstance(value, str) or frame.find(value.upper()) is not None:
+            continue
+        if find_operator(value) is None:
             raise call.error("operators.files.no-object-to-save", value, value=value)
+        call.warn("operators.files.no-object-to-save", value, value=value)  # SAUV A ET B
+        operands.remove((name, value))
     if not operands:
         operands = [(n, frame.find(n)) for n in sorted(_own_names(frame))]
     save(call, operands, str(label).strip())

@@ -81,12 +81,8 @@ def _history(table: Table, x: FloatArray, asymptotes: tuple[FloatArray, FloatArr
     """The present point, the one before it and the asymptotes, for the next step of MOV."""
     before = table.get(_HISTORY)
     older = before.get(0) if isinstance(before, Table) else _table_of(x)
-    made = Table()
-    made.set(0, _table_of(x))
-    made.set(1, older)
-    made.set(2, _table_of(asymptotes[0]))
-    made.set(3, _table_of(asymptotes[1]))
-    return made
+    points = (_table_of(x), older, *map(_table_of, asymptotes))
+    return Table.of(dict(enumerate(points)))
 
 
 def _share(call: Call, table: Table, index: str, default: float, low: float, high: float) -> float:

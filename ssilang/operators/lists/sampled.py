@@ -1,5 +1,6 @@
 """DIAD LTL CVOL FONC ZLEG: lists of reals as samples, special functions, quadrature."""
 
+from ssilang.kernel.base.scientific import special
 from ssilang.operators.prelude import *
 
 
@@ -77,8 +78,6 @@ def _convolved(
 
 
 def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64]:
-    from scipy import special
-
     if kind == "BESS":
         found = {"J0": special.j0, "J1": special.j1, "Y0": special.y0, "Y1": special.y1}[name](x)
     elif kind == "FRES":

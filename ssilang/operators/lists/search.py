@@ -3,6 +3,7 @@
 from bisect import bisect_left, insort
 from itertools import takewhile
 
+from ssilang.kernel.base.scientific import optimize
 from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.operators.dispatch import ORDO, UNIQ
 from ssilang.operators.lists.places import taken
@@ -136,7 +137,7 @@ _ORDER = (
 _DISTINCT = key(
     "distinct",
     "UNIQ",
-    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0),
+    opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, behind=True),
     en="without doubles, within a tolerance",
 )
 _COST = (
@@ -198,12 +199,10 @@ def _together(call: Call, value: Sortable, others: tuple[Sortable, ...]) -> list
 
 def _cheapest(call: Call, cost: Any, n: int) -> tuple[float | int, list[int]]:
     """Least total cost, whole if the costs are, and the permutation that gives it."""
-    from scipy.optimize import linear_sum_assignment
-
     if len(cost) != n * n:
         raise call.error("operators.lists.cost-count", cost, needed=n * n, n=n, found=len(cost))
     costs = cost.values.reshape(n, n)
-    rows, order = linear_sum_assignment(costs.astype(float))
+    rows, order = optimize.linear_sum_assignment(costs.astype(float))
     return costs[rows, order].sum().item(), [int(i) for i in order]
 
 

@@ -5,7 +5,7 @@ from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numberin
 from ssilang.kernel.matrices.condensation import dependence
 from ssilang.kernel.matrices.matrix import imaginary as imaginary_of
 from ssilang.kernel.statics.linear import linear_system, product
-from ssilang.operators.dispatch import CHAN, DIME, EXTR, INTE, REDU, listing, union
+from ssilang.operators.dispatch import CHAN, DIFF, DIME, EXTR, INTE, REDU, listing, union
 from ssilang.operators.numbers.arithmetic import rule, rule_with_call
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.soundness import flaw_of
@@ -16,9 +16,22 @@ def intersection_of_matrices(
     first: Matrix = Main("RIGIDITE", en="matrix"), second: Matrix = Arg("RIGIDITE", en="matrix")
 ) -> Matrix:
     """What two matrices were both put together of."""
-    blocks = tuple(b for b in first.blocks if any(b is c for c in second.blocks))
-    relations = tuple(r for r in first.relations if any(r is c for c in second.relations))
-    return Matrix(first.table, blocks, relations, first.kind)
+    return _parts_of(first, second, True)
+
+
+@DIFF.form()
+def difference_of_matrices(
+    first: Matrix = Main("RIGIDITE", en="matrix"), second: Matrix = Arg("RIGIDITE", en="matrix")
+) -> Matrix:
+    """What one of two matrices alone was put together of."""
+    return parts.together(_parts_of(first, second, False), _parts_of(second, first, False))
+
+
+def _parts_of(one: Matrix, other: Matrix, common: bool) -> Matrix:
+    """Parts of a matrix that are parts of another one too, or that are none of it."""
+    blocks = tuple(b for b in one.blocks if any(b is c for c in other.blocks) is common)
+    relations = tuple(r for r in one.relations if any(r is c for c in other.relations) is common)
+    return Matrix(one.table, blocks, relations, one.kind)
 
 
 # --- signs -----------------------------------------------------------------------------------

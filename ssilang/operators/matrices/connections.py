@@ -7,7 +7,13 @@ from ssilang.kernel.mesh.nodes import told_coordinates
 from ssilang.kernel.statics import cells_amiss, doubled
 from ssilang.kernel.statics.linear_motion import crossed_lines, wrong_signs
 from ssilang.kernel.statics.stability import negative_unknowns
-from ssilang.kernel.statics.swapped_joints import repeated_joints
+from ssilang.kernel.statics.swapped_joints import (
+    drawn_gaps,
+    hinges,
+    inclinations,
+    repeated_joints,
+    swapped_joints,
+)
 from ssilang.operators.prelude import *
 
 Tell = Callable[..., None]
@@ -134,8 +140,6 @@ def warn_repeated(
 def _warn_swapped_joints(
     tell: Tell, matrix: Matrix, model: Model | None, characteristics: CellField | None
 ) -> None:
-    from ssilang.kernel.statics.swapped_joints import drawn_gaps, swapped_joints
-
     for node, gap in drawn_gaps(model, characteristics):
         tell("operators.matrices.gap-drawn", node=matrix.table.told(node), gap=gap)
     for found in swapped_joints(matrix, model, characteristics):
@@ -147,8 +151,6 @@ def _warn_swapped_joints(
 def _warn_footings(
     tell: Tell, matrix: Matrix, model: Model | None, characteristics: CellField | None
 ) -> None:
-    from ssilang.kernel.statics.swapped_joints import inclinations
-
     for node, angle in inclinations(model, characteristics):
         if angle > _TURNED:
             tell("operators.matrices.footing-turned", node=matrix.table.told(node))
@@ -157,8 +159,6 @@ def _warn_footings(
 
 
 def _warn_hinges(tell: Tell, matrix: Matrix, model: Model | None) -> None:
-    from ssilang.kernel.statics.swapped_joints import hinges
-
     joints = tuple(z for z in model.zones if is_joint(z)) if model is not None else ()
     found = hinges(matrix, joints)
     if found is None:

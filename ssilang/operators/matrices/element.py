@@ -5,7 +5,9 @@ from functools import wraps
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.rotating import corotational
 from ssilang.kernel.elements.boundary import absorbing_boundary
+from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
+from ssilang.kernel.elements.shells.shell_section import moduli_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.solids.solid_moduli import hooke_block
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -55,8 +57,7 @@ def nodes_of(place: Mesh | Point) -> IntArray:
 
 MODEL = arg("model", "MMODEL", en="model")
 PARAMETERS = many("fields", "MCHAML", at_least=1, en="parameters, or Hooke matrices")
-_REFERENCE = flag("reference", "REFE", en="accepted, changes nothing")
-_IGNORED = (flag("alone", "NOER", en="accepted, changes nothing"), _REFERENCE)
+_ON_MESH = flag("on_mesh", "REFE", en="of shells off the mesh (EXCE): of forces on the mesh")
 NO_ERROR = flag("silent", "NOER", en="an error gives its number as the result")
 
 
@@ -117,15 +118,12 @@ def _additional(
     MODEL,
     replace(PARAMETERS, optional=True),
     NO_ERROR,
-    _REFERENCE,
     family="matrix",
     full_name="RIGIDITE",
     gives=by("silent", {True: "RIGIDITE|ENTIER"}, default="RIGIDITE"),
 )
 @numbered()
-def rigi(
-    call: Call, model: Model, fields: tuple[CellField, ...], silent: bool, **_: bool
-) -> Matrix:
+def rigi(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) -> Matrix:
     """Elastic stiffness of a model."""
     if any(z.formulation == "CONTACT" for z in model.zones):
         # bodies, and the unilateral relations of sides
@@ -141,9 +139,7 @@ def rigi(
         return Matrix(model.mesh.nodes, tuple(blocks), relations, "RIGIDITE")
     if not fields:
         raise call.missing(("MCHAML",))
-    shown, material = present(call, model), joined(fields)
-    blocks = [families.stiffness(z, material) for z in shown.zones if not is_shape(z)]
-    return _assembled(shown, [*blocks, *_shapes(shown, material, "RIGIDITE")], "RIGIDITE")
+    return _whole(present(call, model), fields, families.stiffness, "RIGIDITE")
 
 
 @rigi.form(*_OF_SPRINGS)
@@ -152,18 +148,21 @@ def springs(call: Call, names: list[str], amount: float, place: Mesh | Point) ->
     return _additional(call, "RIGIDITE", names, amount, place)
 
 
-def _shapes(model: Model, material: CellField, kind: str) -> list[ElementMatrices]:
-    """The block of the modes and static shapes of a model, if it has any."""
-    block = shape_matrix(model.zones, material, kind)
-    return [] if block is None else [block]
+def _whole(
+    model: Model, fields: tuple[CellField, ...], of: Callable[..., ElementMatrices], kind: str
+) -> Matrix:
+    """The matrix of the bodies of a model, and of its modes and static shapes."""
+    material = joined(fields)
+    shapes = shape_matrix(model.zones, material, kind)
+    blocks = [of(z, material) for z in model.zones if not is_shape(z)]
+    return _assembled(model, blocks if shapes is None else [*blocks, shapes], kind)
 
 
-@operator("MASS", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="MASSE")
-def mass(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> Matrix:
+@operator("MASS", MODEL, PARAMETERS, family="matrix", full_name="MASSE")
+def mass(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Consistent mass of a model."""
-    shown, material = present(call, model), joined(fields)
-    blocks = [families.mass(z, material) for z in shown.zones if not is_shape(z)]
-    made = _assembled(shown, [*blocks, *_shapes(shown, material, "MASSE")], "MASSE")
+    shown = present(call, model)
+    made = _whole(shown, fields, families.mass, "MASSE")
     return workspace(call.session).weighed(made, *(z.constituent for z in shown.zones))
 
 
@@ -173,8 +172,8 @@ def masses(call: Call, names: list[str], amount: float, place: Mesh | Point) -> 
     return workspace(call.session).weighed(_additional(call, "MASSE", names, amount, place))
 
 
-@operator("LUMP", MODEL, PARAMETERS, *_IGNORED, family="matrix")
-def lump(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> Matrix:
+@operator("LUMP", MODEL, PARAMETERS, family="matrix")
+def lump(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Diagonal mass of a model."""
     shown, material = present(call, model), joined(fields)
     return _assembled(shown, [families.mass(z, material, True) for z in shown.zones], "MASSE")
@@ -201,13 +200,10 @@ def lump_of_matrix(
     MODEL,
     arg("boundary", "MAILLAGE", en="absorbing boundary"),
     PARAMETERS,
-    *_IGNORED,
     family="matrix",
     full_name="AMORTISSEMENT",
 )
-def amor(
-    call: Call, model: Model, boundary: Mesh, fields: tuple[CellField, ...], **_: bool
-) -> Matrix:
+def amor(call: Call, model: Model, boundary: Mesh, fields: tuple[CellField, ...]) -> Matrix:
     """Absorbing boundary."""
     shown = present(call, model)
     if inner := faces_inside(boundary, shown.mesh):
@@ -219,10 +215,9 @@ def amor(
     choice("turning", ("COROTATIF",), optional=False, en="the damping turns with the beams"),
     MODEL,
     PARAMETERS,
-    *_IGNORED,
 )
 def turning_damping(
-    call: Call, turning: bool, model: Model, fields: tuple[CellField, ...], **_: bool
+    call: Call, turning: bool, model: Model, fields: tuple[CellField, ...]
 ) -> tuple[Matrix, Matrix]:
     """Damping that turns with beams, and the circulatory stiffness beside it."""
     shown, material = present(call, model), joined(fields)
@@ -232,12 +227,10 @@ def turning_damping(
     return _assembled(shown, blocks, "AMORTISSEMENT"), _assembled(shown, turned, "RIGIDITE")
 
 
-@amor.form(MODEL, PARAMETERS, *_IGNORED)
-def damping(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> Matrix:
+@amor.form(MODEL, PARAMETERS)
+def damping(call: Call, model: Model, fields: tuple[CellField, ...]) -> Matrix:
     """Viscous damping of a model."""
-    shown, material, kind = present(call, model), joined(fields), "AMORTISSEMENT"
-    blocks = [families.viscosity(z, material) for z in shown.zones if not is_shape(z)]
-    return _assembled(shown, [*blocks, *_shapes(shown, material, kind)], kind)
+    return _whole(present(call, model), fields, families.viscosity, "AMORTISSEMENT")
 
 
 @amor.form(*_AT_NODES)
@@ -246,14 +239,16 @@ def dashpots(call: Call, names: list[str], amount: float, place: Mesh | Point) -
     return _additional(call, "AMORTISSEMENT", names, amount, place)
 
 
-@operator("HOOK", MODEL, PARAMETERS, *_IGNORED, family="matrix", full_name="HOOKE")
-def hook(call: Call, model: Model, fields: tuple[CellField, ...], **_: bool) -> CellField:
+@operator("HOOK", MODEL, PARAMETERS, _ON_MESH, family="matrix", full_name="HOOKE")
+def hook(call: Call, model: Model, fields: tuple[CellField, ...], on_mesh: bool) -> CellField:
     """Elastic matrices at the integration points."""
     material = joined(fields)
     blocks = []
     for zone in present(call, model).zones:
         parameters = zone_field(zone, material)
         moduli = families.family_of(zone).moduli(zone, parameters, "RIGIDITE")
+        if on_mesh and ELEMENTS[zone.element].family in ("plate", "mindlin"):
+            moduli = moduli_on_mesh(moduli, zone, parameters)
         blocks.append(hooke_block(zone, moduli, "RIGIDITE"))
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 

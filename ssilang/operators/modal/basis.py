@@ -297,11 +297,11 @@ def _idli(
     )
     if not pairs:
         call.warn("operators.modal.no-conditions-there")
-    table = Table("LIAISONS_STATIQUES")
-    for number, (node, unknown) in enumerate(pairs, start=1):
-        entry = {"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)}
-        table.set(number, Table.of(entry))
-    return table
+    made = (
+        Table.of({"POINT_LIAISON": Point(ws.nodes, node), "DDL_LIAISON": Mot(unknown)})
+        for node, unknown in pairs
+    )
+    return Table.numbered(made, "LIAISONS_STATIQUES")
 
 
 # --- union -----------------------------------------------------------------------------------

@@ -5,6 +5,7 @@ from ssilang.kernel.continuation.arc import Point as Solution
 from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 from ssilang.kernel.continuation.harmonics import basis_of, exponents, unstable
 from ssilang.kernel.matrices import assembly
+from ssilang.kernel.stepping.problem.constraints import constraints_of
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.hbm import asked_results, curve, joined, known_names, longer
 from ssilang.operators.prelude import *
@@ -161,8 +162,6 @@ def continue_harmonics(entries: Entries) -> None:
 
 
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
-    from ssilang.kernel.stepping.problem.constraints import constraints_of
-
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w) for w in words)
     supports = entries.get("BLOCAGES_HBM") or Matrix(K.table)
@@ -253,12 +252,7 @@ def _fill(
         return
     all_times = longer(table, "TEMPS_PROG", np.array([p.t for p in points]))
     every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
-    for word in ("TEMPS", "DEPLACEMENTS"):
-        if not isinstance(table.get(word), Table):
-            table.set(Mot(word), Table())
-    times, fields = table.get("TEMPS"), table.get("DEPLACEMENTS")
-    assert isinstance(times, Table)
-    assert isinstance(fields, Table)
+    times, fields = table.inner("TEMPS"), table.inner("DEPLACEMENTS")
     number = begin.number
     for i, point in enumerate(points):
         if i % every == 0 or i == len(points) - 1:
@@ -278,10 +272,7 @@ def _say_way(table: Table, problem: FrequencyProblem, branch: Branch) -> None:
     """WTABLE . DTIME0 DDEP0: the last increment, from which a further call goes on."""
     if len(branch.points) < 2:
         return
-    work = table.get("WTABLE")
-    if not isinstance(work, Table):
-        work = Table()
-        table.set(Mot("WTABLE"), work)
+    work = table.inner("WTABLE")
     before, last = branch.points[-2:]
     work.set(Mot("DTIME0"), float(last.t - before.t))
     work.set(Mot("DDEP0"), _field(problem, last.u - before.u))
@@ -323,10 +314,7 @@ def _stability(
         )
     if not words:
         return
-    inner = entries.table.get("RESULTATS_STABILITE")
-    if not isinstance(inner, Table):
-        inner = Table()
-        entries.table.set(Mot("RESULTATS_STABILITE"), inner)
+    inner = entries.table.inner("RESULTATS_STABILITE")
     seen = points[:-1]
     if again:  # the last point of the call before was left out
         first = _begin_again(entries, problem, tracer, len(points))
@@ -355,15 +343,9 @@ def _floquet(
 ) -> None:
     of = _exponents(entries, problem)
     found = np.array([of(p) for p in points])
-    table = inner.get("FLOQ")
-    if not isinstance(table, Table):
-        table = Table()
-        inner.set(Mot("FLOQ"), table)
+    table = inner.inner("FLOQ")
     for word, values in (("EXPOSANT_REEL", found.real), ("EXPOSANT_IMAG", found.imag)):
-        lists = table.get(word)
-        if not isinstance(lists, Table):
-            lists = Table()
-            table.set(Mot(word), lists)
+        lists = table.inner(word)
         for i, column in enumerate(values.T, start=1):
             known = lists.get(i) if lists.has(i) else None
             before = known.values if isinstance(known, ListReel) else np.zeros(0)
@@ -379,8 +361,6 @@ def _floquet(
 
 def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solution], FloatArray]:
     """Floquet exponents of a solution, from the matrices of the motion itself."""
-    from ssilang.kernel.stepping.problem.constraints import constraints_of
-
     words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
     K, C, M = (entries.get(w) for w in words)
     if K is None or M is None:

@@ -1,16 +1,13 @@
 """DYNC: branches of periodic motions on modes by harmonic balance and continuation."""
 
 from ssilang.kernel.continuation.arc import Lengths
+from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
+from ssilang.kernel.continuation.response import Response, forced_response, normal_mode
 from ssilang.kernel.matrices.assembly import field_to_vector
 from ssilang.operators.modal.dyne import TABLES, System, damping_of, system_of, tables_by_role
 from ssilang.operators.modal.dyne_links import links_of
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.continuation.arc import Lengths
-    from ssilang.kernel.continuation.harmonics import Oscillators
-    from ssilang.kernel.continuation.response import Response
 
 _ROLES = {
     "TMOD": "system", "TCHR": "loads", "TLIAI": "links", "TAMOR": "damping", "TINI": "start",
@@ -25,8 +22,6 @@ def _dync(
     harmonics: int = Arg("ENTIER", range=POSITIVE, en="number of harmonics"),
     samples: int = Arg("ENTIER", range=POSITIVE, en="instants of a period"),
 ) -> Table:
-    from ssilang.kernel.continuation.response import forced_response, normal_mode
-
     tables = tables_by_role(call, given, _ROLES)
     for role, name in (("system", "BASE_MODALE"), ("numbers", "PARAMETRES_NUMERIQUES")):
         if role not in tables:
@@ -84,9 +79,7 @@ class Numbers:
 
 def _oscillators(
     call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
-) -> "Oscillators":
-    from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
-
+) -> Oscillators:
     n = len(system.M)
     forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])
     load = np.zeros((2 * harmonics + 1, n))
@@ -122,7 +115,7 @@ def _coefficients(
 
 
 def _guess(
-    call: Call, table: Table, system: System, oscillators: "Oscillators", w: float
+    call: Call, table: Table, system: System, oscillators: Oscillators, w: float
 ) -> FloatArray:
     """What INITIAL says, or else the linear response."""
     said = _coefficients(call, table, system, oscillators.basis.harmonics, dual=False)
@@ -150,18 +143,16 @@ def _lengths(numbers: Numbers) -> Lengths:
 # --- results -----------------------------------------------------------------------------------
 
 
-def _results(call: Call, found: "Response", system: System, free: bool) -> Table:
+def _results(call: Call, found: Response, system: System, free: bool) -> Table:
     if found.ended == "no solution":
         call.session.warn(
             "operators.modal.branch-lost", call.span, operator="DYNC", t=found.frequencies[-1]
         )
-    table = Table("RESULTAT_DYNC")
-    table.set(Mot("REPONSE"), _response(found, system, free))
-    table.set(Mot("BIFURCATION"), _bifurcations(found))
-    return table
+    entries = {"REPONSE": _response(found, system, free), "BIFURCATION": _bifurcations(found)}
+    return Table.of(entries, "RESULTAT_DYNC")
 
 
-def _response(found: "Response", system: System, free: bool) -> Table:
+def _response(found: Response, system: System, free: bool) -> Table:
     Q = np.array(found.coefficients)
     exponents = np.array(found.exponents)
     assert system.basis.shapes is not None
@@ -190,7 +181,7 @@ def _numbered(columns: FloatArray) -> Table:
     return Table.numbered(ListReel(column.copy()) for column in np.asarray(columns).T)
 
 
-def _bifurcations(found: "Response") -> Table:
+def _bifurcations(found: Response) -> Table:
     all_found = found.bifurcations
     norms = [float(np.linalg.norm(b.coefficients)) for b in all_found]
     entries: dict[str, Any] = {

@@ -273,19 +273,16 @@ def _results(
 
 def _as_fields(table: Table, run: explicit.ModalRun, system: System, chosen: list[int]) -> None:
     for step, values in enumerate(run.values):
-        entry = Table()
-        for i in chosen:
-            entry.set(Mot(explicit.VARIABLES[i]), system.field(values[i]))
-        table.set(step + 1, entry)
+        entry = {explicit.VARIABLES[i]: system.field(values[i]) for i in chosen}
+        table.set(step + 1, Table.of(entry))
 
 
 def _as_lists(table: Table, run: explicit.ModalRun, system: System, chosen: list[int]) -> None:
     """A table of lists by the point that marks the unknown."""
     for i in chosen:
-        lists = Table()
+        lists = table.inner(explicit.VARIABLES[i])
         for j, node in enumerate(system.numbering.nodes):
             lists.set(Point(system.numbering.table, int(node)), ListReel(run.values[:, i, j]))
-        table.set(Mot(explicit.VARIABLES[i]), lists)
 
 
 def _add_links(

@@ -290,7 +290,8 @@ def _plane(t: LinkTable, basis: Basis) -> ReadLink:
     if not t.table.has(Mot("NORMALE")):
         rows = basis.unit(t.call, support, "SUPPORT")
         numbers |= {law.NX: 1.0 if gap >= 0.0 else -1.0, law.GAP: abs(gap)}
-        named = [("DEPLACEMENT", 0, Seen(rows)), *_push_names(t, False)]
+        pushed = [(name, int(gap < 0.0), kept) for name, _, kept in _push_names(t, False)]
+        named = [("DEPLACEMENT", 0, Seen(rows)), *pushed]
         return _read_one(t, law.PLANE, rows, numbers, points, named)
     rows, normal = basis.rows(t.call, support), t.direction("NORMALE")
     numbers |= _vector(law.NX, normal) | {law.GAP: gap}
@@ -340,7 +341,8 @@ def _two_points(t: LinkTable, basis: Basis) -> ReadLink:
     numbers |= _friction(t)
     axis = "AXE_ROTATION" if turning and t.table.has(Mot("AXE_ROTATION")) else "NORMALE"
     numbers |= _vector(law.NX, t.direction(axis))
-    numbers[law.GAP] = 0.0 if numbers[law.PERMANENT] else t.real("JEU")
+    shut = t.kind.endswith("_PLASTIQUE") and numbers[law.PERMANENT]
+    numbers[law.GAP] = 0.0 if shut else t.real("JEU")
     plastic = t.kind.endswith("_PLASTIQUE") and not (
         t.says("ELASTIQUE") or t.says("COMPORTEMENT_ELASTIQUE")
     )

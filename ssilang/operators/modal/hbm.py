@@ -117,17 +117,14 @@ def _components(entries: Entries, names: Names) -> None:
     places = range(names.places)
     primal = [[names.coefficient(u, p) for u in names.unknowns] for p in places]
     dual = [[names.coefficient(u, p, True) for u in names.unknowns] for p in places]
-    table = Table()
-    table.set(Mot("DEPLACEMENT"), ListMots(list(names.unknowns)))
-    table.set(Mot("FORCE"), ListMots(list(names.duals)))
+    table: dict[str, Any] = {"DEPLACEMENT": ListMots(list(names.unknowns))}
+    table["FORCE"] = ListMots(list(names.duals))
     for word, found in (("DEPLACEMENT", primal), ("FORCE", dual)):
-        table.set(Mot(f"{word}_HBM"), ListMots([n for row in found for n in row]))
-        by_harmonic = Table()
-        for k in range(names.harmonics + 1):
-            rows = found[:1] if k == 0 else found[2 * k - 1 : 2 * k + 1]
-            by_harmonic.set(k, ListMots([n for row in rows for n in row]))
-        table.set(Mot(f"HARM_{word}"), by_harmonic)
-    entries.table.set(Mot("COMPOSANTES"), table)
+        table[f"{word}_HBM"] = ListMots([n for row in found for n in row])
+        rows = {k: found[max(2 * k - 1, 0) : 2 * k + 1] for k in range(names.harmonics + 1)}
+        by_harmonic = {k: ListMots([n for r in own for n in r]) for k, own in rows.items()}
+        table[f"HARM_{word}"] = Table.of(by_harmonic)
+    entries.table.set(Mot("COMPOSANTES"), Table.of(table))
 
 
 def _results(entries: Entries, names: Names) -> None:
@@ -138,10 +135,8 @@ def _results(entries: Entries, names: Names) -> None:
             told = {"component": asked.component, "unknowns": names.unknowns}
             raise entries.error("operators.modal.no-such-component", **told)
         given = asked.table.get("COULEUR_HBM")
-        own = []
-        for place in range(names.places):
-            number += 1
-            own.append(number)
+        own = range(number + 1, number + 1 + names.places)
+        for place, number in enumerate(own):
             titles.append(_title(asked.title, place))
             found.set(number, _coefficient(asked, names, place, titles[-1], given))
         asked.table.set(Mot("INDICES_HBM"), ListEnti(np.array(own, dtype=np.int64)))
@@ -159,15 +154,12 @@ def _title(title: str, place: int) -> str:
 
 
 def _coefficient(asked: Asked, names: Names, place: int, title: str, given: object) -> Table:
-    table = Table()
-    table.set(Mot("POINT_MESURE"), asked.point)
-    table.set(Mot("COMPOSANTES"), Mot(names.coefficient(asked.component, place)))
-    table.set(Mot("TITRE"), Mot(title))
+    coefficient = Mot(names.coefficient(asked.component, place))
+    table: dict[str, Any] = {"POINT_MESURE": asked.point, "COMPOSANTES": coefficient}
+    table["TITRE"] = Mot(title)
     words = given.values if isinstance(given, ListMots) and given.values else None
     own = asked.table.get("COULEUR") if words is None else Mot(words[place % len(words)])
-    if own is not None:
-        table.set(Mot("COULEUR"), own)
-    return table
+    return Table.of(table if own is None else table | {"COULEUR": own})
 
 
 # --- HBM_POST ----------------------------------------------------------------------------------
@@ -214,6 +206,7 @@ def zhpo(
     shown = entries.table.get("RESULTATS")
     if curves and isinstance(shown, Table):
         shown.set(Mot("RESULTATS_EVOL"), joined(curves))
+        entries.table.set(Mot("RESULTATS_EVOL"), joined(curves))
         shown.set(Mot("TITRE"), Table.numbered(titles))
 
 

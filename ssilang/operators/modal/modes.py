@@ -5,6 +5,7 @@ from ssilang.kernel.matrices.submatrices import support_mesh
 from ssilang.kernel.modal.modes import ComplexMode, complex_modes, modes_between, modes_near
 from ssilang.kernel.modal.modes import Mode as RealMode
 from ssilang.kernel.statics import doubled
+from ssilang.language.values import Solution
 from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
@@ -92,6 +93,8 @@ def _modes(
     if (found := connections.rotary_without_mass(mass)) is not None:
         call.warn("operators.matrices.rotary-alone", **found)
     _warn_of_mass(call, stiffness, mass)
+    if damping is None:
+        mass, stiffness = (_as_symmetric(m, stiffness) for m in (mass, stiffness))
     if damping is not None or not (
         assembly.is_symmetric(stiffness) and assembly.is_symmetric(mass)
     ):
@@ -154,7 +157,32 @@ def matrices_by_kind(
     if len(left) == 1:
         return left[0], mass, None
     damping = damped[0] if len(damped) == 1 else left[1]
-    return left[left[0] is damping], mass, damping
+    left.remove(damping)
+    return left[0], mass, damping
+
+
+def _as_symmetric(matrix: Matrix, stiffness: Matrix) -> Matrix:
+    """The matrix of symmetric blocks where unsymmetric ones (KP ASYM) sum up to what is symmetric.
+
+    Unknowns that the stiffness holds do not count: pressure on a held edge is symmetric.
+    """
+    if assembly.is_symmetric(matrix) or any(r.dual is not None for r in matrix.relations):
+        return matrix
+    numbering = assembly.numbering_of(stiffness)
+    if not np.isin(assembly.numbering_of(matrix).nodes, numbering.nodes).all():
+        return matrix
+    rows = assembly.constraint_matrix(stiffness, numbering).C
+    held = rows[np.diff(rows.indptr) == 1].indices
+    K = assembly.assemble(matrix, numbering)
+    apart = abs(K - K.T).tocoo()
+    counts = ~(np.isin(apart.row, held) | np.isin(apart.col, held))
+    if apart.data[counts].max(initial=0.0) > 1e-9 * abs(K).max():
+        return matrix
+    parts = (
+        replace(b, values=(b.values + b.values.swapaxes(1, 2)) / 2, symmetric=True)
+        for b in matrix.blocks
+    )
+    return replace(matrix, blocks=tuple(parts))
 
 
 def _complex(
@@ -169,18 +197,6 @@ def _complex(
 
 
 # --- tables ----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class Solution:
-    """Modes, each a table as those of a table BASE_DE_MODES."""
-
-    modes: tuple[Table, ...]
-
-    @property
-    def table(self) -> Table:
-        """They as a table BASE_DE_MODES."""
-        return Table.numbered(self.modes, "BASE_DE_MODES")
 
 
 def directions(values: Sequence[float]) -> Table:

@@ -2,11 +2,12 @@
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.waves.shaken import AXES
+from ssilang.language.values import Solution
 from ssilang.operators.dispatch import DIME, MANU, union
 from ssilang.operators.matrices.element import joined, present, rigi
 from ssilang.operators.modal.basis import Shape, shapes_in
 from ssilang.operators.modal.matrices import modal_stiffness
-from ssilang.operators.modal.modes import Solution, directions
+from ssilang.operators.modal.modes import directions
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import tire
 from ssilang.operators.tables.indices import copied

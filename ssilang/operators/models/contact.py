@@ -1,12 +1,10 @@
 """MODE ... 'CONTACT': two sides that must not go into each other, cables that slide in a body."""
 
+from ssilang.kernel.contact.unilateral import ContactRelations, Rubbing, contact_relations
 from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
 from ssilang.operators.prelude import *
-
-if TYPE_CHECKING:
-    from ssilang.kernel.contact.unilateral import ContactRelations, Rubbing
 
 METHODS = ("MESC", "SYME", "FAIB", "MORT")
 COULOMB = ("FROTTANT", "COULOMB")
@@ -82,10 +80,8 @@ def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Wo
     )
 
 
-def model_relations(model: Model, material: CellField | None) -> "list[ContactRelations]":
+def model_relations(model: Model, material: CellField | None) -> list[ContactRelations]:
     """Relations of all pairs of sides of a model, each pair once."""
-    from ssilang.kernel.contact.unilateral import contact_relations
-
     found, seen = [], set()
     for zone in model.zones:
         master, slave = zone.options.get("master"), zone.options.get("slave")
@@ -106,10 +102,8 @@ def model_relations(model: Model, material: CellField | None) -> "list[ContactRe
     return found
 
 
-def _rubbing(zone: Zone, material: CellField | None) -> "Rubbing | None":
+def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
     """Coulomb's friction of a pair of sides, None where they are smooth."""
-    from ssilang.kernel.contact.unilateral import Rubbing
-
     if zone.behaviour != COULOMB:
         return None
     coefficient = uniform(zone, material, "MU", None)

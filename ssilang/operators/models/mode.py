@@ -20,7 +20,8 @@ LONG_NAMES = {"BARRE": "BARR", "POUTRE": "POUT", "TUYAU": "TUYA"}
 
 LAW_WORDS = (
     "ELASTIQUE", *behaviours.ELASTICITIES, *behaviours.JOINT_WORDS, *behaviours.PLASTIC_WORDS,
-    *behaviours.CREEP_WORDS, "IMPEDANCE", *behaviours.IMPEDANCE_LAWS,
+    *behaviours.OWN_LAWS, *(w for laws, _ in behaviours.OWN_LAWS.values() for w in laws),
+    "IMPEDANCE", *behaviours.IMPEDANCE_LAWS,
 )  # fmt: skip
 
 OF_JOINTS = tuple(w for w in behaviours.JOINT_WORDS if w != "PLASTIQUE")
@@ -204,16 +205,18 @@ def _usable(call: Call, mesh: Mesh | Point, wish: Wish) -> tuple[Mesh, tuple[Cel
 
 
 def _check_elements(call: Call, wish: Wish, mesh: Mesh) -> None:
-    """Refuse names of elements of which none fits the mesh; on points impedances have but one."""
-    kinds = [b.cell_type for b in mesh.blocks]
+    """Refuse names of elements of which none fits the mesh; impedances have but their own."""
+    kinds, own = {b.cell_type for b in mesh.blocks}, IMPEDANCE_ELEMENTS
+    if "IMPEDANCE" in wish.laws and kinds <= own.keys():
+        for named in (n for n in wish.elements if n not in own.values()):
+            call.warn("operators.models.element-of-impedances", element=named)
+        return
     fitting = [n for n in wish.elements if n in GENERIC_ELEMENTS or ELEMENTS[n].cell_type in kinds]
     if wish.elements and not fitting:
-        code, named = "operators.models.element-of-other-cells", wish.elements[0]
+        named = wish.elements[0]
         told: dict[str, Any] = {"element": named, "cell_type": ELEMENTS[named].cell_type}
-        told |= {"kinds": sorted(set(kinds)), "fitting": _fitting(call, kinds)}
-        if "IMPEDANCE" not in wish.laws or {*kinds} != {"POI1"}:
-            raise call.error(code, **told)
-        call.warn(code, **told)
+        told |= {"kinds": sorted(kinds), "fitting": _fitting(call, kinds)}
+        raise call.error("operators.models.element-of-other-cells", **told)
 
 
 def _check_layers(call: Call, wish: Wish, zones: tuple[Zone, ...]) -> None:

@@ -121,11 +121,8 @@ def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model |
     if what.word == "MAIL":
         return model.mesh if model.zones else Mesh(workspace(call.session).nodes, ())
     if what.word == "ZONE":
-        table = Table()
-        for i, zone in enumerate(model.zones):
-            table.set(2 * i + 1, Model((zone,)))
-            table.set(2 * i + 2, Mesh(zone.cells.nodes, (zone.cells,)))
-        return table
+        pairs = ((Model((z,)), Mesh(z.cells.nodes, (z.cells,))) for z in model.zones)
+        return Table.numbered(part for pair in pairs for part in pair)
     if what.word in _NAMES:
         names = [n for z in model.zones for n in _NAMES[what.word](z)]
         return ListMots(list(dict.fromkeys(names)))

@@ -3,6 +3,7 @@
 import math
 from importlib import import_module
 
+from ssilang.kernel.base.scientific import special
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.operators.prelude import *
@@ -155,11 +156,9 @@ def ifre(
     limit: float = Arg("FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
 ) -> tuple[float, float]:
     """Fresnel's integrals by those of `pi u^2 / 2`, `t = pi u^2 / 2`."""
-    from scipy.special import fresnel
-
     if not limit >= 0.0:
         raise _outside("IFRE", limit, 0.0, np.inf, False)
-    sine, cosine = fresnel(np.sqrt(2.0 * limit / np.pi))
+    sine, cosine = special.fresnel(np.sqrt(2.0 * limit / np.pi))
     return float(cosine), float(sine)
 
 

@@ -1,5 +1,6 @@
 """MASQ: ones where values meet a relation, zeros elsewhere; BORN: values cut at bounds."""
 
+from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.prelude import *
@@ -68,8 +69,6 @@ def _tested(value: Any, other: Any, test: Callable[[Any, Any], Any]) -> Any:
         gap = cell_algebra.added(value, other, -1.0)
         return cell_algebra.applied(gap, lambda x: test(x, 0.0).astype(float))
     if len(value) != len(other):
-        from ssilang.kernel.base.errors import KernelError
-
         raise KernelError("operators.numbers.list-lengths", n_first=len(value), n_second=len(other))
     return type(value)(test(value.values, other.values))
 

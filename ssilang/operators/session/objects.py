@@ -1,5 +1,7 @@
 """TYPE EXIS OUBL DETR MENA NOMM OBJE METH HERI: objects and their names."""
 
+import gc
+
 from ssilang.language.registry import find_operator
 from ssilang.language.run.procedures import BoundMethod, call_procedure
 from ssilang.language.values import Objet
@@ -189,8 +191,6 @@ def mena(
 ) -> None:
     """Collect garbage when it is asked for by 'OBLI'."""
     if forced:
-        import gc
-
         gc.collect()
 
 

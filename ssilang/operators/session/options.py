@@ -9,6 +9,7 @@ from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
 from ssilang.language.search import nearest, nearest_names
+from ssilang.language.values import Texte
 from ssilang.operators.prelude import *
 from ssilang.operators.session.option_files import UNIT, include, read_file_option
 from ssilang.operators.workspace import MULTIGRID_WORD, TOLERANCE
@@ -83,7 +84,7 @@ def value_word(call: Call) -> str:
             continue
         if isinstance(operand.value, str):
             break
-        if operand.name:
+        if operand.name and not isinstance(operand.value, Texte):
             call.operands.remove(operand)
             call.used.append(operand)
             return operand.name
@@ -304,7 +305,10 @@ def opti(call: Call) -> None:
     ws = workspace(call.session)
     if ws.dimension and ws.mode.dimension != ws.dimension:
         told = {"mode": ws.mode.value, "dimension": ws.mode.dimension, "present": ws.dimension}
-        raise call.error("operators.session.mode-and-dimension", **told)
+        if ws.dimension != 3:
+            raise call.error("operators.session.mode-and-dimension", **told)
+        call.warn("operators.session.mode-in-space", mode=ws.mode.value)
+        ws.mode = Mode.THREE_DIMENSIONAL
 
 
 def _unknown_option(call: Call, said: str, word: str | None = None) -> SsiError:

@@ -2,9 +2,12 @@
 
 import time
 
+from ssilang.kernel.matrices.assembly import vector_to_field
+from ssilang.kernel.plasticity.driven_load import ArcTrace, follow_arc, history_of
+from ssilang.kernel.stepping.problem.problem import Problem, make_problem
 from ssilang.operators.curves.instants import value_in_time
 from ssilang.operators.dynamics.reports import report
-from ssilang.operators.modal.continuation import lengths_of
+from ssilang.operators.modal.continuation import continue_harmonics, lengths_of
 from ssilang.operators.modal.hbm import asked_results, curve
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.bodies import finite_bodies, finite_zones, plastic_bodies
@@ -12,40 +15,14 @@ from ssilang.operators.statics.pasapas import _inputs, _path_run, start_of
 from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.tables.entries import Entries
 
-if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.driven_load import ArcTrace
-    from ssilang.kernel.stepping.problem.problem import Problem
-    from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.operators.modal.continuation import continue_harmonics
-
 REFUSED = {
     "PROCEDURE_CHARMECA": "operators.statics.no-followers",
     "DYNAMIQUE": "operators.statics.static-path",
 }
 
 
-class Followed:
-    """Displacements of all solutions, for the results asked for."""
-
-    def __init__(self, count: int) -> None:
-        self.wanted = np.ones(count, bool)
-        self.fields: list[NodeField] = []
-        self.times: list[float] = []
-
-    def receive(self, snapshot: "Snapshot") -> None:
-        """One solution."""
-        self.fields.append(snapshot.displacement)
-        self.times.append(snapshot.time)
-
-    def close(self) -> None:
-        """Nothing to do."""
-
-
 def continue_loads(entries: Entries) -> None:
     """Follow the path of loads and fill the tables."""
-    from ssilang.kernel.plasticity.driven_load import follow_arc, history_of
-    from ssilang.kernel.stepping.problem.problem import make_problem
-
     entries.refuse(REFUSED)
     lengths, begun = lengths_of(entries), time.perf_counter()
     times = np.asarray(entries.needed("TEMPS_CALCULES").values, dtype=float)
@@ -64,20 +41,18 @@ def continue_loads(entries: Entries) -> None:
     results = ResultTables(
         entries.table, saved, stresses, False, start.index, zones, load=entries.get("CHARGEMENT")
     )
-    followed = Followed(len(times))
-    observers: list[Observer] = [results, followed]
     rate = _rate(entries, problem, times)
     words = _stability(entries)
     path, trace = follow_arc(
-        _path_run(problem, inputs, bodies, observers), rate, lengths,
+        _path_run(problem, inputs, bodies, [results]), rate, lengths,
         lambda t: bool(t < times[-1]), most, every, "DIAG" in words,
     )  # fmt: skip
     history = history_of(path, trace, time.perf_counter() - begun)
     report(entries, problem, history, in_statics=True)
-    _fill(entries, trace, followed)
+    _fill(entries, trace, problem)
 
 
-def _rate(entries: Entries, problem: "Problem", times: FloatArray) -> FloatArray:
+def _rate(entries: Entries, problem: Problem, times: FloatArray) -> FloatArray:
     """Change of the load factors in a unit of time, the same all along."""
     factors = problem.loading.at(times)
     rate = (factors[-1] - factors[0]) / (times[-1] - times[0])
@@ -98,16 +73,16 @@ def _stability(entries: Entries) -> list[str]:
     return ["DIAG"] if given is True else words
 
 
-def _fill(entries: Entries, trace: "ArcTrace", followed: Followed) -> None:
+def _fill(entries: Entries, trace: ArcTrace, problem: Problem) -> None:
     table = entries.table
     table.set(Mot("TEMPS_PROG"), ListReel(np.array(trace.times)))
     if trace.negative:
-        inner = Table()
-        inner.set(Mot("DIAG"), ListReel(np.array(trace.negative)))
-        table.set(Mot("RESULTATS_STABILITE"), inner)
-    x = np.array(followed.times)
+        inner = {"DIAG": ListReel(np.array(trace.negative))}
+        table.set(Mot("RESULTATS_STABILITE"), Table.of(inner))
+    x = np.array(trace.times)
+    fields = [vector_to_field(u, problem.numbering) for u in trace.motions]
     for asked in asked_results(entries, "RESULTATS"):
-        y = value_in_time(entries.call, list(followed.fields), asked.component, asked.point.node)
+        y = value_in_time(entries.call, fields, asked.component, asked.point.node)
         asked.table.set(Mot("RESULTATS"), ListReel(y))
         drawn = curve(x, y, ("t", asked.component), asked.title, asked.colour)
         asked.table.set(Mot("RESULTATS_EVOL"), drawn)

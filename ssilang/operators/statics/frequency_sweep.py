@@ -1,12 +1,13 @@
 """PASAPAS under OPTI 'MODE' 'FREQ': harmonic responses over a sweep of frequencies."""
 
-from ssilang.kernel.elements.families import mass, stiffness
+from ssilang.kernel.elements.families import mass, stiffness, viscosity
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
 from ssilang.kernel.plasticity.points import is_plastic
+from ssilang.kernel.statics.frequency import HarmonicInputs, default_frequencies, sweep
 from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
@@ -14,17 +15,12 @@ from ssilang.operators.statics.pasapas_contact import joined_matrix
 from ssilang.operators.statics.pasapas_stages import loads_taken
 from ssilang.operators.tables.entries import Entries
 
-if TYPE_CHECKING:
-    from ssilang.kernel.statics.frequency import HarmonicInputs
-
 _RESULTS = ("TEMPS", "DEPLACEMENTS", "REACTIONS")
 
 
 @operator("ZFRE", family="statics")
 def zfre(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None:
     """Fill TEMPS (frequencies in Hz), DEPLACEMENTS and REACTIONS, 0 being a state at rest."""
-    from ssilang.kernel.statics.frequency import sweep
-
     entries = Entries(call, table, "PASAPAS")
     if isinstance(entries.get("REPRISE"), Table):
         entries.refuse({"REPRISE": "operators.dynamics.not-kept-frequencies"})
@@ -59,9 +55,7 @@ def _at_rest(field: NodeField) -> NodeField:
     return NodeField(field.table, parts, field.nature)
 
 
-def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
-    from ssilang.kernel.statics.frequency import default_frequencies
-
+def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
     said = (entries.get(word) for word in ("TEMPS_CALCULES", "TEMPS_SAUVES"))
     given = next((values for values in said if values is not None), None)
     if given is None:
@@ -72,9 +66,7 @@ def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
     return values
 
 
-def _inputs(entries: Entries) -> "HarmonicInputs":
-    from ssilang.kernel.statics.frequency import HarmonicInputs
-
+def _inputs(entries: Entries) -> HarmonicInputs:
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")
@@ -82,13 +74,13 @@ def _inputs(entries: Entries) -> "HarmonicInputs":
         _check_linear(zone)
     none = CellField((), "CARACTERISTIQUES")
     material: CellField = entries.needed("CARACTERISTIQUES") if mechanical else none
-    blocks: dict[str, list[ElementMatrices]] = {"RIGIDITE": [], "MASSE": []}
+    blocks: dict[str, list[ElementMatrices]] = {"RIGIDITE": [], "MASSE": [], "AMORTISSEMENT": []}
     springs = []
-    silent = False
     for zone in (z for z in mechanical if not is_shape(z)):
         if is_impedance(zone):
             given = zone_field(zone, material).own()
-            silent = silent or counts_damping(zone, given)
+            if counts_damping(zone, given):
+                blocks["AMORTISSEMENT"].append(viscosity(zone, material))
             blocks["MASSE"].append(mass(zone, material))
             if dynamic_stiffness(zone, given, 1.0) is not None:
                 springs.append((zone, given))
@@ -101,8 +93,8 @@ def _inputs(entries: Entries) -> "HarmonicInputs":
         shapes = shape_matrix(mechanical, material, kind)
         found += [] if shapes is None else [shapes]
     damping = entries.get("AMORTISSEMENT")
-    if silent and damping is None:
-        entries.warn("operators.statics.dashpots-by-numbers")
+    if damping is None and blocks["AMORTISSEMENT"]:
+        damping = joined_matrix(entries, blocks["AMORTISSEMENT"], (), "AMORTISSEMENT")
     supports = entries.get("BLOCAGES_MECANIQUES")
     constant = entries.get("RIGIDITE_CONSTANTE")
     return HarmonicInputs(

@@ -300,11 +300,8 @@ def _steps_of(part: LoadPart) -> list[tuple[float, Any]]:
 
 
 def _tables(part: LoadPart) -> tuple[Table, Table]:
-    times_table, fields_table = Table(), Table()
-    for i, (time, field) in enumerate(_steps_of(part)):
-        times_table.set(i, time)
-        fields_table.set(i, field)
-    return times_table, fields_table
+    steps = list(enumerate(_steps_of(part)))
+    return Table.of({i: time for i, (time, _) in steps}), Table.of({i: f for i, (_, f) in steps})
 
 
 @CHAN.form(said("TABL"), of=("CHARGEME",))

@@ -5,7 +5,10 @@ from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
+from ssilang.kernel.plasticity.following import no_bodies
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
+from ssilang.kernel.plasticity.run import BulkRun, run_bulk
+from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.statics.thermal_load import (
     check_strains,
     loaded_sides,
@@ -13,6 +16,9 @@ from ssilang.kernel.statics.thermal_load import (
     split_strains,
     with_pressures,
 )
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics import plausibility
 from ssilang.operators.dynamics.checkpoints import kept_calculation
 from ssilang.operators.dynamics.recording import calculation_record, recorded
@@ -53,11 +59,6 @@ from ssilang.operators.statics.solve import NOT_SMALL, far, is_anywhere, warn_of
 from ssilang.operators.statics.temperatures import warn_of_temperatures
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
-
-if TYPE_CHECKING:
-    from ssilang.kernel.plasticity.run import BulkRun
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
-    from ssilang.kernel.stepping.snapshot import Observer
 
 
 @operator("ZPAS", family="statics")
@@ -122,11 +123,6 @@ def _stretch(
     number: int,
 ) -> Table:
     """Steps of one stage; the state at their end."""
-    from ssilang.kernel.plasticity.run import run_bulk
-    from ssilang.kernel.statics.stepping import step_statics
-    from ssilang.kernel.stepping.problem.problem import make_problem
-    from ssilang.kernel.stepping.run import integrate
-
     given, dynamic = stage.entries, work.flag("DYNAMIQUE")
     inputs, stresses = _inputs(given, start, times, dynamic)
     finite = finite_zones(given)
@@ -146,6 +142,8 @@ def _stretch(
         )
     elif start.reached is None:
         plausibility.warn_of_bodies(work, inputs)
+    if start.reached is None:
+        plausibility.warn_of_material(work, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     axis = "UZ" if "UZ" in problem.numbering.unknowns else "UY"
@@ -268,12 +266,9 @@ def _other_times(
 
 
 def _path_run(
-    problem: "Problem", inputs: "Inputs", bodies: Bodies | None, observers: "list[Observer]"
-) -> "BulkRun":
+    problem: Problem, inputs: Inputs, bodies: Bodies | None, observers: list[Observer]
+) -> BulkRun:
     """A calculation along a path, at its start."""
-    from ssilang.kernel.plasticity.following import no_bodies
-    from ssilang.kernel.plasticity.run import BulkRun
-
     bulk, state = (no_bodies(problem), ()) if bodies is None else bodies(problem, inputs)
     return BulkRun(problem, bulk, state, tuple(observers))
 
@@ -287,11 +282,9 @@ def _say_model(entries: Entries, work: Entries, stage: Stage, first: int) -> Non
     """Table MODELES: the model of each result from number `first` on, where it changes."""
     if stage.entries.get("MODELE") is work.get("MODELE"):
         return
-    models = entries.table.get("MODELES")
-    models = models if isinstance(models, Table) else Table()
+    models = entries.table.inner("MODELES")
     for number in range(first, _last_number(entries)):
         models.set(number, stage.entries.get("MODELE"))
-    entries.table.set(Mot("MODELES"), models)
 
 
 def _say_last(entries: Entries, number: int) -> None:
@@ -373,9 +366,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
 
 def _inputs(
     entries: Entries, start: Start, times: FloatArray, dynamic: bool
-) -> "tuple[Inputs, Stresses]":
-    from ssilang.kernel.stepping.problem.problem import Inputs
-
+) -> tuple[Inputs, Stresses]:
     material: CellField | None = entries.get("CARACTERISTIQUES")
     model: Model | None = entries.get("MODELE")
     linear = _linear_zones(entries)

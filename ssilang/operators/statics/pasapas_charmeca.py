@@ -6,15 +6,14 @@ from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
+from ssilang.kernel.plasticity.following import no_bodies
 from ssilang.kernel.statics.thermal_load import along_normals, pressures
+from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 
 
 class LoadByProcedure:
@@ -24,7 +23,7 @@ class LoadByProcedure:
     finite displacements the nodes stand where the bodies are.
     """
 
-    def __init__(self, entries: Entries, problem: "Problem", moves: bool) -> None:
+    def __init__(self, entries: Entries, problem: Problem, moves: bool) -> None:
         self.entries, self.problem, self.moves = entries, problem, moves
 
     def __call__(self, time: float, u: FloatArray) -> Added:
@@ -32,10 +31,7 @@ class LoadByProcedure:
         numbering, table = self.problem.numbering, self.entries.table
         field = vector_to_field(u, numbering)
         kept = table.get("ESTIMATION") if table.has("ESTIMATION") else None
-        state = Table()
-        state.set(Mot("TEMPS"), time)
-        state.set(Mot("DEPLACEMENTS"), field)
-        table.set(Mot("ESTIMATION"), state)
+        table.set(Mot("ESTIMATION"), Table.of({"TEMPS": time, "DEPLACEMENTS": field}))
         try:
             with _moved(field, self.moves):
                 results = call_user(self.entries.call, "CHARMECA", table, time)
@@ -80,7 +76,7 @@ def _moved(field: NodeField, moves: bool) -> Iterator[None]:
 class FollowingPressure:
     """Pressures of a loading on sides that stand where the bodies have taken them."""
 
-    def __init__(self, load: Load, sides: tuple[Zone, ...], problem: "Problem") -> None:
+    def __init__(self, load: Load, sides: tuple[Zone, ...], problem: Problem) -> None:
         self.parts, self.sides = pressures(load), sides
         self.numbering = problem.numbering
 
@@ -95,25 +91,21 @@ class FollowingPressure:
         return Added(total)
 
 
-def procedure_law(entries: Entries) -> "Callable[[Problem], LoadLaw]":
+def procedure_law(entries: Entries) -> Callable[[Problem], LoadLaw]:
     """The load of CHARMECA, once the problem is numbered."""
     moves = entries.flag("GRANDS_DEPLACEMENTS")
     return lambda problem: LoadByProcedure(entries, problem, moves)
 
 
-def pressure_law(load: Load, sides: tuple[Zone, ...]) -> "Callable[[Problem], LoadLaw]":
+def pressure_law(load: Load, sides: tuple[Zone, ...]) -> Callable[[Problem], LoadLaw]:
     """Pressures that follow their sides, once the problem is numbered."""
     return lambda problem: FollowingPressure(load, sides, problem)
 
 
-def loaded_bodies(
-    law_of: "Callable[[Problem], LoadLaw]", said: str, bodies: Bodies | None
-) -> Bodies:
+def loaded_bodies(law_of: Callable[[Problem], LoadLaw], said: str, bodies: Bodies | None) -> Bodies:
     """Bodies, if there are any, under a load that depends on where they are."""
 
-    def make(problem: "Problem", inputs: "Inputs") -> tuple[Bulk, State]:
-        from ssilang.kernel.plasticity.following import no_bodies
-
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         start: tuple[Bulk, State] = (no_bodies(problem), ())
         bulk, state = start if bodies is None else bodies(problem, inputs)
         first = float(problem.times[0])
@@ -133,7 +125,7 @@ def loaded_bodies(
     return make
 
 
-def _shifts(problem: "Problem") -> FloatArray:
+def _shifts(problem: Problem) -> FloatArray:
     """Small differences of the unknowns: lengths, and turns."""
     numbering = problem.numbering
     ends = numbering.table.coordinates[numbering.nodes]

@@ -4,12 +4,9 @@ from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.elements.results.integrals import green_strain, has_second_order
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.statics.thermal_load import ThermalStress, free_terms
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import named_at
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.snapshot import Snapshot
-
 
 RESULTS = (
     "TEMPS", "DEPLACEMENTS", "CONTRAINTES", "VARIABLES_INTERNES", "REACTIONS", "VITESSES",
@@ -21,10 +18,7 @@ RESULTS = (
 def put_results(table: Table, number: int, values: Mapping[str, Any], keep: bool) -> None:
     """Put results of a number into their tables; with `keep` what stands there already stays."""
     for word, value in values.items():
-        if not isinstance(table.get(word), Table):
-            table.set(Mot(word), Table())
-        inner = table.get(word)
-        assert isinstance(inner, Table)
+        inner = table.inner(word)
         if not (keep and inner.has(number)):
             inner.set(number, value)
 
@@ -85,21 +79,20 @@ class ResultTables:
     load: Load | None = None
     finite: bool = False
     _free: dict[int, list[tuple[FloatArray, Any]]] = field(default_factory=dict, repr=False)
-    _last: "tuple[Snapshot, dict[str, Any]] | None" = field(default=None, repr=False)
+    _last: tuple[Snapshot, dict[str, Any]] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
         strains = () if self.material is None else ("DEFORMATIONS",)
         for word in (*(w for w in RESULTS if w not in skipped), *strains):
-            if not isinstance(self.table.get(word), Table):
-                self.table.set(Mot(word), Table())
+            self.table.inner(word)
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """Add one time."""
         put_results(self.table, self.number, self.values(snapshot), keep=snapshot.step == 0)
         self.number += 1
 
-    def values(self, snapshot: "Snapshot") -> dict[str, Any]:
+    def values(self, snapshot: Snapshot) -> dict[str, Any]:
         """Results of one time, by their words."""
         if self._last is not None and self._last[0] is snapshot:
             return self._last[1]

@@ -8,15 +8,13 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.kinematics import element_sides
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.statics.pasapas_materials import Varying, same_fields
 from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.statics.pasapas_steering import working_table
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.snapshot import Snapshot
 
 STAGED = {
     "MODE": ("MODELE", "MMODEL"),
@@ -139,7 +137,7 @@ class Reached:
         """The last time alone."""
         return np.arange(self.n_times) == self.n_times - 1
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """The last time."""
         self.values = self.results.values(snapshot)
 

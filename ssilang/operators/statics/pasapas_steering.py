@@ -3,6 +3,7 @@
 from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.mesh.mesh import same_cells
+from ssilang.kernel.stepping.snapshot import Snapshot
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.files.saving import save
 from ssilang.operators.prelude import *
@@ -10,9 +11,6 @@ from ssilang.operators.session.configurations import Configuration
 from ssilang.operators.session.user_procedures import StopCalculation, call_user
 from ssilang.operators.statics.pasapas_results import ResultTables
 from ssilang.operators.tables.entries import Entries
-
-if TYPE_CHECKING:
-    from ssilang.kernel.stepping.snapshot import Snapshot
 
 CHANGEABLE = (
     "MODELE", "CARACTERISTIQUES", "BLOCAGES_MECANIQUES", "CHARGEMENT", "RIGIDITE_CONSTANTE",
@@ -93,7 +91,7 @@ class Steering:
         self.wanted = np.ones(n_times, bool)
         self.wanted[0] = begins and self.prepared
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """One computed time.
 
         Raises
@@ -134,7 +132,7 @@ class SavedTable:
         inside = wanted[(wanted > times[0]) & (wanted <= times[-1])]
         self.wanted = nearest(times, inside)
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """One time: its results stand in the table already."""
         root = self.call.session.root
         name = next((n for n in root.names() if root.find(n) is self.table), "TAB1")

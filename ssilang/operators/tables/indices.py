@@ -24,10 +24,7 @@ INDE = shared("INDE", "tables", full_name="INDEX")
 
 @INDE.form()
 def _indices(table: Table = Arg("TABLE", en="table whose indices are wanted")) -> Table:
-    made = Table()
-    for place, (index, _) in enumerate(table.items(), start=1):
-        made.set(place, index)
-    return made
+    return Table.numbered(table.indices())
 
 
 @INDE.form()
@@ -36,11 +33,8 @@ def _named(
     star: bool = Flag("*", en="stands before a type word"),
     said: str = Arg("MOT", en="type word"),
 ) -> Table:
-    kind, made = type_word(call, said), Table()
-    for name, value in call.session.frame.named().items():
-        if type_of(value) == kind:
-            made.set(Mot(name), value)
-    return made
+    kind, named = type_word(call, said), call.session.frame.named()
+    return Table.of({name: value for name, value in named.items() if type_of(value) == kind})
 
 
 @DIME.form()

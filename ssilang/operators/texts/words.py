@@ -186,11 +186,8 @@ def type_word(call: Call, said: str) -> str:
 
 @EXTR.form()
 def _named(call: Call, kind: str = Main("MOT", en="type word")) -> Table:
-    wanted, found = type_word(call, kind), Table()
-    for value in call.session.frame.named().values():
-        if type_of(value) == wanted:
-            found.set(len(found) + 1, value)
-    return found
+    wanted, named = type_word(call, kind), call.session.frame.named()
+    return Table.numbered(value for value in named.values() if type_of(value) == wanted)
 
 
 @DIME.form()

@@ -10,7 +10,7 @@ from ssilang.messages.message import teller
 from ssilang.operators.vocabulary.pages import default_told, label
 from ssilang.operators.vocabulary.words import Row, parameter_rows, sample, sample_of_law
 
-_KINDS = ("elasticity", "plastic", "creep", "joint", "impedance", "contact")
+_KINDS = ("elasticity", "plastic", "creep", "damage", "joint", "impedance", "contact")
 _COLUMNS = ("help.column-parameter", "help.column-unit", "help.column-default",
             "help.column-range", "help.column-meaning")  # fmt: skip
 

@@ -16,7 +16,7 @@ from ssilang.kernel.interface.laws.law_table import LAWS as JOINT_LAWS
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials import behaviours
 from ssilang.kernel.materials.parameters import LINKS, Names, geometric_names, material_names
-from ssilang.kernel.materials.plastic.laws import CREEP_LAWS, PLASTIC_LAWS
+from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import Option, Quantity, Word
 from ssilang.messages.message import COLON
@@ -52,6 +52,8 @@ _USUAL = {
     "pressure": ("PRESSION",),
     "link": ("POINT_PLAN",),
 }
+_GROUPS = {"plastic": "PLASTIQUE", "creep": "FLUAGE", "damage": "ENDOMMAGEMENT"}
+"""Words that laws of a kind stand behind."""
 _FORMULATION = {"contact": "CONTACT", "pressure": "CHARGEMENT", "link": "LIAISON"}
 
 
@@ -74,8 +76,11 @@ def sample_of_law(law: Word) -> Zone | None:
     if law.kind == "plastic" and name in PLASTIC_LAWS and name != "SECTION":
         element = "POJS" if name in behaviours.UNIAXIAL_LAWS else "QUA4"
         return sample(element, plane, ("ELASTIQUE", "ISOTROPE", "PLASTIQUE", name))
-    if law.kind == "creep" and name in CREEP_LAWS:
-        return sample("QUA4", plane, ("ELASTIQUE", "ISOTROPE", "FLUAGE", name))
+    if (
+        law.kind in _GROUPS
+        and name in behaviours.OWN_LAWS.get(group := _GROUPS[law.kind], ((),))[0]
+    ):
+        return sample("QUA4", plane, ("ELASTIQUE", "ISOTROPE", group, name))
     if law.kind == "impedance":
         return sample("IMP1", space, ("ELASTIQUE", "IMPEDANCE", name))
     if law.kind == "contact" and name in _CONTACT:
@@ -240,7 +245,8 @@ def laws_of(element: str) -> tuple[str, ...]:
         faces = element != "JOI1"
         laws += [n for n in JOINT_LAWS if n != "ELASTIQUE" and not (faces and n in points)]
     laws += [f"PLASTIQUE {n}" for n in _plastic(family)]
-    laws += [f"FLUAGE {n}" for n in CREEP_LAWS if family in behaviours.CREEP_FAMILIES]
+    for group, (own, families) in behaviours.OWN_LAWS.items():
+        laws += [f"{group} {n}" for n in own if family in families]
     return tuple(laws)
 
 
@@ -263,8 +269,8 @@ def elements_of_law(law: Word) -> list[str]:
         return [n for n, k in ELEMENTS.items() if k.family == "impedance"]
     if law.name == "ELASTIQUE":
         return [n for n, k in ELEMENTS.items() if k.family in FAMILIES]
-    said = {"plastic": f"PLASTIQUE {law.name}", "creep": f"FLUAGE {law.name}"}
-    return [n for n in ELEMENTS if said.get(law.kind, law.name) in laws_of(n)]
+    said = f"{_GROUPS.get(law.kind, '')} {law.name}".lstrip()
+    return [n for n in ELEMENTS if said in laws_of(n)]
 
 
 # ---- lines of hints -----------------------------------------------------------------------------

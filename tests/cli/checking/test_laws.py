@@ -101,3 +101,16 @@ def test_a_mesh_and_values_that_only_the_run_knows_leave_the_rest_to_be_looked_a
     first, second = (p for p in found(text) if p.severity == "error")
     assert (first.code, first.data["name"]) == ("operators.models.parameter-range", "KS")
     assert (second.code, second.data["near"]) == ("operators.models.parameter-unknown", "KN")
+
+
+def test_a_law_that_is_not_built_is_found_beside_operands_that_only_the_run_knows() -> None:
+    text = deck(BODY, "'ISOTROPE' 'NON_LINEAIRE' 'NUME_LOI' 31 'C_MATERIAU' (T . 'W')", "")
+    (error,) = (
+        p for p in found("T = TABL ; T . 'W' = MOTS 'A' ;\n" + text) if p.severity == "error"
+    )
+    assert (error.code, error.data["said"]) == (
+        "operators.models.behaviour-not-available",
+        "NON_LINEAIRE",
+    )
+    assert error.span is not None
+    assert error.span.text == "'NON_LINEAIRE'"

@@ -3,6 +3,7 @@
 import pytest
 from together import together
 
+from ssilang.cli.check import check_source
 from ssilang.cli.checking.kinds import (
     ANY_WORD,
     SOMETHING,
@@ -16,6 +17,18 @@ from ssilang.cli.checking.kinds import (
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
 from ssilang.language.values import Mot
+
+
+def test_what_a_procedure_reads_for_itself_hides_nothing_else():
+    """ARGU shows its names, a number behind DONN is no file, EGA takes a tolerance, procedures may
+    change the dimension."""
+    text = (
+        "DEBP TOTO ; ARGU A*MAILLAGE ; WTAB . 'K' = A ; B = ININLIN 1 A ; FINP B ;\n"
+        "SI (EGA 1. 1. 1.E-9) ; OPTI DONN 5 ; FINSI ; X = TOTO ; LIST X ;\n"
+        "OPTI DIME 2 ; DEBP DEEP ; OPTI DIME 3 ; FINP ; DEEP ; P = 0. 0. 1. ; LIST P ;"
+    )
+    (error,) = (p for p in check_source(Source("script", text))[0] if p.severity == "error")
+    assert error.data["name"] == "ININLIN"
 
 
 def test_a_branch_does_not_change_what_stands_before_it():

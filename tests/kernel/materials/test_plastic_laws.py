@@ -13,7 +13,12 @@ from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic import cone
 from ssilang.kernel.materials.plastic.held_stress import respond_held
-from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, check_parameters, law_at
+from ssilang.kernel.materials.plastic.laws import (
+    DAMAGE_LAWS,
+    PLASTIC_LAWS,
+    check_parameters,
+    law_at,
+)
 from ssilang.kernel.materials.plastic.response import PointParameters, mises
 from ssilang.kernel.plasticity.fibre_points import FibreGroup
 
@@ -32,6 +37,9 @@ GIVEN = {
     "RH_COULOMB": {"COHE": 1, "PHI": 0.5},
     "IWAN": {},
     "IWAN_PRESSION": {"PREF": 2.0},
+    "MAZARS": {
+        "KTR0": 1e-3, "ATRA": 0.8, "BTRA": 300, "ACOM": 1.3, "BCOM": 150, "BETA": 1.06
+    },
 }  # fmt: skip
 FIBRES = {
     "PARFAIT_UNI": {"SIGY": 2.0, "H": 100.0},
@@ -46,6 +54,7 @@ FIBRES = {
     },
 }  # fmt: skip
 ALL = {**GIVEN, **FIBRES}
+LAWS = {**PLASTIC_LAWS, **DAMAGE_LAWS}
 SOIL = Curve((CurvePart(np.array([1e-3, 4e-3, 2e-2]), np.array([1.0, 0.7, 0.3])),))
 
 
@@ -70,7 +79,7 @@ HELD = ((), (2,), (1, 2, 3, 4, 5))
 @together("name, held", [*((n, h) for n in GIVEN for h in HELD), *((n, ()) for n in FIBRES)])
 def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...]) -> None:
     p = parameters(name)
-    law = law_at(PLASTIC_LAWS[name], p)
+    law = law_at(LAWS[name], p)
     first, second = steps(3)
     blank = np.zeros((M, len(law.variables)))
     start, _ = respond_held(law, p, np.zeros((M, 6)), first, blank, held)
@@ -97,7 +106,33 @@ def test_tangent_is_the_derivative_of_the_stress(name: str, held: tuple[int, ...
 
 def test_every_law_of_solids_and_of_fibres_is_tested() -> None:
     elsewhere = {"CAM_CLAY"}  # has a test of its own: its elasticity is not that of YOUN and NU
-    assert {*GIVEN, *FIBRES, *elsewhere, "SECTION"} == {*PLASTIC_LAWS}
+    assert {*GIVEN, *FIBRES, *elsewhere, "SECTION"} == {*LAWS}
+
+
+@together("strain, a, b", [(4e-3, 0.8, 300.0), (4e-3, -1.0, 300.0), (4e-3, -20.0, 6e-3),
+                          (8e-3, -20.0, 6e-3), (-2e-2, 0.8, 300.0)])  # fmt: skip
+def test_concrete_cracks_along_the_curves_of_mazars(strain: float, a: float, b: float) -> None:
+    """Simple tension and compression by steps, then unloading: the secant of the damage."""
+    p, law = parameters("MAZARS"), LAWS["MAZARS"]
+    p = PointParameters({**p.values, "ATRA": np.full(M, a), "BTRA": np.full(M, b)}, {})
+    state = np.zeros((M, 6)), np.zeros((M, 2))
+    for _ in range(8):
+        step = strain / 8 * np.eye(6)[[0] * M]
+        found, _ = respond_held(law, p, state[0], step, state[1], (1, 2, 3, 4, 5))
+        state = found.stress, found.variables
+    k, e = 1e-3, strain if strain > 0 else -0.3 * math.sqrt(2) * strain
+    if strain < 0:
+        left = k * (1 - 1.3) / e + 1.3 * math.exp(150 * (k - e))
+    elif a > 0:
+        left = k * (1 - a) / e + a * math.exp(b * (k - e))
+    else:
+        left = k / e * (math.exp(b * (k - e)) if a > -10 else max(b - e, 0.0) / (b - k))
+    assert np.abs(found.stress[:, 0] - 1e3 * strain * left).max() < 1e-6
+    assert law.locked is not None
+    energy = p.elastic_energy(found.stress) + law.locked(p, found.stress, found.variables)
+    assert np.abs(energy - 500 * strain**2 * left).max() < 1e-9
+    back, _ = respond_held(law, p, *state[:1], -step, state[1], (1, 2, 3, 4, 5))
+    assert np.abs(back.stress[:, 0] * 8 / 7 - found.stress[:, 0]).max() < 1e-6
 
 
 @together("size", [1.0, 1e3, 1e6])
@@ -298,7 +333,7 @@ def test_concrete_unloads_and_loads_again_along_its_first_slope() -> None:
 def test_cumulated_strain_is_the_norm_of_the_plastic_tensor(name: str) -> None:
     """EPSE grows by sqrt(2/3 ep : ep), all six components counted as a tensor's."""
     p = parameters(name)
-    law = law_at(PLASTIC_LAWS[name], p)
+    law = law_at(LAWS[name], p)
     first, _ = steps(7)
     blank = np.zeros((M, len(law.variables)))
     after = law.respond(p, np.zeros((M, 6)), 3 * first, blank)
@@ -335,7 +370,7 @@ def unlike(name: str, m: int) -> PointParameters:
 def test_points_have_each_their_own_answer(name: str) -> None:
     m = 7
     p = unlike(name, m)
-    law = law_at(PLASTIC_LAWS[name], p)
+    law = law_at(LAWS[name], p)
     stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
     alone = [(np.zeros((1, 6)), variables[:1])] * m
     for step in (*steps(7), *steps(8)):
@@ -351,7 +386,7 @@ def test_points_have_each_their_own_answer(name: str) -> None:
             assert not found.stress[:, [1, 2, 5]].any()
         for i in range(m):
             one = p.at(np.array([i]))
-            alike = law_at(PLASTIC_LAWS[name], one)
+            alike = law_at(LAWS[name], one)
             own = alike.respond(one, alone[i][0], step[i : i + 1], alone[i][1])
             alone[i] = (own.stress, own.variables)
             np.testing.assert_allclose(found.stress[i], own.stress[0], rtol=1e-9, atol=1e-12)
@@ -366,7 +401,7 @@ def test_work_is_stored_or_lost_and_never_won(name: str) -> None:
     """Elastic and locked energy grow by no more than the work, at each fine step of any path."""
     m, fine = 20, 100
     p = unlike(name, m)
-    law = law_at(PLASTIC_LAWS[name], p)
+    law = law_at(LAWS[name], p)
     stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
 
     def stored() -> np.ndarray:

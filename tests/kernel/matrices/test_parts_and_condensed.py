@@ -188,6 +188,10 @@ def test_a_condensed_body_is_the_body_that_its_masters_feel(inside):
     for i, at in enumerate(held):
         near(pushed.values_at(DUAL[n.name(at)], n.nodes[[at]]), expected[i])
     assert ("FLX" in pushed.components) is not inside
+    alone = NodeField.of(load.table, np.array([1]), {"UX": np.ones(1)})
+    one = supers.condense(body(conditions=False), alone, False)
+    felt = supers.condensed_load(one, vector_to_field(forces, n, dual=True))
+    assert set(felt.components) == {"FX"}
     M = body(seed=8, conditions=False)
     unit = supers.unit_shapes(element)
     if not inside:  # the others follow by least energy under the conditions

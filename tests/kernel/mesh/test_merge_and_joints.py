@@ -63,7 +63,10 @@ def test_turned_line_that_touches_its_centre_becomes_triangles(quadratic: bool, 
     name = "QUA8" if quadratic else "QUA4"
     sector = sweep_line(radius, path, subdivide(path.length, count=4), name)
     area = total_measure(sector)
-    merge_close(nodes, sector.node_ids, 1e-6)
+    before = sector.node_ids
+    assert sector.node_ids is before  # ordered once, and anew after a merge
+    merge_close(nodes, before, 1e-6)
+    assert sector.node_ids.tolist() == list(dict.fromkeys(nodes.resolve(before).tolist()))
     assert repeated_nodes(sector) == 4
     made = regenerate(sector)
     assert {b.cell_type: len(b) for b in made.blocks} == {name: 4, cell: 4}

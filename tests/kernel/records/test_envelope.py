@@ -18,6 +18,7 @@ def test_shocks_are_found_wherever_they_begin(first):
     y = np.zeros(12)
     y[first : first + 3] = [4.0, -2.0, 1.0]
     y[first + 5 : first + 7] = [-3.0, 6.0]
+    y[first - 1] = 2.0
     t, mean = mean_shock(T, y, 40.0, 1.0, None)  # above 2.4: at `first` and five samples later
     np.testing.assert_allclose(t, [0.0, 0.5, 1.0])
     np.testing.assert_allclose(mean, [(4 - 3) / 2, (-2 + 6) / 2, (1 + 0) / 2])

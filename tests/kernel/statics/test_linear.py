@@ -272,6 +272,16 @@ def test_reused_values_of_conditions_come_from_the_field():
     assert assemble(matrix).shape == (3, 3)
 
 
+def test_what_was_prepared_is_made_anew_when_nodes_were_merged():
+    """Two pairs of springs, then the end of one pair on the foot of the other."""
+    matrix = whole(np.kron(np.eye(2), [[3.0, -2.0], [-2.0, 2.0]]))
+    push = NodeField.of(matrix.table, np.array([1]), {"FX": np.ones(1)})
+    for exact in ([1.0, 1.5], [0.4, 0.6]):
+        (found,) = solve(matrix, [push])
+        np.testing.assert_allclose(found.values_at("UX", np.array([0, 1])), exact)
+        matrix.table.merge(np.array([1]), np.array([2]))
+
+
 def test_rows_whose_force_is_their_own_are_eliminated_beside_others():
     """u1 = 0 is an ordinary row; u2 = d is kept by a force at node 3."""
     K = np.diag([4.0, 4.0, 4.0]) - np.diag([1.0, 1.0], 1) - np.diag([1.0, 1.0], -1)

@@ -19,6 +19,7 @@ from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import drawing, head
 from ssilang.io.plots.graphs.differences import differences
 from ssilang.io.plots.graphs.line_style import DASHES, Line, LineStyle
+from ssilang.io.plots.labels import formatted
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import CYCLE, index_of, shade
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -306,8 +307,6 @@ def _frame(panel: Axes, options: CurveOptions) -> None:
 
 def _graduate(axis: Any, step: float | None, form: str | None, log: bool) -> None:
     from matplotlib.ticker import FuncFormatter, MultipleLocator
-
-    from ssilang.io.plots.labels import formatted
 
     if log:
         return

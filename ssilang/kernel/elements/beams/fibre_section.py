@@ -18,7 +18,7 @@ from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
-from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
+from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Model, Zone
@@ -177,8 +177,6 @@ def section_of_beam(parameters: ZoneField) -> FibreSection:
     MaterialError
         If the beams of the zone have different sections.
     """
-    from ssilang.kernel.elements.zone_fields import missing_parameter
-
     found = []
     for name in ("MODS", "MATS"):
         if name not in parameters:

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.elements.catalog import ELEMENTS, support_shapes
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
@@ -285,14 +286,13 @@ def _turns(zone: Zone) -> bool:
 
 def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:
     """Turns of the cells' axes, (n, 3, 3); the nodes stand where the motion has taken them."""
-    from scipy.spatial.transform import Rotation
-
     nodes, ends = zone.cells.connectivity, zone.cells.coordinates
     mean = np.zeros((len(nodes), 3))
     for i, name in enumerate(("RX", "RY", "RZ")):
         if name in motion.components:
             mean[:, i] = motion.values_at(name, nodes).mean(axis=1)
-    plain = Rotation.from_rotvec(mean)
+    turning = spatial.transform.Rotation.from_rotvec
+    plain = turning(mean)
     if zone.element != "JOI1":
         return plain.as_matrix()
     starts = ends - displacements(motion)[nodes]
@@ -300,14 +300,14 @@ def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:
     lengths = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
     apart = lengths > 0.0
     axis = before / np.where(apart, np.linalg.norm(before, axis=1), 1.0)[:, None]
-    about = Rotation.from_rotvec(np.vecdot(mean, axis)[:, None] * axis)
+    about = turning(np.vecdot(mean, axis)[:, None] * axis)
     across = np.cross(before, after)
     sine = np.linalg.norm(across, axis=1)
     back = (sine == 0.0) & (np.vecdot(before, after) < 0.0)  # any axis across the segment does
     across[back] = np.cross(before[back], np.eye(3)[np.abs(before[back]).argmin(axis=1)])
     size = np.linalg.norm(across, axis=1)
     angle = np.arctan2(sine, np.vecdot(before, after))
-    swing = Rotation.from_rotvec(across * (angle / np.where(size > 0.0, size, 1.0))[:, None])
+    swing = turning(across * (angle / np.where(size > 0.0, size, 1.0))[:, None])
     return np.where(apart[:, None, None], (swing * about).as_matrix(), plain.as_matrix())
 
 

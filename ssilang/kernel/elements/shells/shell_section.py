@@ -175,6 +175,16 @@ def strains_off_mesh(B: FloatArray, zone: Zone, parameters: ZoneField, cells: sl
     return moved
 
 
+def moduli_on_mesh(D: FloatArray, zone: Zone, parameters: ZoneField) -> FloatArray:
+    """Moduli (n, p, s, s) of forces and strains of the mesh from those of the middle surface."""
+    e = offset(zone, parameters)
+    if e is None:
+        return D
+    s = D.shape[-1]
+    moved = np.eye(s) + e[:, None, None, None] * np.eye(s, k=3) * (np.arange(s) < 3)[:, None]
+    return np.asarray(np.swapaxes(moved, -1, -2) @ D @ moved)
+
+
 def by_node(
     zone: Zone,
     parameters: ZoneField,

@@ -61,6 +61,7 @@ class Variable(IntEnum):
     SLIP2 = 2  # along t2
     DAMAGE = 3  # share of the shear stiffness lost; plastic compression of a Mohr-Coulomb joint
     SHEAR_ENERGY = 4  # stored
+    PULLED = 4  # openings of a Mohr-Coulomb joint, added up
     SHEAR_LOSS = 5  # energy lost in shear so far
     HELD = 6  # in a step's iteration: CLOSED_SHEAR, OPEN_SHEAR, or 0: as the law says
     STATUS = 7  # of a Mohr-Coulomb joint: untouched (0), IS_OPEN or IN_CONTACT

@@ -71,6 +71,7 @@ def mohr_point(
         else:
             new[Var.XI] += opened
             loss += strength * opened
+        new[Var.PULLED] += max(opened - state[Var.OPENING], 0.0)
     else:
         if p[Par.ECN] > 0.0 and t[n] < -kn * p[Par.ECN]:
             tn, kn = p[Par.EF] * (closing + p[Par.ECN]) - kn * p[Par.ECN], p[Par.EF]
@@ -220,8 +221,8 @@ def check_mohr_parameters(parameters: FloatArray) -> None:
 
 _PLASTIC: dict[str, tuple[Var, ...]] = {
     "EPSE": (Var.CUMULATED,), "STAT": (Var.STATUS,), "EPOU": (Var.OPENING,),
-    "LAM1": (Var.DAMAGE,), "PLA1": (Var.SLIP1,), "PLA2": (Var.SLIP2,),
-    "PLA3": (Var.XI, Var.OPENING),
+    "LAM1": (Var.PULLED,), "PLA1": (Var.SLIP1,), "PLA2": (Var.SLIP2,),
+    "PLA3": (Var.XI, Var.OPENING), "LAM3": (Var.DAMAGE,), "EPCO": (Var.DAMAGE,),
 }  # fmt: skip
 
 LAWS = {

@@ -18,6 +18,7 @@ from ssilang.kernel.materials.plastic import (
     creep,
     hognestad,
     iwan,
+    mazars,
     menegotto_pinto,
     rounded_coulomb,
     uniaxial,
@@ -198,17 +199,32 @@ CREEP_LAWS: dict[str, PlasticLaw] = {
 }
 """By the word after FLUAGE."""
 
+DAMAGE_LAWS: dict[str, PlasticLaw] = {
+    "MAZARS": PlasticLaw(
+        mazars.respond,
+        mazars.REQUIRED,
+        mazars.VARIABLES,
+        positive=("KTR0", "BTRA", "BCOM"),
+        check=mazars.check,
+        symmetric=False,
+        defaults=mazars.DEFAULTS,
+        locked=mazars.locked,
+    ),
+}
+"""By the word after ENDOMMAGEMENT."""
+
 
 def plastic_law(behaviour: tuple[str, ...]) -> PlasticLaw | None:
-    """The plastic (or creep) law in the words of a zone's behaviour, None for an elastic one.
+    """The law of flow, creep or damage in the words of a zone's behaviour, None for an elastic one.
 
     Raises
     ------
     MaterialError
         If the word after PLASTIQUE names no law.
     """
-    if "FLUAGE" in behaviour:
-        return CREEP_LAWS[behaviour[-1]]
+    for group, laws in (("FLUAGE", CREEP_LAWS), ("ENDOMMAGEMENT", DAMAGE_LAWS)):
+        if group in behaviour:
+            return laws[behaviour[-1]]
     if "PLASTIQUE" not in behaviour:
         return None
     after = behaviour[behaviour.index("PLASTIQUE") + 1 :] or ("ISOTROPE",)

@@ -8,6 +8,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.degree import middle_places
 from ssilang.kernel.mesh.combine import take, union
@@ -17,11 +18,9 @@ from ssilang.kernel.mesh.nodes import NodeTable
 
 def merge_close(nodes: NodeTable, ids: IntArray, tolerance: float) -> None:
     """Merge the nodes (m,) that are less than `tolerance` apart; the oldest of each group stays."""
-    from scipy.spatial import cKDTree
-
     ids = np.unique(nodes.resolve(ids))
     _check(tolerance)
-    pairs = cKDTree(nodes.coordinates[ids]).query_pairs(tolerance, output_type="ndarray")
+    pairs = spatial.cKDTree(nodes.coordinates[ids]).query_pairs(tolerance, output_type="ndarray")
     if not len(pairs):
         return
     label = parts_of(len(ids), pairs.T)
@@ -36,16 +35,14 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
     """Merge nodes of one set with nodes of another, less than `tolerance` apart; nodes of the
     same set stay distinct.
 
-    Each node goes with the nearest free one of the other set.
+    Each node goes with the nearest free one of the other set, else onto one that both have.
     """
-    from scipy.spatial import cKDTree
-
     _check(tolerance)
     a, b = np.unique(nodes.resolve(first)), np.unique(nodes.resolve(second))
     common = np.intersect1d(a, b)
     a, b = np.setdiff1d(a, common), np.setdiff1d(b, common)
-    tree = cKDTree(nodes.coordinates[b])
-    near = cKDTree(nodes.coordinates[a]).sparse_distance_matrix(
+    tree = spatial.cKDTree(nodes.coordinates[b])
+    near = spatial.cKDTree(nodes.coordinates[a]).sparse_distance_matrix(
         tree, tolerance, output_type="coo_matrix"
     )
     order = np.argsort(near.data, kind="stable")
@@ -56,6 +53,10 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
         if free_a[i] and free_b[j]:
             free_a[i] = free_b[j] = False
             pairs.append((a[i], b[j]))
+    if len(common):
+        left = np.concatenate([a[free_a], b[free_b]])
+        gap, at = spatial.cKDTree(nodes.coordinates[common]).query(nodes.coordinates[left])
+        pairs += zip(left[gap < tolerance], common[at[gap < tolerance]], strict=True)
     table = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
     nodes.merge(table[:, 0], table[:, 1])
 

@@ -12,6 +12,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import entries, parts_of
+from ssilang.kernel.base.scientific import spla
 from ssilang.kernel.base.sparse import assemble_triplets, sp
 from ssilang.kernel.mesh.boundary import contour, edges, envelope
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes, rotate
@@ -281,8 +282,6 @@ def followed(
 
 def _solved(A: sp.csr_array, values: FloatArray, fixed: np.ndarray) -> FloatArray:
     """Values (n, 3) with A values = 0 at the rows that are not fixed."""
-    from scipy.sparse.linalg import splu
-
     free = np.flatnonzero(~fixed)
     if not len(free):
         return values
@@ -290,7 +289,7 @@ def _solved(A: sp.csr_array, values: FloatArray, fixed: np.ndarray) -> FloatArra
     part = parts_of(len(values), entries(A))
     if len(np.unique(part[known])) <= part.max():
         raise MeshError("kernel.mesh.part-mesh-no-master")
-    found = splu(sp.csc_array(A[free][:, free])).solve(-(A[free][:, known] @ values[known]))
+    found = spla.splu(sp.csc_array(A[free][:, free])).solve(-(A[free][:, known] @ values[known]))
     result = values.copy()
     result[free] = found
     return result

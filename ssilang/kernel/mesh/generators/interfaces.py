@@ -7,6 +7,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
@@ -75,13 +76,11 @@ def facing_parts(ours: Simplices, theirs: Simplices, tolerance: float) -> FloatA
     A point faces a simplex if its foot lies inside of it, not beyond its edges, and the two are
     nearly parallel: neighbours in one line, or round a corner, do not face each other.
     """
-    from scipy.spatial import cKDTree
-
     weights = _samples(ours.corners.shape[1])
     points = np.einsum("pk,mkx->mpx", weights, ours.corners)
     centres = theirs.corners.mean(axis=1)
     radius = np.linalg.norm(theirs.corners - centres[:, None], axis=2).max() + tolerance
-    found = cKDTree(centres).query_ball_point(points.reshape(-1, 3), radius)
+    found = spatial.cKDTree(centres).query_ball_point(points.reshape(-1, 3), radius)
     rows = np.repeat(np.arange(len(found)), [len(f) for f in found])
     met = np.zeros(len(found), dtype=bool)
     if len(rows):
@@ -107,6 +106,8 @@ _JOINTS = {
     "TRI6": "LIA6",
     "QUA8": "LIA8",
 }
+_ROUNDING = 1e-9
+"""Sides that stand apart by the very tolerance are within it, however they were moved there."""
 _NORMAL_TO_FACE = 1e-6  # gaps smaller than this part of the cell size count as closed
 
 
@@ -135,6 +136,7 @@ def joint_mesh(first: Mesh, second: Mesh, tolerance: float, part: bool = False) 
     """
     if tolerance <= 0.0:
         raise MeshError("kernel.mesh.facing-cells-paired-within")
+    tolerance *= 1 + _ROUNDING
     made, joined = [], _Joined(first, second)
     for block in first.blocks:
         joint = _JOINTS.get(block.cell_type)
@@ -200,9 +202,7 @@ def _paired(
 ) -> tuple[IntArray, IntArray, IntArray]:
     """Cells of `block` that have a partner (m,), the partner's nodes (m, k) in their order, and
     the partner (m,)."""
-    from scipy.spatial import cKDTree
-
-    tree = cKDTree(other.coordinates.mean(axis=1))
+    tree = spatial.cKDTree(other.coordinates.mean(axis=1))
     centres = block.coordinates.mean(axis=1)
     near = tree.query_ball_point(centres, tolerance)
     rows = np.repeat(np.arange(len(block)), [len(c) for c in near])
@@ -279,9 +279,8 @@ def joints_inside(mesh: Mesh, tolerance: float) -> Mesh:
 
 def _facing_pairs(block: CellBlock, tolerance: float) -> tuple[IntArray, IntArray]:
     """Cells of a block that face a later one (m,), and the nodes of that one in their order."""
-    from scipy.spatial import cKDTree
-
-    pairs = cKDTree(block.coordinates.mean(axis=1)).query_pairs(tolerance, output_type="ndarray")
+    tree = spatial.cKDTree(block.coordinates.mean(axis=1))
+    pairs = tree.query_pairs(tolerance, output_type="ndarray")
     if not len(pairs):
         return np.empty(0, dtype=np.int64), np.empty((0, block.kind.n_nodes), dtype=np.int64)
     pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]

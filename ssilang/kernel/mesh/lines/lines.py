@@ -10,6 +10,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import csgraph, sp
+from ssilang.kernel.mesh.boundary import walked
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable, told_coordinates
@@ -86,14 +88,15 @@ def polyline(
 
 
 def line_chain(line: Mesh) -> IntArray:
-    """Nodes of a line in the order of its cells, middles included, shape (m,).
+    """Nodes of a line in the order and sense of its cells, middles included, shape (m,).
 
-    A closed line repeats its first node at the end.
+    A closed line repeats its first node at the end. Where cells run against each other, the sense
+    is the first one's.
 
     Raises
     ------
     MeshError
-        If the mesh is not one connected line whose cells all run the same way.
+        If the mesh is not one connected line.
     """
     if any(b.cell_type not in ("SEG2", "SEG3") for b in line.blocks) or not line.blocks:
         kinds = [b.cell_type for b in line.blocks]
@@ -105,18 +108,12 @@ def line_chain(line: Mesh) -> IntArray:
 
 
 def _in_order(table: IntArray, nodes: NodeTable) -> IntArray:
-    """Cells (n, 2 or 3) of one line that all run in its sense, one behind the other."""
-    leaving = {int(first): i for i, first in enumerate(table[:, 0])}
-    starts = np.setdiff1d(table[:, 0], table[:, -1])
-    rows: list[int] = []
-    if len(leaving) == len(table) and len(starts) <= 1:
-        at = int(starts[0] if len(starts) else table[0, 0])
-        while at in leaving and len(rows) < len(table):
-            rows.append(leaving[at])
-            at = int(table[rows[-1], -1])
-    if len(rows) != len(table):
+    """Cells (n, 2 or 3) of one line, one behind the other, in the sense of the first of them."""
+    ends, counts = np.unique(table[:, [0, -1]], return_counts=True)
+    found, order = walked(table, np.append(ends[counts == 1], table[0, 0])[:1])
+    if len(order) != len(table) or counts.max() > 2:
         raise MeshError("kernel.mesh.line-cells-not-follow", twice=_met_twice(table, nodes))
-    return table[rows]
+    return found if found[order == 0][0, 0] == table[0, 0] else found[::-1, ::-1]
 
 
 def _met_twice(table: IntArray, nodes: NodeTable) -> str:
@@ -166,9 +163,6 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
     MeshError
         If the mesh is not of lines of one kind, or no way leads from one node to the other.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import dijkstra
-
     block = network.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
         raise MeshError("kernel.mesh.line-of-segments-needed", kinds=block.cell_type)
@@ -181,8 +175,8 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
         raise MeshError("kernel.mesh.two-points-not-ends")
     gaps = np.diff(network.nodes.coordinates[nodes[pairs]], axis=1)[:, 0]
     lengths = np.maximum(np.linalg.norm(gaps, axis=1), np.finfo(float).tiny)
-    graph = coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
-    search: Any = dijkstra  # its stubs know fewer kinds of graphs
+    graph = sp.coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
+    search: Any = csgraph.dijkstra  # its stubs know fewer kinds of graphs
     _, before = search(graph, directed=False, indices=int(ends[0]), return_predecessors=True)
     cells = {frozenset(map(int, pair)): i for i, pair in enumerate(pairs)}
     rows: list[int] = []

@@ -7,6 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.base.scientific import csgraph, sp
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
@@ -133,21 +134,18 @@ def by_neighbours(block: CellBlock) -> CellBlock:
 
     Each part of the mesh begins with its first cell.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import breadth_first_order
-
     n = len(block)
     cells, corners = _sides(Mesh(block.nodes, (block,)))
     which, counts = np.unique(corners, axis=0, return_inverse=True, return_counts=True)[1:]
     which = which.reshape(-1)
     pairs = [_pairs(cells, which, counts, m)[0] for m in np.unique(counts[counts > 1])]
     first, second = np.concatenate([np.empty((0, 2), dtype=np.int64), *pairs]).T
-    links = coo_array((np.ones(len(first)), (first, second)), shape=(n, n)).tocsr()
+    links = sp.coo_array((np.ones(len(first)), (first, second)), shape=(n, n)).tocsr()
     found = np.zeros(n, dtype=bool)
     order: list[IntArray] = []
     while not found.all():
         start = int(np.argmin(found))
-        met = breadth_first_order(links, start, directed=False)[0]
+        met = csgraph.breadth_first_order(links, start, directed=False)[0]
         order.append(met.astype(np.int64))
         found[order[-1]] = True
     places = np.concatenate(order) if order else np.empty(0, dtype=np.int64)

@@ -5,6 +5,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.lines.curves import unit_vector
@@ -214,9 +215,7 @@ def segment_distance(p: FloatArray, a: FloatArray, b: FloatArray) -> FloatArray:
 
 def places_once(points: FloatArray, near: float) -> tuple[FloatArray, IntArray]:
     """Points (p, d), the first of those that hang together, nearer than that; each one's (m,)."""
-    from scipy.spatial import cKDTree
-
-    pairs = cKDTree(points).query_pairs(near, output_type="ndarray")
+    pairs = spatial.cKDTree(points).query_pairs(near, output_type="ndarray")
     part = parts_of(len(points), pairs.T)
     return points[np.unique(part, return_index=True)[1]], part
 
@@ -230,8 +229,6 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
         Tolerance on barycentric coordinates: positive takes points slightly outside, negative
         only those strictly inside.
     """
-    from scipy.spatial import cKDTree
-
     xyz = volume.nodes.coordinates
     tables = [tetrahedra(b).connectivity for b in volume.blocks if b.kind.dimension == 3]
     if not tables:
@@ -241,7 +238,7 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
     reach = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1) * (1 + abs(margin) * 4)
     inverse = np.linalg.inv(np.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2))
     inside = np.zeros(len(positions), dtype=bool)
-    tree = cKDTree(positions)
+    tree = spatial.cKDTree(positions)
     for k, rows in enumerate(tree.query_ball_point(centres, reach)):
         todo = np.array([r for r in rows if not inside[r]], dtype=np.int64)
         if len(todo):

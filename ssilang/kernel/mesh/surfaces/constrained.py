@@ -6,6 +6,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.base.scientific import csgraph, spatial
 from ssilang.kernel.mesh.boundary import contour
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
@@ -64,8 +65,6 @@ def _flat(at: FloatArray, dimension: int) -> FloatArray:
 
 def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.bool_]:
     """Triangles in parts that an odd number of lines, the fewest, divides from the outside."""
-    from scipy.sparse.csgraph import shortest_path
-
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2) @ [n, 1]
     walls = np.sort(segments, axis=1) @ [n, 1]
     owner = np.repeat(np.arange(len(triangles)), 3)
@@ -87,7 +86,7 @@ def _enclosed(triangles: IntArray, segments: IntArray, n: int) -> NDArray[np.boo
     kept = a != b
     graph = np.full((n_parts + 1, n_parts + 1), np.inf)
     np.minimum.at(graph, (a[kept], b[kept]), cost[kept])
-    steps = shortest_path(graph, directed=False, indices=n_parts)
+    steps = csgraph.shortest_path(graph, directed=False, indices=n_parts)
     return np.asarray(np.round(steps[part]) % 2 == 1)
 
 
@@ -145,15 +144,13 @@ def delaunay_mesh(mesh: Mesh, dimension: int, colour: int = 0) -> Mesh:
     MeshError
         If the points are too few or lie in one line or plane.
     """
-    from scipy.spatial import Delaunay, QhullError
-
     ids = mesh.node_ids
     if not len(ids):
         raise MeshError("kernel.mesh.mesh-empty-nothing-triangulate")
     at = mesh.nodes.coordinates[ids, :dimension]
     try:
-        cells = Delaunay(at).simplices.astype(np.int64)
-    except QhullError as error:
+        cells = spatial.Delaunay(at).simplices.astype(np.int64)
+    except spatial.QhullError as error:
         raise MeshError("kernel.mesh.points-too-few-line") from error
     arms = at[cells[:, 1:]] - at[cells[:, :1]]
     negative = np.linalg.det(arms) < 0

@@ -4,6 +4,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import interpolate, spatial
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.select import crossing_inside, segment_distance
@@ -17,13 +18,12 @@ class SizeField:
 
     def __init__(self, points: FloatArray, sizes: FloatArray) -> None:
         # corners of a larger square with the mean size make the interpolation total
-        from scipy.interpolate import LinearNDInterpolator
 
         low, high = points.min(axis=0), points.max(axis=0)
         middle, reach = (low + high) / 2, 3.0 * float((high - low).max())
         far = middle + reach * np.array([[-1.0, -1.1], [1.1, -1.0], [1.0, 1.1], [-1.1, 1.0]])
         values = np.concatenate([sizes, np.full(4, sizes.mean())])
-        self._inside = LinearNDInterpolator(np.vstack([points, far]), values)
+        self._inside = interpolate.LinearNDInterpolator(np.vstack([points, far]), values)
         self._least = float(sizes.min())
 
     def __call__(self, p: FloatArray) -> FloatArray:
@@ -158,8 +158,6 @@ def _accepted(
     proposals: FloatArray, points: FloatArray, a: FloatArray, b: FloatArray, size: SizeField
 ) -> FloatArray:
     """Proposals that are inside and far enough from points, from the contour and one another."""
-    from scipy.spatial import cKDTree
-
     if not len(proposals):
         return proposals
     inside = crossing_inside(proposals, a, b)
@@ -167,13 +165,13 @@ def _accepted(
     if not len(proposals):
         return proposals
     h = size(proposals)
-    far, _ = cKDTree(points).query(proposals)
+    far, _ = spatial.cKDTree(points).query(proposals)
     good = (far > 0.62 * h) & (segment_distance(proposals, a, b) > 0.5 * h)
     proposals, h = proposals[good], h[good]
     if not len(proposals):
         return proposals
     free = np.ones(len(proposals), dtype=bool)
-    near = cKDTree(proposals).query_ball_point(proposals, 0.72 * h)
+    near = spatial.cKDTree(proposals).query_ball_point(proposals, 0.72 * h)
     for i, rows in enumerate(near):
         if free[i]:
             free[rows] = False

@@ -4,6 +4,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.select import places_once, segment_distance
 from ssilang.kernel.mesh.surfaces.triangulate import doubled_areas, recover_segments
@@ -47,12 +48,10 @@ def crossing_segments(a: FloatArray, b: FloatArray) -> tuple[IntArray, IntArray,
 
 def _near_pairs(a: FloatArray, b: FloatArray) -> tuple[IntArray, IntArray]:
     """Rows of triangles whose boxes overlap."""
-    from scipy.spatial import cKDTree
-
     middle_a, middle_b = a.mean(axis=1), b.mean(axis=1)
     reach_a = np.linalg.norm(a - middle_a[:, None], axis=2).max(axis=1)
     reach_b = np.linalg.norm(b - middle_b[:, None], axis=2).max(axis=1)
-    found = cKDTree(middle_b).query_ball_point(middle_a, reach_a + reach_b.max())
+    found = spatial.cKDTree(middle_b).query_ball_point(middle_a, reach_a + reach_b.max())
     i = np.repeat(np.arange(len(a)), [len(f) for f in found])
     j = np.array([k for f in found for k in f], dtype=np.int64)
     room = 1e-9 * float(reach_a.max())
@@ -191,12 +190,10 @@ def _imprint(
 
 def _nodes_at(surface: Mesh, points: FloatArray, near: float) -> IntArray:
     """Nodes of the surface at places, new ones where it has none."""
-    from scipy.spatial import cKDTree
-
     nodes, own = surface.nodes, surface.node_ids
     if not len(points):
         return np.empty(0, dtype=np.int64)
-    gap, nearest = cKDTree(nodes.coordinates[own]).query(points)
+    gap, nearest = spatial.cKDTree(nodes.coordinates[own]).query(points)
     ids: IntArray = own[nearest]
     new = gap > near
     ids[new] = nodes.add(points[new], nodes.density[ids[new]])
@@ -318,9 +315,7 @@ def _bent(
 
 def _delaunay_cut(points: FloatArray, segments: IntArray) -> IntArray:
     """Anticlockwise Delaunay triangles (t, 3) of a convex cloud that have the segments."""
-    from scipy.spatial import Delaunay
-
-    table = Delaunay(points).simplices.astype(np.int64)
+    table = spatial.Delaunay(points).simplices.astype(np.int64)
     turned = doubled_areas(points, table) < 0
     table[turned] = table[turned][:, ::-1]
     return recover_segments(points, table, segments)

@@ -4,6 +4,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.queries.select import crossing_inside
 
 
@@ -33,14 +34,12 @@ def delaunay_triangles(points: FloatArray) -> IntArray:
     The square's corners keep the convex hull away from the points, so that points in line on
     the contour give no flat triangles.
     """
-    from scipy.spatial import Delaunay, QhullError
-
     low, high = points.min(axis=0), points.max(axis=0)
     middle, reach = (low + high) / 2, 8.0 * float((high - low).max())
     far = middle + reach * np.array([[-1.0, -0.9], [1.0, -1.1], [0.9, 1.0], [-1.1, 1.1]])
     try:
-        table = Delaunay(np.vstack([points, far]) - middle).simplices.astype(np.int64)
-    except QhullError as error:
+        table = spatial.Delaunay(np.vstack([points, far]) - middle).simplices.astype(np.int64)
+    except spatial.QhullError as error:
         raise MeshError("kernel.mesh.points-contour-cannot-triangulated") from error
     table = table[(table < len(points)).all(axis=1)]
     areas = doubled_areas(points, table)

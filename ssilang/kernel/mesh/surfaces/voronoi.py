@@ -13,6 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.queries.select import crossing_inside, places_once, segment_distance
 
 OUTSIDE = -1
@@ -107,14 +108,12 @@ def _check(
 
 def _pairs(powers: _Powers) -> list[tuple[int, int]]:
     """Germs whose cells may touch: sides of their regular triangulation."""
-    from scipy.spatial import ConvexHull, QhullError
-
     n = len(powers.germs)
     if n > _FEW:
         lifted = np.column_stack([powers.germs, powers.constants])
         try:
-            hull = ConvexHull(lifted / np.abs(lifted).max(axis=0))
-        except QhullError:
+            hull = spatial.ConvexHull(lifted / np.abs(lifted).max(axis=0))
+        except spatial.QhullError:
             pass  # germs in line or on one circle
         else:
             faces = hull.simplices[hull.equations[:, 2] <= 1e-12]

@@ -8,6 +8,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
+from ssilang.kernel.base.scientific import optimize, sp, spatial
 from ssilang.kernel.mesh.surfaces.fill import mean_sizes
 
 _CLEARANCE = 0.003  # wanted height over a face's plane in the lifted space, in squared sizes
@@ -88,10 +89,8 @@ def _neighbours(
     points: FloatArray, triangles: IntArray, reach: FloatArray
 ) -> tuple[IntArray, IntArray]:
     """Pairs (triangle, point) to keep apart."""
-    from scipy.spatial import cKDTree
-
     centres, radii = small_spheres(points, triangles)
-    found = cKDTree(points).query_ball_point(centres, reach * radii)
+    found = spatial.cKDTree(points).query_ball_point(centres, reach * radii)
     counts = np.array([len(f) for f in found])
     face = np.repeat(np.arange(len(triangles)), counts)
     other = np.concatenate([np.asarray(f, dtype=np.int64) for f in found])
@@ -131,9 +130,6 @@ def _programme(
     points: FloatArray, triangles: IntArray, frame: _Frame, face: IntArray, other: IntArray
 ) -> tuple[float, FloatArray, FloatArray]:
     """Clearance, weights (m,) and slopes (t,)."""
-    from scipy.optimize import linprog
-    from scipy.sparse import coo_array, hstack
-
     m, t, n = len(points), len(triangles), len(face)
     shares, height = frame.shares(face, points[other])
     # heights over the corner a: |x - a|**2, exact for close points
@@ -146,10 +142,10 @@ def _programme(
     entries += [(rows, triangles[face, k], -shares[:, k]) for k in range(3)]
     entries.append((rows, np.full(n, m + t), frame.size[face]))
     i, j, v = (np.concatenate([e[k] for e in entries]) for k in range(3))
-    half = coo_array((v, (i, j)), shape=(n, m + t + 1)).tocsc()
+    half = sp.coo_array((v, (i, j)), shape=(n, m + t + 1)).tocsc()
     # weights and slopes as differences of positive parts, whose sum is the price
     free = half[:, : m + t]
-    table: Any = hstack([free, -free, half[:, m + t :]]).tocsr()
+    table: Any = sp.hstack([free, -free, half[:, m + t :]]).tocsr()
     h = np.sqrt(frame.size)
     at = np.full(m, np.inf)
     np.minimum.at(at, triangles.ravel(), np.repeat(h, 3))
@@ -158,7 +154,7 @@ def _programme(
     cost = np.concatenate([price, price, [-1e4 * len(price)]])
     upper = np.concatenate([limit, limit, [_CLEARANCE]])
     bounds = np.column_stack([np.zeros(len(upper)), upper])
-    found = linprog(cost, A_ub=table, b_ub=gap, bounds=bounds.tolist(), method="highs")
+    found = optimize.linprog(cost, A_ub=table, b_ub=gap, bounds=bounds.tolist(), method="highs")
     if found.x is None:
         return 0.0, np.zeros(m), np.zeros(t)
     x = np.asarray(found.x[: m + t] - found.x[m + t : -1])
@@ -244,11 +240,9 @@ def _outside_spheres(
     positions: FloatArray, centres: FloatArray, radii: FloatArray, factor: float
 ) -> FloatArray:
     """Positions that lie in none of the spheres enlarged by a factor."""
-    from scipy.spatial import cKDTree
-
     if not len(positions):
         return positions
-    hit = cKDTree(positions).query_ball_point(centres, factor * radii)
+    hit = spatial.cKDTree(positions).query_ball_point(centres, factor * radii)
     free = np.ones(len(positions), dtype=bool)
     free[np.unique(np.concatenate([np.asarray(h, dtype=np.int64) for h in hit]))] = False
     return positions[free]
@@ -261,11 +255,9 @@ def _sizes(points: FloatArray, triangles: IntArray) -> FloatArray:
 
 def _inner_points(points: FloatArray, triangles: IntArray) -> FloatArray:
     """Lattice points inside, their spacing following the sizes of the surface nearby."""
-    from scipy.spatial import cKDTree
-
     used = np.unique(triangles)
     sizes = _sizes(points, triangles)[used]
-    tree = cKDTree(points[used])
+    tree = spatial.cKDTree(points[used])
     least, largest = float(sizes.min()), float(sizes.max())
     chosen = np.empty((0, 3))
     for level in range(int(np.log2(largest / least) + 1e-9), -1, -1):
@@ -279,7 +271,7 @@ def _inner_points(points: FloatArray, triangles: IntArray) -> FloatArray:
         fit = (wanted >= (step if level else 0.0)) & (wanted < upper) & (reach[:, 0] > 0.6 * wanted)
         lattice, wanted = lattice[fit], wanted[fit]
         if len(chosen) and len(lattice):
-            apart, _ = cKDTree(chosen).query(lattice)
+            apart, _ = spatial.cKDTree(chosen).query(lattice)
             lattice = lattice[apart > 0.8 * wanted]
         lattice = _outside_spheres(lattice, *small_spheres(points, triangles), 1.02)
         lattice = lattice[ray_inside(lattice, points, triangles)]
@@ -328,16 +320,14 @@ def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:
 
     Eight far points, numbered last, surround the others.
     """
-    from scipy.spatial import ConvexHull, QhullError
-
     signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
     far = signs * [[3.0, 3.1, 2.9]] + 0.01 * np.arange(8)[:, None]
     every = np.vstack([points, far])
     lift = (every**2).sum(axis=1)
     lift[: len(weights)] -= weights
     try:
-        hull = ConvexHull(np.column_stack([every, lift]), qhull_options="Qt Q12")
-    except QhullError as error:
+        hull = spatial.ConvexHull(np.column_stack([every, lift]), qhull_options="Qt Q12")
+    except spatial.QhullError as error:
         raise MeshError("kernel.mesh.points-surface-cannot-triangulated") from error
     return hull.simplices[hull.equations[:, 3] < -1e-12].astype(np.int64)
 

@@ -72,9 +72,8 @@ class DenseSolver(BulkSolver):
         trial.y[:] = self._J @ du
         trial.delta[:] = motion.delta + trial.y
         response.interface_response(joints.points, motion.state, trial.delta, trial)
-        K = np.zeros((joints.size, joints.size))
-        response.interface_stiffness(joints.points, trial.D, K)
-        return self.share * K, self.share * (self._J.T @ (trial.f - motion.f))
+        force = self.share * (self._J.T @ (trial.f - motion.f))
+        return self._joint_stiffness(joints, trial), force
 
     def _corrected(
         self, motion: Motion, now: BulkTrial, gap: FloatArray, held: FloatArray | None = None

@@ -5,8 +5,6 @@ tree both stand on the way from the cells' supernodes to the root: forward and b
 need no others, and are exact there.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

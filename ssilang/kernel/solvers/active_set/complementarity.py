@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.base.scientific import la, optimize
 
 BoolArray = NDArray[np.bool_]
 PENALTY = (100.0, 1e7)  # least and largest, of equilibrium against energy, in scaled unknowns
@@ -112,9 +113,6 @@ def _least_energy(problem: ContactProblem) -> BoolArray:
     Equilibrium is met by an augmented Lagrangian; each minimum is a non-negative least-squares
     problem (Lawson & Hanson), which ends whatever the rows.
     """
-    import scipy.linalg as la
-    from scipy.optimize import nnls
-
     scale = np.sqrt(np.diag(problem.W).clip(0.0))
     scale = 1.0 / np.where(scale > 1e-12 * scale.max(initial=0.0), scale, scale.max() or 1.0)
     E = scale[:, None] * problem.E
@@ -135,7 +133,7 @@ def _least_energy(problem: ContactProblem) -> BoolArray:
     for _ in range(PASSES):
         g = scale * problem.q + penalty * E @ (r + shift)
         try:
-            p = nnls(both, -(vectors.T @ g) / root, maxiter=30 * len(both.T))[0]
+            p = optimize.nnls(both, -(vectors.T @ g) / root, maxiter=30 * len(both.T))[0]
         except RuntimeError:  # too many iterations
             break
         p = p[: len(scale)]
@@ -193,8 +191,6 @@ def _of_natural_size(problem: ContactProblem, p: FloatArray, a: FloatArray) -> b
 
 def least_squares(A: FloatArray, b: FloatArray) -> FloatArray:
     """Solution of A x = b, of least norm if A is singular (redundant rows)."""
-    import scipy.linalg as la
-
     if len(b) == 0:
         return b
     try:

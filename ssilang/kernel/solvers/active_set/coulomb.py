@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import ConvergenceError
+from ssilang.kernel.base.scientific import la
 from ssilang.kernel.solvers.active_set.complementarity import (
     HUGE,
     ROUNDING,
@@ -328,8 +329,6 @@ def _least(A: FloatArray, b: FloatArray) -> FloatArray:
     A small residual does not tell that the rank is full, and a little added to the diagonal
     (1e-12 of it) would multiply the rounding of b (1e-16) by its inverse in what is shared.
     """
-    import scipy.linalg as la
-
     if len(b) == 0:
         return b
     factors, pivots, info = la.lapack.dgetrf(A)

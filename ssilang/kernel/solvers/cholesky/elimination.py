@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.graph import chains, parts_of
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import csgraph, la, sp
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 
@@ -203,8 +203,6 @@ def _group_stage(
 
 
 def _one_group(part: sp.csr_array, rows: IntArray, columns: IntArray, group: IntArray) -> _Stage:
-    import scipy.linalg as la
-
     block = part[group]
     used = np.unique(block.indices)
     Q, R, pivots = la.qr(block[:, used].toarray(), mode="economic", pivoting=True)
@@ -272,9 +270,7 @@ class SmallGroupsFactor:
 
 def _inverse_of_groups(A: sp.csr_array) -> sp.csr_array:
     """Inverse (m, m) of a matrix of small negative blocks."""
-    from scipy.sparse.csgraph import connected_components
-
-    count, label = connected_components(A, directed=False)
+    count, label = csgraph.connected_components(A, directed=False)
     size = np.bincount(label, minlength=count)
     if size.max(initial=0) > LARGEST:
         raise SingularFactorError("a group of unknowns is large")

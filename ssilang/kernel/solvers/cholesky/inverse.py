@@ -14,8 +14,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.solvers.backends import MULTIGRID, factorise
+from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
 
 if TYPE_CHECKING:
@@ -146,7 +147,6 @@ def _invert(
         motions = free_motions(scaled, symmetric, solver)
     if motions.shape[1] == 0 and factor is not None:
         return Inverse(factor, scale, np.empty((n, 0)), nothing, np.arange(n))
-    import scipy.linalg as la  # 0.04 s, for matrices that leave motions free
 
     pinned = np.sort(la.qr(motions.T, mode="r", pivoting=True)[1][: motions.shape[1]])
     kept = np.setdiff1d(np.arange(n), pinned)
@@ -216,8 +216,6 @@ def _beside_groups(
     A: sp.csr_array, groups: IntArray, solver: Solver | str | None, ordering: Ordering | None
 ) -> Factor | None:
     """Factor of a matrix that is positive but for small negative groups, None if it is not that."""
-    from ssilang.kernel.solvers.cholesky.elimination import SmallGroupsFactor
-
     try:
         factor = SmallGroupsFactor(A, groups, solver, ordering)
     except SingularFactorError:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.matrices.assembly import ConstraintRows, Numbering
 from ssilang.kernel.solvers.cholesky.elimination import eliminate
 
@@ -74,8 +74,6 @@ class OrthogonalConstraints:
     """Dense orthogonal elimination, for small systems; redundant rows share their multipliers."""
 
     def __init__(self, C: sp.csr_array) -> None:
-        import scipy.linalg as la
-
         self.C = self.D = C
         dense = C.toarray()
         n = dense.shape[1]

@@ -6,7 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import sp, spla
 from ssilang.kernel.contact.rows import TOUCHING, BoolArray, ContactRows
 from ssilang.kernel.interface.laws.point_laws import respond
 from ssilang.kernel.interface.response import interface_energies, interface_forces, local_jumps
@@ -204,7 +204,6 @@ def _solved(problem: Problem, mass: sp.csc_array, force: FloatArray) -> FloatArr
     own = mass.diagonal()
     if np.count_nonzero(mass.data) == len(own):
         return np.asarray((force.T / own).T)
-    import scipy.sparse.linalg as spla
 
     try:
         if goes_to_petsc(problem.solver, len(own)):
@@ -237,8 +236,6 @@ def _of_heavy(mass: sp.csc_array, force: FloatArray) -> FloatArray:
 
 def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:
     """Least q with `mass q = force` as nearly as can be, for a mass that is not symmetric."""
-    import scipy.sparse.linalg as spla
-
     if mass.nnz == 0:
         return np.zeros((mass.shape[1], *force.shape[1:]))
     columns = force.reshape(len(force), -1)

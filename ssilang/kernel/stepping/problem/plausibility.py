@@ -15,7 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularFactorError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.law_table import law_of
@@ -208,6 +208,8 @@ class Start:
         largest = float(np.abs(pushed).max(initial=0.0))
         excited = largest > ROUNDING * float(np.abs(forces).max(initial=0.0))
         closed, *ways = self._closed(motion), *(self.touches(s * motion) for s in (1.0, -1.0))
+        rubs = getattr(problem.contact, "friction", None)
+        closed = closed or (rubs is not None and np.abs(rubs.H @ motion).max(initial=0.0))
         if all(ways):
             return "held"
         if any(ways):
@@ -317,12 +319,10 @@ def solver_of(K: sp.csr_array) -> Callable[[FloatArray], FloatArray]:
     """
     if K.shape[0] > DENSE:
         return SuperLUFactor(sp.csr_array(K), positive=True).solve
-    from scipy.linalg.lapack import dgetrf, dgetrs
-
-    factors, order, singular = dgetrf(K.toarray())
+    factors, order, singular = la.lapack.dgetrf(K.toarray())
     if singular:
         raise SingularFactorError(f"pivot {singular}")
-    return lambda forces: np.asarray(dgetrs(factors, order, forces)[0], float)
+    return lambda forces: np.asarray(la.lapack.dgetrs(factors, order, forces)[0], float)
 
 
 def _loads(

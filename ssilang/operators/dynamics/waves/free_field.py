@@ -51,15 +51,9 @@ def _tell_coarse(entries: Entries, soil: SoilColumn, signal: CurvePart, cutoff: 
 
 
 def _results(field: FreeField, start: float) -> Table:
-    result = Table()
     times = field.times + start
-    result.set("PAS", float(times[1] - times[0]))
-    for name, rows in (
-        ("ACCE", field.acceleration), ("VITE", field.velocity), ("CONT", field.stress),
-    ):  # fmt: skip
-        inner = Table()
-        for i, row in enumerate(rows):
-            inner.set(i + 1, Curve((CurvePart(times, row, "TEMP", name),), ""))
-        result.set(name, inner)
-    result.set("DEFO", ListReel(field.strain))
-    return result
+    found: dict[str, Any] = {"PAS": float(times[1] - times[0])}
+    histories = {"ACCE": field.acceleration, "VITE": field.velocity, "CONT": field.stress}
+    for name, rows in histories.items():
+        found[name] = Table.numbered(Curve((CurvePart(times, r, "TEMP", name),), "") for r in rows)
+    return Table.of(found | {"DEFO": ListReel(field.strain)})

@@ -87,15 +87,13 @@ def _instants(points: Mesh, motion: WaveMotion, kind: Kind, way: FloatArray) -> 
     ids = points.sorted_node_ids
     histories = {"DEPL": motion.displacement, "VITE": motion.velocity, "ACCE": motion.acceleration}
     named = {name: _components(of, kind, way) for name, of in histories.items()}
-    result = Table()
+    instants = []
     for i, time in enumerate(motion.times):
-        instant = Table()
-        instant.set("TEMP", float(time))
+        instants.append(Table.of({"TEMP": float(time)}))
         for name, components in named.items():
             values = {unknown: of[:, i] for unknown, of in components.items()}
-            instant.set(name, NodeField.of(points.nodes, ids, values, "DIFFUS"))
-        result.set(i + 1, instant)
-    return result
+            instants[i].set(Mot(name), NodeField.of(points.nodes, ids, values, "DIFFUS"))
+    return Table.numbered(instants)
 
 
 def _components(of: FloatArray, kind: Kind, way: FloatArray) -> dict[str, FloatArray]:
@@ -123,7 +121,4 @@ def zpml(call: Call, table: Table = Arg("TABLE", en="table of @PML")) -> Table:
     )  # fmt: skip
     if made.cells < FEWEST - 1e-6:
         entries.warn("operators.dynamics.thin-layer", cells=made.cells, fewest=FEWEST)
-    result = Table()
-    for name, matrix in (("RIGI", made.stiffness), ("MASS", made.mass), ("AMOR", made.damping)):
-        result.set(name, matrix)
-    return result
+    return Table.of({"RIGI": made.stiffness, "MASS": made.mass, "AMOR": made.damping})

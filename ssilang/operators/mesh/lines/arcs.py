@@ -10,7 +10,7 @@ from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 
-@operator("CERC", family="mesh", full_name="CERCLE", aliases=("C",))
+@operator("CERC", family="mesh", full_name="CERCLE")
 def cerc(
     call: Call,
     through: str = Choice(

@@ -25,7 +25,7 @@ ANGLE = opt("angle", "FLOTTANT", en="angle", unit="deg", usual=between(-360.0, 3
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
-    arg("size", "FLOTTANT", unit="m", range=NOT_NEGATIVE),
+    arg("size", "FLOTTANT", unit="m", range=ANY_NUMBER, usual=NOT_NEGATIVE),
     repeated=True,
     en="mesh size at the start, at the end, in place of the one there; 0 beside a negative number",
 )
@@ -57,8 +57,8 @@ class Cuts:
 
 
 def cuts_of(count: int | None, sizes: Sizes) -> Cuts:
-    """What `COUNT` and `SIZES` have read."""
-    said = dict(sizes)
+    """What `COUNT` and `SIZES` have read; the sign of a size counts for nothing."""
+    said = {end: abs(size) for end, size in sizes}
     return Cuts(count or 0, said.get("DINI"), said.get("DFIN"))
 
 

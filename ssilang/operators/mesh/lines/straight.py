@@ -8,7 +8,7 @@ from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
 
-@operator("DROI", family="mesh", full_name="DROIT", aliases=("D",))
+@operator("DROI", family="mesh", full_name="DROIT")
 def droi(
     call: Call,
     count: int | None = COUNT,

@@ -57,8 +57,10 @@ def of_numbered_colour(
 
 
 @elem.form(said("TYPE"))
-def types(mesh: Mesh = _MESH) -> ListMots:
-    """List the types of the cells."""
+def types(call: Call, mesh: Mesh = _MESH) -> ListMots:
+    """List the types of the cells; of a mesh without any, that of OPTI ELEM."""
+    if not mesh.n_cells:
+        return ListMots([workspace(call.session).element])
     names = [TIE if is_tie(b.cell_type) else b.cell_type for b in mesh.blocks]
     return ListMots(list(dict.fromkeys(names)))
 

@@ -1,5 +1,6 @@
 """Meshes as sets: ET DIFF INTE UNIQ, and VISA for nodes at the same place."""
 
+from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh import combine
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
@@ -97,10 +98,8 @@ def facing(
 
     Within one set each pair is given once.
     """
-    from scipy.spatial import cKDTree
-
     xyz = nodes.coordinates
-    gaps, places = cKDTree(xyz[there]).query(xyz[here], k=min(2, len(there)))
+    gaps, places = spatial.cKDTree(xyz[there]).query(xyz[here], k=min(2, len(there)))
     gaps, places = (np.reshape(a, (len(here), -1)) for a in (gaps, places))
     # a node of both meshes is its own counterpart only if there is no other
     own = there[places[:, 0]] == here

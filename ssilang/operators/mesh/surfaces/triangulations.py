@@ -163,9 +163,7 @@ class _Told:
         self.owners, self.edges = found.owners, edges
 
     def table(self) -> Table:
-        arcs, cells, told = Table(), Table(), Table()
-        for number, edge in enumerate(self.edges, 1):
-            arcs.set(number, self._lines(edge[None]))
+        arcs, cells = Table.numbered(self._lines(edge[None]) for edge in self.edges), Table()
         for germ, place in enumerate(self.places):
             # Edges with the germ's cell on their left, their numbers, and the cells beside it.
             left, right = self.owners[:, 0] == germ, self.owners[:, 1] == germ
@@ -173,18 +171,14 @@ class _Told:
             lines = np.where(left[rows, None], self.edges[rows], self.edges[rows][:, ::-1])
             beside = np.where(left[rows], self.owners[rows, 1], self.owners[rows, 0])
             beside = np.unique(beside[beside != OUTSIDE])
-            cell = Table()
-            cell.set(Mot("VISU"), self._lines(lines))
-            cell.set(Mot("ARTS"), ListEnti(rows + 1))
-            cell.set(Mot("VOIS"), poi1(self.nodes, self.places[beside], self.colour))
-            cells.set(Point(self.nodes, int(place)), cell)
+            around = poi1(self.nodes, self.places[beside], self.colour)
+            cell = {"VISU": self._lines(lines), "ARTS": ListEnti(rows + 1), "VOIS": around}
+            cells.set(Point(self.nodes, int(place)), Table.of(cell))
         order = np.argsort(self.places)
         values = NodeValues(self.places[order], self.weights[order])
-        told.set(Mot("VISU"), self._lines(self.edges))
-        told.set(Mot("POND"), NodeField(self.nodes, {"SCAL": values}, "DIFFUS"))
-        told.set(Mot("CELL"), cells)
-        told.set(Mot("ARTS"), arcs)
-        return told
+        weights = NodeField(self.nodes, {"SCAL": values}, "DIFFUS")
+        drawn = self._lines(self.edges)
+        return Table.of({"VISU": drawn, "POND": weights, "CELL": cells, "ARTS": arcs})
 
     def _lines(self, table: IntArray) -> Mesh:
         return Mesh.of(self.nodes, "SEG2", table, self.colour)

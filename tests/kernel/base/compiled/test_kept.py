@@ -155,4 +155,7 @@ def test_code_of_a_module_without_a_file_is_not_kept(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     tmp_path.chmod(0o700)
     assert cache.folder_of.__wrapped__("typed_by_hand") is None
-    assert cache.folder_of.__wrapped__(__name__) is not None
+    folder = cache.folder_of.__wrapped__(__name__)
+    os.utime(folder, (0.0, 0.0))
+    assert cache.folder_of.__wrapped__(__name__) == folder
+    assert folder.stat().st_mtime > 0.0  # it counts as used now

@@ -391,6 +391,11 @@ def test_cells_are_joined_to_a_point_but_those_that_hold_it():
     assert fan.n_cells == ring.n_cells - 2
     alone = Mesh.of(base.nodes, "POI1", np.array([[1], [4]]))
     assert cone(alone, 4).single_block().connectivity.tolist() == [[1, 4]]
+    bows = Mesh.of(base.nodes, "SEG3", np.array([[0, 1, 2], [4, 3, 2]]))  # in no chain
+    curved = cone(bows, tip).single_block()
+    assert curved.connectivity[:, [0, 1, 2, 4]].tolist() == [[0, 1, 2, tip], [4, 3, 2, tip]]
+    ends = curved.coordinates[:, [2, 4, 0]]
+    np.testing.assert_allclose(curved.coordinates[:, [3, 5]], (ends[:, :2] + ends[:, 1:]) / 2)
     with pytest.raises(MeshError, match="away"):
         cone(Mesh.of(base.nodes, "POI1", np.array([[4]])), 4)
     with pytest.raises(MeshError, match="TET4"):

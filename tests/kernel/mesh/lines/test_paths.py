@@ -55,8 +55,9 @@ def test_cells_of_a_line_in_no_order_are_put_one_behind_the_other(kind, closed):
     assert (found[0] == found[-1]) is np.bool_(closed)
     back = cells.copy()
     back[2] = back[2, ::-1]
+    assert line_chain(Mesh.of(nodes, kind, back)).tolist() == chain.tolist()
     with pytest.raises(MeshError, match="follow"):
-        line_chain(Mesh.of(nodes, kind, back))
+        line_chain(Mesh.of(nodes, kind, cells[[0, 1, 3]]))
 
 
 def test_frames_of_an_arc_in_space_are_those_of_its_circle():
@@ -66,7 +67,7 @@ def test_frames_of_an_arc_in_space_are_those_of_its_circle():
     across, up, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
     c, s = (f(np.cumsum([0.3, 0.2, 0.5, 0.1, 0.4]))[:, None] for f in (np.cos, np.sin))
     out, along = c * across + s * up, c * up - s * across
-    ids = nodes.add(2.0 * out[order])[np.argsort(order)]
+    ids = nodes.add([3.0, -1.0, 2.0] + 2.0 * out[order])[np.argsort(order)]
     cells = np.column_stack([ids[:-1], ids[1:]])[[2, 0, 3, 1]]
     found, frames = frenet_frames(Mesh.of(nodes, "SEG2", cells))
     frames = frames[np.searchsorted(found, ids)]

@@ -17,7 +17,11 @@ from ssilang.kernel.mesh.surfaces.constrained import (
     refined_triangles,
     triangulated_with_lines,
 )
-from ssilang.kernel.mesh.surfaces.triangulate import doubled_areas, triangulate_inside
+from ssilang.kernel.mesh.surfaces.triangulate import (
+    delaunay_triangles,
+    doubled_areas,
+    triangulate_inside,
+)
 
 
 def ring(n, first=0):
@@ -77,6 +81,12 @@ def test_triangles_fill_the_contour_and_are_delaunay_but_for_its_sides(scale, se
         centre = np.linalg.solve(A, [b @ b - a @ a, c @ c - a @ a])
         away = np.linalg.norm(p[other] / scale - centre)
         assert away > np.linalg.norm(a - centre) - 1e-9
+
+
+def test_points_far_from_the_origin_are_triangulated_as_near_it():
+    p = np.random.default_rng(3).integers(0, 4096, (60, 2)) / 1024.0
+    near, far = (delaunay_triangles(p + shift) for shift in (0.0, 2.0**24))
+    assert {*map(frozenset, near.tolist())} == {*map(frozenset, far.tolist())}
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.contact.active_set import ActiveSet
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.newton import workspace
@@ -71,8 +71,6 @@ def modes_of(problem: Problem, effective: Effective) -> Modes | None:
     the damping is not diagonal in them, they are those of the problem without the part of it that
     is no sum of mass and stiffness.
     """
-    import scipy.linalg as la
-
     if effective.R.any() or not supports_are_still(problem):
         return None
     Y = problem.constraints.T

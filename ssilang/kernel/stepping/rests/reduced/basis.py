@@ -18,7 +18,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.stepping.problem.initial import (
     admissible_velocity,
@@ -318,8 +318,6 @@ class Basis:
 
     def model(self, size: int | None = None) -> ReducedModel:
         """The problem on the first vectors of the basis (all), in diagonal coordinates."""
-        import scipy.linalg as la
-
         r = self.size if size is None else size
         V = self.vectors[:r]
         values, X = la.eigh(self._KV[:r, :r])

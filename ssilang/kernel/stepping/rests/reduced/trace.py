@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.scientific import la
 from ssilang.kernel.interface.interface import joint_stiffness
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.interface.response import (
@@ -118,8 +119,6 @@ class Coordinates:
 
     def _solve(self, now: InterfaceState, r: FloatArray) -> tuple[FloatArray, int, float]:
         """The increment (r,), turns (<= 0: none converged), what is out of balance."""
-        import scipy.linalg as la
-
         trial, end, old = self._trial, self.newmark.end, np.inf
         dz, scale = np.zeros(len(r)), np.abs(r).max(initial=0.0)
         if self._factor is not None:  # the first turn would find what is known

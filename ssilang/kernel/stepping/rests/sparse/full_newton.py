@@ -6,6 +6,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.solver import ContactForces, stopped_motions
+from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.interface.response import (
     Trial,
     accept,
@@ -109,10 +110,22 @@ class FullNewtonSolver:
         trial.y[:] = joints.J @ du
         trial.delta[:] = motion.delta + trial.y
         interface_response(joints.points, motion.state, trial.delta, trial)
+        tangent = sp.csr_array(
+            joints.J.T @ sp.csr_array(self._joint_stiffness(joints, trial)) @ joints.J
+        )
+        return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
+
+    def _joint_stiffness(self, joints: Interface, trial: Trial) -> FloatArray:
+        """Stiffness on the jumps, dense; of the closed joints before anything has moved.
+
+        A joint that is neither pressed nor open has two tangents; that of the open one may leave
+        a body free that the loads go on to press.
+        """
+        if not trial.delta.any():
+            return self.share * joints.closed_stiffness()
         K = np.zeros((joints.size, joints.size))
         interface_stiffness(joints.points, trial.D, K)
-        tangent = sp.csr_array(joints.J.T @ sp.csr_array(self.share * K) @ joints.J)
-        return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
+        return self.share * K
 
     def _commit(self, motion: Motion, trial: Trial) -> None:
         if self.interface is not None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.base.scientific import sp, spla
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
@@ -225,8 +225,6 @@ class InterleavedLoop:
         b: FloatArray = self.T.T @ x
         if self._gram is None:
             return b / self._gram_diagonal
-        import scipy.sparse.linalg as spla
-
         if not hasattr(self, "_gram_factor"):
             self._gram_factor = spla.splu(self._gram)
         return self._gram_factor.solve(b)

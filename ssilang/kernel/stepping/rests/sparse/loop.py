@@ -4,12 +4,13 @@ Same steps as the compiled loops, which tests hold against this one.
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import for_products
+from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
 from ssilang.kernel.interface.response import accept, interface_energies
@@ -30,9 +31,6 @@ from ssilang.kernel.stepping.state import (
     Recorder,
 )
 from ssilang.kernel.stepping.track import View, whole_view
-
-if TYPE_CHECKING:
-    from ssilang.kernel.contact.impact import ImpactRule
 
 NOTHING = np.zeros(0)
 
@@ -149,7 +147,7 @@ class SparseLoop:
 
     def run(
         self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
-        impact: "ImpactRule | None" = None,
+        impact: ImpactRule | None = None,
     ) -> Outcome:  # fmt: skip
         """Steps of one dt; `impact` corrects velocities of unilateral relations."""
         p, worst, contact, r = self.problem, 0, self.problem.contact, recorder
@@ -308,7 +306,7 @@ class SparseSteps:
     loop: SparseLoop
     solver: StepSolver
     newmark: Newmark
-    impact: "ImpactRule | None" = None
+    impact: ImpactRule | None = None
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""
