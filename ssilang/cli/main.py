@@ -170,7 +170,7 @@ def _run(options: argparse.Namespace) -> int:
     return result.exit_code
 
 
-def _compile_ahead(source: "Source") -> None:
+def _compile_ahead(source: Source) -> None:
     """Let the other process begin with joints, if the script steps some and there is no code yet.
 
     It compiles while this one reads and meshes.

@@ -192,7 +192,7 @@ class RunOutput:
     deck: "Callable[[], Deck] | None" = None
     resume: bool = False
     read: list[Path] = field(default_factory=list)
-    recording: "Recording | None" = None
+    recording: Recording | None = None
     _pending: dict[Path, list[str]] = field(default_factory=dict, repr=False)
     _flushed_at: float = 0.0
 

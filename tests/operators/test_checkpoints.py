@@ -155,7 +155,7 @@ def test_another_machine_goes_on_and_says_what_is_another(tmp_path, ended, monke
         own = checkpoints.arithmetic()
         monkeypatch.setattr(checkpoints, "arithmetic", lambda: own | {"processor": "another"})
     # its rounding leaves other numbers in the matrices
-    monkeypatch.setattr("ssilang.kernel.stepping.keeping.digest_of", lambda problem: "other")
+    monkeypatch.setattr(checkpoints, "digest_of", lambda problem: "other")
     again = run_text(DECKS["bodies that rock"], options=RunOptions(tmp_path, resume=True))
     told = [w for w in again.session.warnings if w.code == "operators.dynamics.resumed-elsewhere"]
     assert again.exit_code == (0 if elsewhere else 1)

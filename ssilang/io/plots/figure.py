@@ -122,7 +122,7 @@ class Pictures:
         self._count = 0
 
     @cached_property
-    def stage(self) -> "Stage":
+    def stage(self) -> Stage:
         """Draws what stands in space, for all pictures of the run."""
         return Stage()
 

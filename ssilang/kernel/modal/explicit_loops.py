@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled
+from ssilang.kernel.interface.copies import copy_rows, copy_state
 from ssilang.kernel.modal.link_laws import LinkArrays, link_forces, times_vector
 
 
@@ -131,28 +132,6 @@ def add_work(
 
 
 @compiled
-def keep(saved: Saved, i: int, variable: int, values: FloatArray) -> None:
-    """Put a vector (n,) into its row of a saved step."""
-    for j in range(len(values)):
-        saved.values[i, variable, j] = values[j]
-
-
-@compiled
-def keep_links(saved: Saved, i: int, record: FloatArray) -> None:
-    """Put the records of the links (L, RECORDS) into a saved step."""
-    for link in range(record.shape[0]):
-        for column in range(record.shape[1]):
-            saved.records[i, link, column] = record[link, column]
-
-
-@compiled
-def replace(old: FloatArray, new: FloatArray) -> None:
-    """Copy a vector (n,) into another one."""
-    for j in range(len(old)):
-        old[j] = new[j]
-
-
-@compiled
 def de_vogelaere(
     system: System, loads: Loads, plan: Plan, links: LinkArrays, motion: Motion, saved: Saved
 ) -> None:
@@ -186,8 +165,8 @@ def de_vogelaere(
     for j in range(n):
         v_before[j] = v[j] - 0.5 * h * a[j]
     for variable, vector in enumerate((q, v, q_before, v_before, a, before)):
-        keep(saved, 0, variable, vector)
-    keep_links(saved, 0, work.record)
+        copy_state(vector, saved.values[0, variable])
+    copy_rows(work.record, saved.records[0])
     for k in range(1, plan.steps + 1):
         t = t0 + (k - 1) * h
         # half a step: displacement, links, acceleration, velocity
@@ -214,14 +193,14 @@ def de_vogelaere(
         inner_force(system, q1, v, work, inner)
         add_work(work_out, feh, fe, q1, qh)
         add_work(work_in, innerh, inner, q1, qh)
-        replace(q, q1)
-        replace(before, ah)
-        replace(q_before, qh)
+        copy_state(q1, q)
+        copy_state(ah, before)
+        copy_state(qh, q_before)
         if k % plan.every == 0:
             i = k // plan.every
             for variable, vector in enumerate((q, v, qh, vh, a, ah, work_out, work_in)):
-                keep(saved, i, variable, vector)
-            keep_links(saved, i, work.record)
+                copy_state(vector, saved.values[i, variable])
+            copy_rows(work.record, saved.records[i])
 
 
 @compiled
@@ -251,8 +230,8 @@ def newmark(
         qh[j] = q[j] - 0.5 * h * v[j] + h * h / 8.0 * a[j]
         vh[j] = v[j] - 0.5 * h * a[j]
     for variable, vector in enumerate((q, v, qh, vh, a, a)):
-        keep(saved, 0, variable, vector)
-    keep_links(saved, 0, work.record)
+        copy_state(vector, saved.values[0, variable])
+    copy_rows(work.record, saved.records[0])
     for k in range(1, plan.steps + 1):
         # predictor
         for j in range(n):
@@ -276,12 +255,12 @@ def newmark(
                 vh[j] = 0.5 * (v[j] + v1[j])
                 ah[j] = 0.5 * (a[j] + a1[j])
             for variable, vector in enumerate((q1, v1, qh, vh, a1, ah, work_out, work_in)):
-                keep(saved, i, variable, vector)
-            keep_links(saved, i, work.record)
-        replace(q_before, q)
-        replace(before, a)
-        replace(q, q1)
-        replace(v, v1)
-        replace(a, a1)
-        replace(inner, inner1)
-        replace(fe, fe1)
+                copy_state(vector, saved.values[i, variable])
+            copy_rows(work.record, saved.records[i])
+        copy_state(q, q_before)
+        copy_state(a, before)
+        copy_state(q1, q)
+        copy_state(v1, v)
+        copy_state(a1, a)
+        copy_state(inner1, inner)
+        copy_state(fe1, fe)

@@ -368,7 +368,6 @@ class _BulkLoop(SparseLoop):
         bulk, state = self.bulk_run.bulk, self.bulk_run.state
         if self.bulk_run.full or self.problem.numbering.size < MANY:
             return newton_solver(self.problem, A, share, bulk, state)
-
         if is_accelerated(self.problem, bulk, A):
             return AcceleratedSolver(self.problem, A, dt, share, bulk, state)
         return BulkSolver(self.problem, A, share, bulk, state)

@@ -42,7 +42,7 @@ FAR, MOST, MANY = 5.0, 0.5, 0.1
 """Times what points bear without pressure; shares of points that yield, and go so far."""
 
 
-def unconfined(problem: "Problem", bulk: "Bulk", state: "State") -> tuple[str, float, float] | None:
+def unconfined(problem: Problem, bulk: Bulk, state: State) -> tuple[str, float, float] | None:
     """Points that forces of an elastic first step take beyond what they bear without pressure.
 
     Returns

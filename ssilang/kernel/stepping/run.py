@@ -69,7 +69,7 @@ class History:
     solver: str = ""
     loop: str = ""
     seconds: float = 0.0
-    reduction: "Reduction | None" = None
+    reduction: Reduction | None = None
     method: Sentence | None = None
     beyond: dict[str, float] = field(default_factory=dict)
 
@@ -114,7 +114,7 @@ class Integration:
     observers: Sequence[Observer] = ()
     progress: Progress | None = None
     full_newton: bool = False
-    driver: "Driver | None" = None
+    driver: Driver | None = None
     keeper: keeping.Keeper | None = None
     motion: Motion = field(init=False)
     taps: Taps = field(init=False)
@@ -373,7 +373,7 @@ def integrate(
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
     full_newton: bool = False,
-    driver: "Driver | None" = None,
+    driver: Driver | None = None,
     keeper: keeping.Keeper | None = None,
 ) -> History:
     """Integrate a problem over its times.

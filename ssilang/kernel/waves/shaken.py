@@ -138,7 +138,7 @@ class Long:
 
 
 def unlike_sides(
-    stiffness: "Matrix", mass: "Matrix", damping: "Matrix"
+    stiffness: Matrix, mass: Matrix, damping: Matrix
 ) -> tuple[int, float, bool] | None:
     """A node of upright sides whose dashpots are not those of the cells beside, and how many times.
 
@@ -192,8 +192,8 @@ def absorbing_ends(stiffness: "Matrix", damping: "Matrix") -> tuple[IntArray, In
 
 
 def _strained(
-    block: "ElementMatrices",
-    mass: "ElementMatrices",
+    block: ElementMatrices,
+    mass: ElementMatrices,
     some: slice | IntArray,
     x: FloatArray,
     name: str,
@@ -206,7 +206,7 @@ def _strained(
 
 
 def longest_cell(
-    stiffness: "Matrix", mass: "Matrix", axis: str, frequency: float, upwards: bool = True
+    stiffness: Matrix, mass: Matrix, axis: str, frequency: float, upwards: bool = True
 ) -> Long | None:
     """The cell that is longest for shear waves of a frequency (Hz), None without cells.
 
@@ -227,8 +227,8 @@ def longest_cell(
 
 
 def _sheared(
-    stiffness: "Matrix", mass: "Matrix", axis: str
-) -> "Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]":
+    stiffness: Matrix, mass: Matrix, axis: str
+) -> Iterator[tuple[ElementMatrices, Zone, slice, FloatArray, FloatArray]]:
     """Some cells of solids with mass: `s K s` and `t M t` of a shear of one and a translation."""
     heavy = {id(b.raw_nodes): b for b in mass.blocks if b.raw_nodes.shape[1] > 1}
     for block in stiffness.blocks:
@@ -242,7 +242,7 @@ def _sheared(
             yield block, zone, some, *_strained(block, heavy[id(block.raw_nodes)], some, up, axis)
 
 
-def matter(stiffness: "Matrix", mass: "Matrix") -> FloatArray:
+def matter(stiffness: Matrix, mass: Matrix) -> FloatArray:
     """Node, height, density, speed of shear waves (n, 4) of some cells of solids that have mass."""
     found = [np.zeros((0, 4))]
     for block, zone, some, stiff, whole in _sheared(stiffness, mass, "UX"):

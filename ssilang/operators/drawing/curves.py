@@ -187,7 +187,7 @@ def _told_apart(curves: tuple[Operand, ...]) -> dict[int, str]:
 
 
 def _take_down(
-    recording: "Recording", curve: Curve, options: CurveOptions, title: str, files: list[str]
+    recording: Recording, curve: Curve, options: CurveOptions, title: str, files: list[str]
 ) -> None:
     """The same curves for the run's report, where they are of numbers."""
     numbers = options.chosen or range(1, len(curve.parts) + 1)

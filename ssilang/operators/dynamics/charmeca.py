@@ -27,7 +27,7 @@ class AddedByProcedure:
     def __init__(self, entries: Entries) -> None:
         self.entries = entries
 
-    def __call__(self, time: float, state: "State", problem: "Problem") -> "Additions":
+    def __call__(self, time: float, state: State, problem: Problem) -> Additions:
         """Additions at `time`."""
         self.entries.table.set(Mot("ETAT"), _table_of(state, problem))
         results = call_user(self.entries.call, "CHARMECA", self.entries.table, time)
@@ -39,7 +39,7 @@ class AddedByProcedure:
         return Additions(**given)
 
 
-def _table_of(state: "State", problem: "Problem") -> Table:
+def _table_of(state: State, problem: Problem) -> Table:
     motion = {"DEPL": state.u, "VITE": state.v, "ACCE": state.a}
     fields = {word: vector_to_field(x, problem.numbering) for word, x in motion.items()}
     return Table.of({"TEMP": state.time, **fields})

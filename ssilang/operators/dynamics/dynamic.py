@@ -124,7 +124,6 @@ def _integrated(
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
-
         return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper, full=full)
     if tolerance is None:
         return integrate(problem, observers, line, full, driver, keeper)
@@ -136,7 +135,7 @@ def _integrated(
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
 
 
-def training_file(entries: Entries) -> "TrainingFile | None":
+def training_file(entries: Entries) -> TrainingFile | None:
     """The basis that APPRENTISSAGE names: all runs of a sweep share it."""
     name, session = entries.get("APPRENTISSAGE"), entries.call.session
     if name is None:
@@ -151,7 +150,7 @@ def training_file(entries: Entries) -> "TrainingFile | None":
 
 
 def _step_again(
-    tolerance: float | None, shelf: "TrainingFile | None", problem: Problem, every: int | None,
+    tolerance: float | None, shelf: TrainingFile | None, problem: Problem, every: int | None,
     extremes: Extremes,
 ) -> None:  # fmt: skip
     """The same motion for its largest values, which its loop does not give without cost.

@@ -26,7 +26,7 @@ BODY_WORDS = promises("TEMP", *NODAL, "CONTRAINTES", "VARIABLES_INTERNES")
 """Of plastic bodies without joints."""
 
 
-def _found(snapshot: "Snapshot", nodes: IntArray | None, word: str) -> object:
+def _found(snapshot: Snapshot, nodes: IntArray | None, word: str) -> object:
     if word in JOINTS:
         return getattr(snapshot, OF_INSTANTS[JOINTS[word]])
     given: NodeField = getattr(snapshot, NODAL[word])
@@ -37,7 +37,7 @@ VECTORS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
 
 
 def _stand_in(
-    snapshot: "Snapshot", nodes: IntArray | None, word: str, make: Callable[[], Any]
+    snapshot: Snapshot, nodes: IntArray | None, word: str, make: Callable[[], Any]
 ) -> InstantField | None:
     """A field of the whole body that stays unmade while single values are asked for."""
     if nodes is not None or word not in VECTORS:
@@ -62,7 +62,7 @@ class TableObserver:
     problems that change, or with plastic bodies, instants are kept instead.
     """
 
-    track: "NodeHistories"
+    track: NodeHistories
     whole: bool = False
     table: LazyRows = field(init=False)
 
@@ -72,7 +72,7 @@ class TableObserver:
         self.table = LazyRows(self._entry, words, self._stand_ins, self.track)
 
     @property
-    def observer(self) -> "Observer":
+    def observer(self) -> Observer:
         """What the run hands instants to."""
         return self if self.whole else self.track
 
@@ -84,7 +84,7 @@ class TableObserver:
     def close(self) -> None:
         """Nothing to do: the table is whole after each step."""
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """Add one whole instant."""
         if self.nodes is not None and not snapshot.problem.small:
             entry = self._entry(snapshot)
@@ -119,7 +119,7 @@ class TableObserver:
         assert found is not None
         return found
 
-    def _entry(self, row: "Snapshot | int") -> LazyTable:
+    def _entry(self, row: Snapshot | int) -> LazyTable:
         """The table of an instant: a snapshot, or a place among the rows."""
         if isinstance(row, int):
             words = NODAL_WORDS if self.track.problem.interface is None else ALL_WORDS
@@ -152,7 +152,7 @@ class TableObserver:
 class CsvObserver:
     """Lists of values in time at the nodes of a mesh, and a file of them, CSV or Parquet."""
 
-    track: "NodeHistories"
+    track: NodeHistories
     components: list[str] | None = None
     path: Path | None = None
     units: UnitSystem | None = None
@@ -209,7 +209,7 @@ class CsvObserver:
         return Table.of({name: ListReel(values) for name, values in self.columns.items()})
 
 
-def forces_table(track: "ForceHistories") -> Table:
+def forces_table(track: ForceHistories) -> Table:
     """RESULTATS_RELATIONS: for each name TEMP and a LISTREEL of each component."""
     made = Table.of({name: Table.of({"TEMP": ListReel(track.times)}) for name in track.named})
     for (name, dual), values in track.histories.items():

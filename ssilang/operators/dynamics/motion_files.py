@@ -35,11 +35,11 @@ class VtkObserver:
 
     wanted: Steps
     meshes: dict[str, Mesh]
-    writer: "Series"
+    writer: Series
     stress: Callable[[NodeField], CellField | None] | None = None
     labels: Mapping[str, Labels] = field(default_factory=dict)
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """Write one instant."""
         u = snapshot.displacement
         moved = NodeField(u.table, {k: v for k, v in u.components.items() if k != "LX"}, u.nature)
@@ -109,7 +109,7 @@ MANY_INSTANTS = 50
 """From more of them on, a series is one file if nothing else is said."""
 
 
-def nodes_asked(entries: Entries, index: str, problem: "Problem") -> IntArray | None:
+def nodes_asked(entries: Entries, index: str, problem: Problem) -> IntArray | None:
     """Nodes of the mesh or point of an entry; told where none of them moves."""
     mesh = entries.get(index)
     if mesh is None:
@@ -119,7 +119,7 @@ def nodes_asked(entries: Entries, index: str, problem: "Problem") -> IntArray | 
     return nodes
 
 
-def tell_still(entries: Entries, index: str, nodes: IntArray, problem: "Problem") -> None:
+def tell_still(entries: Entries, index: str, nodes: IntArray, problem: Problem) -> None:
     """Warn of nodes (n,) of an entry none of which the matrices have."""
     if not np.isin(nodes, problem.numbering.nodes).any():
         entries.warn("operators.dynamics.asked-elsewhere", index=index)
@@ -128,7 +128,7 @@ def tell_still(entries: Entries, index: str, nodes: IntArray, problem: "Problem"
 # ---- outputs ---------------------------------------------------------------------------------
 
 
-def vtk_observer(entries: Entries, problem: "Problem") -> VtkObserver | None:
+def vtk_observer(entries: Entries, problem: Problem) -> VtkObserver | None:
     if not (entries.has("PAS_SAUVES_VTK") or entries.has("TEMPS_SAUVES_VTK")):
         return None
     wanted = entries.saved_steps("_VTK", problem.times)
@@ -172,7 +172,7 @@ def stress_of(entries: Entries) -> Callable[[NodeField], CellField | None] | Non
     return of
 
 
-def force_track(entries: Entries, problem: "Problem", saved: BoolArray) -> "ForceHistories | None":
+def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceHistories | None:
     """What RELATIONS_SAUVEES asks for."""
     asked = entries.inside("RELATIONS_SAUVEES")
     if asked is None:
@@ -192,7 +192,7 @@ def force_track(entries: Entries, problem: "Problem", saved: BoolArray) -> "Forc
     return ForceHistories(saved, problem=problem, named=named)
 
 
-def csv_observer(entries: Entries, problem: "Problem") -> CsvObserver | None:
+def csv_observer(entries: Entries, problem: Problem) -> CsvObserver | None:
     if not (entries.has("PAS_SAUVES_CSV") or entries.has("TEMPS_SAUVES_CSV")):
         idle = [n for n in ("MAILLAGE_CSV", "COMPOSANTES_CSV", "FICHIER_CSV") if entries.has(n)]
         if idle:

@@ -26,12 +26,12 @@ CHANGED = 0.05  # of the largest energy
 ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEURE")
 
 
-def conserved(joints: "Interface") -> bool:
+def conserved(joints: Interface) -> bool:
     """Whether 'CONSERVATIF' keeps the energy of joints."""
     return bool((joints.codes == LawCode.SDM).all())
 
 
-def _energy(history: "History", word: str) -> ListReel:
+def _energy(history: History, word: str) -> ListReel:
     """Energies in time by their word."""
     if word == "TEMPS":
         return ListReel(history.times)
@@ -42,8 +42,8 @@ def _energy(history: "History", word: str) -> ListReel:
 
 def report(
     entries: Entries,
-    problem: "Problem",
-    history: "History",
+    problem: Problem,
+    history: History,
     *,
     in_statics: bool = False,
     added: bool = False,
@@ -102,7 +102,7 @@ def report(
         line["energy_imbalance"] = max(line["energy_imbalance"], lasting or 0.0)
 
 
-def growth(history: "History") -> float:
+def growth(history: History) -> float:
     """By what energy grows in the last five eighths of a motion, tenfold in each; nought if not."""
     if len(history.energies) < 3 * PARTS:
         return 0.0
@@ -111,7 +111,7 @@ def growth(history: "History") -> float:
     return float(most[-1] / most[0]) if (most[:-1] * 10.0 < most[1:]).all() and most[0] else 0.0
 
 
-def warn_impacts(entries: Entries, problem: "Problem", history: "History") -> float | None:
+def warn_impacts(entries: Entries, problem: Problem, history: History) -> float | None:
     """Warn where impacts on relations alone have changed the energy for good; by what share.
 
     A share of what the structure had been given by then. At an impact it is off for a step, see
@@ -140,7 +140,7 @@ def warn_impacts(entries: Entries, problem: "Problem", history: "History") -> fl
     return share
 
 
-def _causes(problem: "Problem", added: bool) -> list[str]:
+def _causes(problem: Problem, added: bool) -> list[str]:
     """What may put the energies of a motion out of balance, by what it has; likeliest first."""
     contact, options = problem.contact is not None, problem.contact_options
     joints, kept = problem.interface, problem.scheme.conserving

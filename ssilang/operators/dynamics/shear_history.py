@@ -42,7 +42,7 @@ def _vectors(layout: Layout, fields: Sequence[AnyField]) -> Iterator[FloatArray]
         yield layout.gather(made)[None]
 
 
-def _recorded(layout: Layout, track: "NodeHistories") -> Iterator[FloatArray]:
+def _recorded(layout: Layout, track: NodeHistories) -> Iterator[FloatArray]:
     """As `_vectors`, of what was recorded: no field is made."""
     numbering = track.problem.numbering
     nodes = layout.table.resolve(layout.raw_nodes)[:, layout.local]

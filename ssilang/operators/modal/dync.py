@@ -79,7 +79,7 @@ class Numbers:
 
 def _oscillators(
     call: Call, tables: dict[str, Table], system: System, harmonics: int, samples: int, free: bool
-) -> "Oscillators":
+) -> Oscillators:
     n = len(system.M)
     forces = LinkForces(links_of(call, tables.get("links"), system.basis)[1])
     load = np.zeros((2 * harmonics + 1, n))
@@ -115,7 +115,7 @@ def _coefficients(
 
 
 def _guess(
-    call: Call, table: Table, system: System, oscillators: "Oscillators", w: float
+    call: Call, table: Table, system: System, oscillators: Oscillators, w: float
 ) -> FloatArray:
     """What INITIAL says, or else the linear response."""
     said = _coefficients(call, table, system, oscillators.basis.harmonics, dual=False)
@@ -143,7 +143,7 @@ def _lengths(numbers: Numbers) -> Lengths:
 # --- results -----------------------------------------------------------------------------------
 
 
-def _results(call: Call, found: "Response", system: System, free: bool) -> Table:
+def _results(call: Call, found: Response, system: System, free: bool) -> Table:
     if found.ended == "no solution":
         call.session.warn(
             "operators.modal.branch-lost", call.span, operator="DYNC", t=found.frequencies[-1]
@@ -152,7 +152,7 @@ def _results(call: Call, found: "Response", system: System, free: bool) -> Table
     return Table.of(entries, "RESULTAT_DYNC")
 
 
-def _response(found: "Response", system: System, free: bool) -> Table:
+def _response(found: Response, system: System, free: bool) -> Table:
     Q = np.array(found.coefficients)
     exponents = np.array(found.exponents)
     assert system.basis.shapes is not None
@@ -181,7 +181,7 @@ def _numbered(columns: FloatArray) -> Table:
     return Table.numbered(ListReel(column.copy()) for column in np.asarray(columns).T)
 
 
-def _bifurcations(found: "Response") -> Table:
+def _bifurcations(found: Response) -> Table:
     all_found = found.bifurcations
     norms = [float(np.linalg.norm(b.coefficients)) for b in all_found]
     entries: dict[str, Any] = {

@@ -80,7 +80,7 @@ def cable_model(call: Call, line: Mesh, cables: Model | None, body: Mesh, ws: Wo
     )
 
 
-def model_relations(model: Model, material: CellField | None) -> "list[ContactRelations]":
+def model_relations(model: Model, material: CellField | None) -> list[ContactRelations]:
     """Relations of all pairs of sides of a model, each pair once."""
     found, seen = [], set()
     for zone in model.zones:
@@ -102,7 +102,7 @@ def model_relations(model: Model, material: CellField | None) -> "list[ContactRe
     return found
 
 
-def _rubbing(zone: Zone, material: CellField | None) -> "Rubbing | None":
+def _rubbing(zone: Zone, material: CellField | None) -> Rubbing | None:
     """Coulomb's friction of a pair of sides, None where they are smooth."""
     if zone.behaviour != COULOMB:
         return None

@@ -37,7 +37,7 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
     if start is None or start.reached is None:
         _warn_of_two_models(entries, zones)
 
-    def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         bulk = bulk_of(zones, material, problem.numbering)
         load = entries.get("CHARGEMENT") or entries.get("CHAR")
         bulk = replace(bulk, free=free_strains(load, zones, material))
@@ -77,7 +77,7 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
         entries.warn("operators.statics.joint-axes-stay")
     material: CellField = entries.needed("CARACTERISTIQUES")
 
-    def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         yielding = tuple(z for z in zones if is_plastic(z))
         elastic = tuple(z for z in zones if z not in yielding)
         stress, variables, plastic = (start.of(word) for word in _STATE)
@@ -98,7 +98,7 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 
-def warn_of_confinement(entries: Entries, problem: "Problem", bulk: "Bulk", state: "State") -> None:
+def warn_of_confinement(entries: Entries, problem: Problem, bulk: Bulk, state: State) -> None:
     """Warn of ground of friction that has no stress, and gets none before the loads."""
     from ssilang.kernel.statics.yielding import unconfined
 
@@ -138,6 +138,6 @@ _HELD = (
 """Of large displacements or not, of plastic or elastic solids: codes, strains from which told."""
 
 
-def _given(bulk: "Bulk", start: Any) -> "State | None":
+def _given(bulk: Bulk, start: Any) -> State | None:
     given: Any = tuple(start.of(word) for word in _STATE)
     return state_from_fields(bulk, given)

@@ -52,7 +52,7 @@ def continue_loads(entries: Entries) -> None:
     _fill(entries, trace, problem)
 
 
-def _rate(entries: Entries, problem: "Problem", times: FloatArray) -> FloatArray:
+def _rate(entries: Entries, problem: Problem, times: FloatArray) -> FloatArray:
     """Change of the load factors in a unit of time, the same all along."""
     factors = problem.loading.at(times)
     rate = (factors[-1] - factors[0]) / (times[-1] - times[0])
@@ -73,7 +73,7 @@ def _stability(entries: Entries) -> list[str]:
     return ["DIAG"] if given is True else words
 
 
-def _fill(entries: Entries, trace: "ArcTrace", problem: "Problem") -> None:
+def _fill(entries: Entries, trace: ArcTrace, problem: Problem) -> None:
     table = entries.table
     table.set(Mot("TEMPS_PROG"), ListReel(np.array(trace.times)))
     if trace.negative:

@@ -55,7 +55,7 @@ def _at_rest(field: NodeField) -> NodeField:
     return NodeField(field.table, parts, field.nature)
 
 
-def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
+def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:
     said = (entries.get(word) for word in ("TEMPS_CALCULES", "TEMPS_SAUVES"))
     given = next((values for values in said if values is not None), None)
     if given is None:
@@ -66,7 +66,7 @@ def _frequencies(entries: Entries, inputs: "HarmonicInputs") -> FloatArray:
     return values
 
 
-def _inputs(entries: Entries) -> "HarmonicInputs":
+def _inputs(entries: Entries) -> HarmonicInputs:
     model: Model | None = entries.get("MODELE")
     zones = () if model is None else model.zones
     mechanical = tuple(z for z in zones if z.formulation == "MECANIQUE")

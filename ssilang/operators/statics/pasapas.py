@@ -266,8 +266,8 @@ def _other_times(
 
 
 def _path_run(
-    problem: "Problem", inputs: "Inputs", bodies: Bodies | None, observers: "list[Observer]"
-) -> "BulkRun":
+    problem: Problem, inputs: Inputs, bodies: Bodies | None, observers: list[Observer]
+) -> BulkRun:
     """A calculation along a path, at its start."""
     bulk, state = (no_bodies(problem), ()) if bodies is None else bodies(problem, inputs)
     return BulkRun(problem, bulk, state, tuple(observers))
@@ -366,7 +366,7 @@ def _times(entries: Entries, start: Start) -> tuple[FloatArray, NDArray[np.bool_
 
 def _inputs(
     entries: Entries, start: Start, times: FloatArray, dynamic: bool
-) -> "tuple[Inputs, Stresses]":
+) -> tuple[Inputs, Stresses]:
     material: CellField | None = entries.get("CARACTERISTIQUES")
     model: Model | None = entries.get("MODELE")
     linear = _linear_zones(entries)

@@ -23,7 +23,7 @@ class LoadByProcedure:
     finite displacements the nodes stand where the bodies are.
     """
 
-    def __init__(self, entries: Entries, problem: "Problem", moves: bool) -> None:
+    def __init__(self, entries: Entries, problem: Problem, moves: bool) -> None:
         self.entries, self.problem, self.moves = entries, problem, moves
 
     def __call__(self, time: float, u: FloatArray) -> Added:
@@ -76,7 +76,7 @@ def _moved(field: NodeField, moves: bool) -> Iterator[None]:
 class FollowingPressure:
     """Pressures of a loading on sides that stand where the bodies have taken them."""
 
-    def __init__(self, load: Load, sides: tuple[Zone, ...], problem: "Problem") -> None:
+    def __init__(self, load: Load, sides: tuple[Zone, ...], problem: Problem) -> None:
         self.parts, self.sides = pressures(load), sides
         self.numbering = problem.numbering
 
@@ -91,23 +91,21 @@ class FollowingPressure:
         return Added(total)
 
 
-def procedure_law(entries: Entries) -> "Callable[[Problem], LoadLaw]":
+def procedure_law(entries: Entries) -> Callable[[Problem], LoadLaw]:
     """The load of CHARMECA, once the problem is numbered."""
     moves = entries.flag("GRANDS_DEPLACEMENTS")
     return lambda problem: LoadByProcedure(entries, problem, moves)
 
 
-def pressure_law(load: Load, sides: tuple[Zone, ...]) -> "Callable[[Problem], LoadLaw]":
+def pressure_law(load: Load, sides: tuple[Zone, ...]) -> Callable[[Problem], LoadLaw]:
     """Pressures that follow their sides, once the problem is numbered."""
     return lambda problem: FollowingPressure(load, sides, problem)
 
 
-def loaded_bodies(
-    law_of: "Callable[[Problem], LoadLaw]", said: str, bodies: Bodies | None
-) -> Bodies:
+def loaded_bodies(law_of: Callable[[Problem], LoadLaw], said: str, bodies: Bodies | None) -> Bodies:
     """Bodies, if there are any, under a load that depends on where they are."""
 
-    def make(problem: "Problem", inputs: "Inputs") -> tuple[Bulk, State]:
+    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
         start: tuple[Bulk, State] = (no_bodies(problem), ())
         bulk, state = start if bodies is None else bodies(problem, inputs)
         first = float(problem.times[0])
@@ -127,7 +125,7 @@ def loaded_bodies(
     return make
 
 
-def _shifts(problem: "Problem") -> FloatArray:
+def _shifts(problem: Problem) -> FloatArray:
     """Small differences of the unknowns: lengths, and turns."""
     numbering = problem.numbering
     ends = numbering.table.coordinates[numbering.nodes]

@@ -79,7 +79,7 @@ class ResultTables:
     load: Load | None = None
     finite: bool = False
     _free: dict[int, list[tuple[FloatArray, Any]]] = field(default_factory=dict, repr=False)
-    _last: "tuple[Snapshot, dict[str, Any]] | None" = field(default=None, repr=False)
+    _last: tuple[Snapshot, dict[str, Any]] | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         skipped = () if self.dynamic else ("VITESSES", "ACCELERATIONS")
@@ -87,12 +87,12 @@ class ResultTables:
         for word in (*(w for w in RESULTS if w not in skipped), *strains):
             self.table.inner(word)
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """Add one time."""
         put_results(self.table, self.number, self.values(snapshot), keep=snapshot.step == 0)
         self.number += 1
 
-    def values(self, snapshot: "Snapshot") -> dict[str, Any]:
+    def values(self, snapshot: Snapshot) -> dict[str, Any]:
         """Results of one time, by their words."""
         if self._last is not None and self._last[0] is snapshot:
             return self._last[1]

@@ -137,7 +137,7 @@ class Reached:
         """The last time alone."""
         return np.arange(self.n_times) == self.n_times - 1
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """The last time."""
         self.values = self.results.values(snapshot)
 

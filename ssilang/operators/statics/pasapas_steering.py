@@ -91,7 +91,7 @@ class Steering:
         self.wanted = np.ones(n_times, bool)
         self.wanted[0] = begins and self.prepared
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """One computed time.
 
         Raises
@@ -132,7 +132,7 @@ class SavedTable:
         inside = wanted[(wanted > times[0]) & (wanted <= times[-1])]
         self.wanted = nearest(times, inside)
 
-    def receive(self, snapshot: "Snapshot") -> None:
+    def receive(self, snapshot: Snapshot) -> None:
         """One time: its results stand in the table already."""
         root = self.call.session.root
         name = next((n for n in root.names() if root.find(n) is self.table), "TAB1")

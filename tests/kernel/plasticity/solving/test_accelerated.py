@@ -10,6 +10,7 @@ from references.keeper import Ending
 from references.tower_on_clay import stepped_tower
 
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.plasticity import run
 from ssilang.kernel.plasticity.bulk import Bulk
 from ssilang.kernel.plasticity.solving import accelerated, part
 from ssilang.kernel.plasticity.solving.accelerated import Acceleration
@@ -93,7 +94,7 @@ def test_renewed_factors_lead_there_too(newton, monkeypatch: pytest.MonkeyPatch)
 def test_a_base_that_moves_leads_there_too_with_any_factor(solver, monkeypatch) -> None:
     full = stepped(steps=16, full=True, moved=0.02)
     make = accelerated.effective_of
-    monkeypatch.setattr(accelerated, "is_accelerated", lambda *of: True)
+    monkeypatch.setattr(run, "is_accelerated", lambda *of: True)
     monkeypatch.setattr(
         accelerated, "effective_of",
         lambda problem, *more: make(replace(problem, solver=Solver(solver)), *more),
@@ -142,7 +143,7 @@ def test_perfect_plasticity_keeps_a_factor_and_unsymmetric_flow_does_not(monkeyp
         accelerated, "factor_pays", lambda A, order, solves: asked.append(A.toarray()) or solves < 9
     )
     chosen: list[tuple[Problem, Bulk, sp.csr_array]] = []
-    monkeypatch.setattr(accelerated, "is_accelerated", lambda *of: chosen.append(of) or choose(*of))
+    monkeypatch.setattr(run, "is_accelerated", lambda *of: chosen.append(of) or choose(*of))
     assert stepped(steps=3)[0].loop.startswith("full Newton")
     assert np.linalg.eigvalsh(asked[0])[0] > 1e-6 * np.diag(asked[0]).min()
     monkeypatch.setattr(accelerated, "factor_pays", lambda A, order, solves: solves > 9)

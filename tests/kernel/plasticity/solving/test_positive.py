@@ -6,7 +6,6 @@ from references.tower_on_clay import stepped_tower, tower_on_clay
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity import newton
-from ssilang.kernel.plasticity.solving import positive
 from ssilang.kernel.plasticity.solving.positive import PositiveFactors
 
 STEPS = 12
@@ -26,7 +25,7 @@ class Listening(PositiveFactors):
 def stepped(solved: list[bool], monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
     """Displacements; whether Cholesky factors solved, each time that they were asked."""
     Listening.solved = solved
-    monkeypatch.setattr(positive, "PositiveFactors", Listening)
+    monkeypatch.setattr(newton, "PositiveFactors", Listening)
     history, seen, strain = stepped_tower("J2", STEPS, full=True)
     assert history.solver == ("nested dissection" if solved else "SuperLU")
     assert (strain > 0).any()

@@ -136,13 +136,14 @@ def test_a_block_lifts_off_alike_on_petsc_though_a_rank_is_lost_on_the_way(
     tmp_path, monkeypatch, full
 ):
     """The run ends with a message and a checkpoint, and goes on from there."""
-    from ssilang.kernel.stepping import keeping
+    from ssilang.operators.dynamics import checkpoints
 
     script = MODEL + MOTION.replace("FULL0", full)
     script = script.replace("TAB2 =", "TAB1 . 'REPRISE' = TABL ; TAB1 . 'PAS_SAUVES' = 1 ; TAB2 =")
     own, _ = run(HEAD + script, tmp_path / "own", "")
     script = HEAD + ASKED + script
-    monkeypatch.setattr(keeping, "stride_of", lambda done, *_: 8 - done % 8)  # a large model's
+    # as of a large model
+    monkeypatch.setattr(checkpoints, "stride_of", lambda done, *_: 8 - done % 8)
     with monkeypatch.context() as patched:
         lose_a_rank(patched, 32)
         ended, summary = run(script, tmp_path / "ended")

@@ -225,7 +225,6 @@ class InterleavedLoop:
         b: FloatArray = self.T.T @ x
         if self._gram is None:
             return b / self._gram_diagonal
-
         if not hasattr(self, "_gram_factor"):
             self._gram_factor = spla.splu(self._gram)
         return self._gram_factor.solve(b)

@@ -147,7 +147,7 @@ class SparseLoop:
 
     def run(
         self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
-        impact: "ImpactRule | None" = None,
+        impact: ImpactRule | None = None,
     ) -> Outcome:  # fmt: skip
         """Steps of one dt; `impact` corrects velocities of unilateral relations."""
         p, worst, contact, r = self.problem, 0, self.problem.contact, recorder
@@ -306,7 +306,7 @@ class SparseSteps:
     loop: SparseLoop
     solver: StepSolver
     newmark: Newmark
-    impact: "ImpactRule | None" = None
+    impact: ImpactRule | None = None
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""
