@@ -67,7 +67,9 @@ class Frame:
 
     def forget(self, name: str, hiding: bool) -> None:
         """Make a name ANNULE here (OUBL), or, at the top, the word again that it was hiding."""
-        if hiding and self.caller is None:
+        if self.caller is None and name in PREDEFINED:
+            self.variables[name] = PREDEFINED[name]
+        elif hiding and self.caller is None:
             self.variables.pop(name, None)
         else:
             self.variables[name] = ANNULE

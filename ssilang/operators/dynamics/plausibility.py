@@ -189,20 +189,27 @@ def _masses_alone(start: Start) -> Told:
 
 def _on_supports(start: Start) -> Told:
     for name in dict.fromkeys(start.names[k] for k in on_supports(start)):
-        told = {"name": name, "other_side": _held_on_the_other_side(start.problem)}
+        other_side = len(_held_on_the_other_side(start.problem, start.inputs)) > 0
+        told = {"name": name, "other_side": other_side}
         yield "operators.dynamics.load-on-supports", told
 
 
-def _held_on_the_other_side(problem: Problem) -> bool:
-    """Whether supports hold one side of joints whose other side stands on nothing."""
+def _held_on_the_other_side(problem: Problem, inputs: Inputs) -> IntArray:
+    """Unknowns (n,) held on one side of joints whose other side stands on nothing."""
+    nodes, still, none = problem.numbering.nodes, held(problem), np.zeros(0, np.int64)
     if (joints := problem.interface) is None:
-        return False
-    nodes, still = problem.numbering.nodes, held(problem)
-    free = nodes[~still & (problem.K.diagonal() == 0.0)]
-    resolve = problem.numbering.table.resolve
+        return none
+    resolve, zones = problem.numbering.table.resolve, inputs.model.zones if inputs.model else ()
+    bodies = [resolve(z.cells.raw).ravel() for z in zones if not is_joint(z)]
+    borne = abs(problem.constraints.C).sum(axis=0) + problem.K.diagonal() != 0.0
+    laden = (problem.M.diagonal() != 0.0) | problem.loading.forces.any(axis=1)
+    lying = np.concatenate([nodes[laden], *bodies])
+    bare = ~still & ~borne & ~np.isin(nodes, lying)
     sides = [[resolve(s).ravel() for s in (j.lower, j.upper)] for j in joints.joints]
-    ways = [way for pair in sides for way in (pair, pair[::-1])]
-    return any(np.isin(a, nodes[still]).all() and np.isin(b, free).all() for a, b in ways)
+    for a, b in (way for pair in sides for way in (pair, pair[::-1])):
+        if np.isin(a, nodes[still]).all() and np.isin(b, nodes[bare]).all():
+            return np.flatnonzero(still & np.isin(nodes, a))
+    return none
 
 
 def _loose(start: Start) -> Told:
@@ -440,8 +447,11 @@ def warn_of_bodies(entries: Entries, inputs: Inputs) -> None:
         entries.warn("operators.matrices.bodies-apart", **told)
 
 
-def warn_of_material(entries: Entries, inputs: Inputs) -> None:
-    """Warn of conditions on cells that have a material and stand in no model."""
+def warn_of_parts(entries: Entries, problem: Problem, inputs: Inputs) -> None:
+    """Warn of conditions on the wrong side of joints, and on cells that stand in no model."""
+    for row in _held_on_the_other_side(problem, inputs)[:1].tolist():
+        told = {"unknown": problem.numbering.label(row), "supports": SUPPORTS[entries.procedure]}
+        entries.warn("operators.dynamics.footing-held", **told)
     model, given = entries.get("MODELE"), entries.get("CARACTERISTIQUES")
     stiff, zones = inputs.stiffness, () if model is None else model.zones
     resolve, none = stiff.table.resolve, np.zeros(0, np.int64)

@@ -143,7 +143,7 @@ def _stretch(
     elif start.reached is None:
         plausibility.warn_of_bodies(work, inputs)
     if start.reached is None:
-        plausibility.warn_of_material(work, inputs)
+        plausibility.warn_of_parts(work, problem, inputs)
     model: Model | None = given.get("MODELE")
     zones = () if model is None else model.zones
     axis = "UZ" if "UZ" in problem.numbering.unknowns else "UY"
