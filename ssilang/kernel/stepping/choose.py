@@ -1,36 +1,35 @@
 """Which loop a problem gets: a table of rules, the first that fits is taken.
 
 `python -m ssilang.kernel.stepping.choose` prints the table. What a loop needs besides (the step's
-system, the modes) is made once, when a rule asks for it.
+system, the modes) is made once, when a rule asks for it. A problem loads the loops that it may get:
+each brings compiled functions, a hundredth of a second or two.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.contact.impact import ImpactRule
-from ssilang.kernel.contact.modal import ContactLoop, contact_loop, takes
-from ssilang.kernel.contact.solver import step_solver
 from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.solvers.backends import MULTIGRID, PETSC, goes_to_petsc
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
-from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
 from ssilang.kernel.stepping.rests.sparse import iterated
-from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
 from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import View
 from ssilang.messages.message import Sentence
+
+if TYPE_CHECKING:
+    from ssilang.kernel.contact.modal import ContactLoop
+    from ssilang.kernel.stepping.rests.modal.modes import SmallLoop
 
 
 class Loop(Protocol):
@@ -92,24 +91,32 @@ class Case:
         return iterated.pays(self.problem, self.A)
 
     @cached_property
-    def modal(self) -> SmallLoop | None:
+    def modal(self) -> "SmallLoop | None":
         """The loop on all modes of a small problem, if it has some."""
         if not self.problem.small:
             return None
+        from ssilang.kernel.stepping.rests.modal.modes import SmallLoop, modes_of
+
         modes = modes_of(self.problem, self.effective)
         if modes is None:
             return None
         return SmallLoop(self.problem, self.motion, self.effective, modes)
 
     @cached_property
-    def stops(self) -> ContactLoop | None:
+    def stops(self) -> "ContactLoop | None":
         """The compiled loop of unilateral relations, if it can run the problem."""
-        if self.problem.contact is None or not takes(self.problem):
+        if self.problem.contact is None:
+            return None
+        from ssilang.kernel.contact.modal import contact_loop, takes
+
+        if not takes(self.problem):
             return None
         return contact_loop(self.problem, self.motion, self.effective, self.closed)
 
 
 def _adaptive(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
+
     def part(dt: float) -> SparseSteps:
         return _condensed(case if dt == case.dt else replace(case, dt=dt))
 
@@ -122,16 +129,22 @@ def _iterated(case: Case) -> Loop:
 
 
 def _condensed(case: Case) -> SparseSteps:
+    from ssilang.kernel.contact.solver import step_solver
+
     return _sparse(case, step_solver(case.problem, case.effective))
 
 
 def _full_newton(case: Case) -> Loop:
+    from ssilang.kernel.stepping.rests.sparse.full_newton import FullNewtonSolver
+
     return _sparse(case, FullNewtonSolver(case.problem, case.A, case.share))
 
 
 def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
     p, impact = case.problem, None
     if p.contact is not None and not p.scheme.conserving:
+        from ssilang.kernel.contact.impact import ImpactRule
+
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
     n = newmark_of(p.scheme, case.dt)
     return SparseSteps(SparseLoop(p, case.motion), solver, n, impact)
@@ -179,7 +192,7 @@ RULES = (
         "few unknowns, relations without friction, no joints, supports at rest, diagonal damping",
         "kernel.stepping.loop-relations-on-modes",
         lambda c: c.stops is not None,
-        lambda c: cast(ContactLoop, c.stops),
+        lambda c: cast("ContactLoop", c.stops),
     ),
     Rule(
         "relations", "condensed",
@@ -193,14 +206,14 @@ RULES = (
         "small, diagonal damping, joints that only push",
         "kernel.stepping.loop-springs",
         lambda c: c.modal is not None and c.modal.springs is not None,
-        lambda c: cast(SmallLoop, c.modal).using("springs"),
+        lambda c: cast("SmallLoop", c.modal).using("springs"),
     ),
     Rule(
         "modes", "compiled",
         "small, supports at rest",
         "kernel.stepping.loop-modes",
         lambda c: c.modal is not None,
-        lambda c: cast(SmallLoop, c.modal).using("modes"),
+        lambda c: cast("SmallLoop", c.modal).using("modes"),
     ),
     Rule(
         "multigrid", "multigrid",
