@@ -12,8 +12,9 @@ IN_SCOPE = "mechanics"
 
 @dataclass(frozen=True, slots=True)
 class Cast3mWord:
-    """A word of Cast3M: `kind` is 'operator' or 'procedure', `subject` as in the file.
+    """A word of Cast3M: `kind` is 'operator', 'procedure' or 'table', `subject` as in the file.
 
+    Of kind 'table' are words by which an operator reads a table of another subject, as VARI.PSATT.
     `reason` names the sentence why a word that belongs here is not built, '' if it is.
     """
 

@@ -138,6 +138,11 @@ def test_what_is_partly_built_is_run():
     ("text", "code", "said"),
     [
         ("X = FLUX 1 2 ;", 0, "FLUX is a Cast3M operator (heat), out of ssilang's scope"),
+        (
+            "X = VARI 'PSATT' 300. ;",
+            1,
+            "VARI PSATT is a Cast3M operator (fluids), out of ssilang's scope",
+        ),
         ("X = FLUX 1 2 ; MESS X ;", 1, "X, which it should give, is read at line 1"),
         ("FLUX 1 2 ;", 1, "out of ssilang's scope"),
     ],

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import ANY, Argument, When
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
@@ -399,6 +400,8 @@ class Call:
             told |= {"found": type_of(wrong.value), "name": wrong.name}
             told |= {"bare": text and wrong.span.text[:1] not in ("'", "(")}
             value = str(wrong.value) if text else ""
+            if (word := f"{self.name[:4]}.{value.upper().rstrip()}") in cast3m_words():
+                return SsiError("unknown-operator", wrong.span, name=word)
             return SsiError("wrong-argument", wrong.span, value=value, **told)
         return SsiError("missing-argument", self.span, **told)
 

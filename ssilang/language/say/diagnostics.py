@@ -290,9 +290,12 @@ def _near_hint(data: dict[str, object], language: str, names: Iterable[str]) -> 
 def elsewhere(word: str, language: str) -> str:
     """What to say of a word of Cast3M that is no operator here, '' if it is none."""
     found = find_cast3m_word(word)
-    if found is None or find_operator(found.name) is not None:
+    if found is None or (found.kind != "table" and find_operator(found.name) is not None):
         return ""
-    data: dict[str, Any] = {"name": found.name, "operator": found.kind == "operator"}
+    data: dict[str, Any] = {
+        "name": found.name.replace(".", " "),
+        "operator": found.kind != "procedure",
+    }
     code = "out-of-scope"
     if found.here:
         code, data["name"] = "stands-first", word
