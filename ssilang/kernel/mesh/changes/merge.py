@@ -56,7 +56,7 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
     if len(common):
         left = np.concatenate([a[free_a], b[free_b]])
         gap, at = spatial.cKDTree(nodes.coordinates[common]).query(nodes.coordinates[left])
-        pairs += zip(left[gap < tolerance], common[at[gap < tolerance]], strict=True)
+        pairs += zip(left[gap < tolerance], common[np.asarray(at)[gap < tolerance]], strict=True)
     table = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
     nodes.merge(table[:, 0], table[:, 1])
 
