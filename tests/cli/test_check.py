@@ -202,6 +202,7 @@ def test_a_one_that_belongs_to_what_follows_is_noted(text, wrong, meant):
 
 
 CONES = "OPTI DIME 2 ; P = 0. 0. ; K = TABL ; K . 'UX' = 2. ; K . 'UY' = 3. ; K . 'RZ' = 4. ; "
+SOIL = CONES + "M = MODE (MANU 'POI1' P) 'MECANIQUE' ; G0 = 1.E8 ; "
 TURNED = CONES.replace("DIME 2", "DIME 3").replace("0. 0.", "0. 0. 0.")
 
 
@@ -211,6 +212,8 @@ TURNED = CONES.replace("DIME 2", "DIME 3").replace("0. 0.", "0. 0. 0.")
         (CONES + "MESS (APPU 'UX' (K . 'UY') P) ;", "spring-of-another"),
         (CONES + "MESS ((AMOR 'UY' K . 'UY' P) ET (AMOR 'RZ' K . 'UX' P)) ;", "spring-of-another"),
         (TURNED + "MESS (APPU 'UZ' (K . 'UX') P) ;", "spring-of-another"),
+        (SOIL + "MESS (MATE M 'NU' 0.3 'YOUN' G0) ;", "shear-for-young"),
+        (SOIL + "MESS (MATE M 'NU' 0.3 'YOUN' (2.6 * G0)) ;", ""),
         (CONES + "K . 'FREQUENCE' = 2. * PI * 1.5 ; MESS K ;", "pulsation-for-frequency"),
         (CONES + "K . 'FREQUENCES' = PI * 2 * (PROG 1. 2.) ; MESS K ;", "pulsation-for-frequency"),
         (CONES + "MESS (APPU 'UX' (K . 'UX') P) ; C = AMOR 'UX' 'RZ' (K . 'UX') P ; MESS C ;", ""),

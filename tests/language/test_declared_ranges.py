@@ -191,7 +191,9 @@ CURVE = "OPTI DIME 2 ; P = 0. 0. ; C = MANU 'CHPO' P 'UX' 1. ; S = SUIT C C ; "
 Z = PROG 'SINU' 1. 'PHAS' X XL ;| Z = PROG 'LINE' 'A' X XL ;| Z = EVOL 'TEMP' S XL 'UX' P ;
 OPTI 'DENS' X ;| OPTI 'PREC' X ;| Z = EXIS XL X ;| Z = EXIS XL 1. X ;
 Z = VIDE 'TABULER' XL 'MAILLAGE' ;| DENS X ;| Z = P PLUS (X 0.) ;| Z = MANU 'CHPO' P 'UX' X ;
-Z = COLI C X C X ;| Z = RACP X 1. 2. ;""".replace("\n", "|").split("|"),
+Z = COLI C X C X ;| Z = RACP X 1. 2. ;| Z = CERC 4 'ROTA' X P (2. 0.) ;""".replace("\n", "|").split(
+        "|"
+    ),
 )
 def test_what_is_no_number_is_refused_where_it_stands(text):
     (error,) = run_text(NAN + CURVE + text).errors

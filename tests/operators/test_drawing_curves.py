@@ -122,6 +122,14 @@ def test_the_title_in_force_is_used(tmp_path: Path) -> None:
     assert "case 1" not in words(tmp_path, 2)
 
 
+def test_white_below_a_curve_hides_the_curves_before_it_and_colour_none(tmp_path: Path) -> None:
+    for style in ("REMP BLAN", "REMP REGU"):
+        run(f"T = TABL ; T . 1 = '{style}' ; T . 2 = '{style}' ; DESS E T ;", tmp_path / style)
+        (path,) = (tmp_path / style).glob("*.svg")
+        _, first, second = path.read_text().split('id="PolyCollection_')
+        assert ("line2d_" in first, "line2d_" in second) == (style == "REMP BLAN", True)
+
+
 def test_legends_of_the_table(tmp_path: Path) -> None:
     script = (
         "T = TABL ; T . 1 = 'TIRR MARQ CROI' ; T . 'TITRE' = TABL ; "

@@ -318,18 +318,34 @@ R = DYNE 'DE_VOGELAERE' TB TI TL TS 2000 1.E-3 ;
 """
 
 
-def test_a_point_of_a_body_that_turns_goes_on_its_circle(tmp_path):
-    pair = "L1 . 'TYPE_LIAISON' = MOT 'POINT_POINT' ; L1 . 'POINT_A' = P ; L1 . 'POINT_B' = G ; "
+IN_SPACE = [  # the same about x
+    ("DIME 2 MODE PLAN DEFO", "DIME 3 MODE TRID"), ("= 0. 0.", "= 0. 0. 0."), ("= 0.6", "= 0. 0.6"),
+    ("= 1. 0.5", "= 0. 1. 0.5"), ("= 1.3", "= 0. 1.3"), ("'UY'", "'UZ'"), ("'UX'", "'UY'"),
+    ("'RZ'", "'RX'"),
+]  # fmt: skip
+PAIR = "L1 . 'TYPE_LIAISON' = MOT 'POINT_POINT' ; L1 . 'POINT_A' = P ; L1 . 'POINT_B' = G ; "
+CIRCLE = (
+    "L1 . 'TYPE_LIAISON' = MOT 'CERCLE_PLAN_FROTTEMENT' ; L1 . 'RAYON_SUPPORT' = 0.1 ; "
+    "L1 . 'COEFFICIENT_GLISSEMENT' = 0. ; L1 . 'COEFFICIENT_ADHERENCE' = 0. ; "
+    "L1 . 'RAIDEUR_TANGENTIELLE' = -1. ; L1 . 'AMORTISSEMENT_TANGENTIEL' = 1.E-9 ; "
+)
+
+
+@together("axes", ["XYZ", "YZX"])
+@together("tail, before", [("", ""), ("_POINT_A", PAIR), ("_POINT_FIBRE_NEUTRE", CIRCLE)])
+def test_a_point_of_a_body_that_turns_goes_on_its_circle(axes, tail, before, tmp_path):
     t = 1e-3 * np.arange(2001)
     c, s = np.cos(9.0 * t), np.sin(9.0 * t)
-    for tail, before in (("", ""), ("_POINT_A", pair)):
-        script = BODY.format(stiffness="1.E-9").replace("R = DYNE", before + "R = DYNE")
-        root = run(script, tmp_path)
-        link = root.find("R").get(root.find("L1"))
-        x = 0.7 * t + 0.3 * (c - 1.0) - 0.4 * s
-        np.testing.assert_allclose(link.get(f"UX{tail}").values, x, atol=1e-6)
-        y = 0.4 * (c - 1.0) + 0.3 * s
-        np.testing.assert_allclose(link.get(f"UY{tail}").values, y, atol=1e-6)
+    script = BODY.format(stiffness="1.E-9").replace("R = DYNE", before + "R = DYNE")
+    for plane, space in IN_SPACE if axes == "YZX" else ():
+        script = script.replace(plane, space)
+    root = run(script, tmp_path)
+    link = root.find("R").get(root.find("L1"))
+    x, y = 0.7 * t + 0.3 * (c - 1.0) - 0.4 * s, 0.4 * (c - 1.0) + 0.3 * s
+    for name, way in zip(axes, (x, y, 0.0 * t), strict=True):
+        np.testing.assert_allclose(link.get(f"U{name}{tail}").values, way, atol=1e-6)
+    if before == CIRCLE:
+        np.testing.assert_allclose(link.get(f"R{axes[2]}{tail}").values, 9.0 * t, atol=1e-6)
 
 
 def test_a_spring_at_a_body_that_turns_keeps_energy(tmp_path):

@@ -90,14 +90,11 @@ def test_triangles_and_universal_files(tmp_path: Path) -> None:
     )
     result = run(text, tmp_path, s_stl=stl, m_unv=unv)
     assert values(result, "A", "N", "P") == [0.5, 1, 2]
-    high = (
-        "OPTI DIME 2 ; T = LIRE 'UNV' 'm.unv' ; D = VALE 'DIME' ; "
-        "Z = COOR 3 (T . 'NOEUDS' POIN 2) ;"
+    high, text = unv.replace("2. 0. 0.", "2. 0. 5."), "OPTI DIME 2 ; T = LIRE 'UNV' 'm.unv' ;"
+    result = run(
+        f"{text} D = VALE 'DIME' ; Z = COOR 3 (T . 'NOEUDS' POIN 2) ;", tmp_path, m_unv=high
     )
-    assert values(run(high, tmp_path, m_unv=unv.replace("2. 0. 0.", "2. 0. 5.")), "D", "Z") == [
-        3,
-        5.0,
-    ]
+    assert values(result, "D", "Z") == [3, 5.0]
 
 
 def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:

@@ -1,8 +1,10 @@
 """Runs that several tests of reports look at, each made once."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from chromium import PROGRAM, Chromium
 
 from ssilang.cli.run import RunOptions, run_file
 
@@ -60,6 +62,23 @@ def run(folder: Path, text: str, report: bool = True, language: str = "en") -> P
     )
     run_file(folder / "deck.ssi", options)
     return folder / "out"
+
+
+@pytest.fixture(scope="session")
+def started(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
+    """A browser for all pages: its start takes as long as what a page is asked."""
+    if PROGRAM is None:
+        pytest.skip("needs Debian's chromium")
+    made = Chromium(tmp_path_factory.mktemp("browser"))
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="module")
+def browser(started: Chromium) -> Iterator[Chromium]:
+    """The same; what moves on its page does so no longer than a module."""
+    yield started
+    started.ask("Page.navigate", url="about:blank")
 
 
 @pytest.fixture(scope="session")

@@ -7,19 +7,11 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 import pytest
-from chromium import PROGRAM, Chromium
+from chromium import Chromium
 
-pytestmark = pytest.mark.skipif(PROGRAM is None, reason="needs Debian's chromium")
 READY = "document.getElementById('scene-view').dataset.ready === '1'"
 WINDOW, PHONE = (480, 420), (390, 700)
 Pixels = npt.NDArray[np.uint8]
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium]:
-    made = Chromium(tmp_path_factory.mktemp("browser"))
-    yield made
-    made.close()
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,6 @@ import re
 
 import numpy as np
 import pytest
-from chromium import PROGRAM, Chromium
 from scipy import stats
 from together import together
 
@@ -366,24 +365,19 @@ def test_a_suite_ends_in_its_page_and_other_limits_run_nothing_again(case, capsy
     assert "fragility.json" in capsys.readouterr().err
 
 
-@pytest.mark.skipif(PROGRAM is None, reason="needs Debian's chromium")
-def test_a_browser_draws_curves_and_clouds(case):
+def test_a_browser_draws_curves_and_clouds(case, browser):
     run(case, ["drift>1", "drift<1"])
-    browser = Chromium(case / "profile")
-    try:
-        browser.open(case / "out" / "report.html", 900, 900)
-        browser.until("!!document.querySelector('#fragility figure.chart').plot")
-        drawn = "document.querySelectorAll('#fragility figure.chart canvas').length"
-        browser.run("document.querySelector('#fragility figure:last-of-type').scrollIntoView()")
-        browser.until(f"{drawn} === document.querySelectorAll('#fragility figure.chart').length")
-        labels = "[...document.querySelectorAll('#fragility figure.chart')].map(f =>"
-        labels += " f.plot.axes.map(a => a._values.filter(v => v).length))"
-        assert all(count >= 2 for axes in browser.run(labels) for count in axes)
-        link = browser.run("document.querySelector('#fragility a').href")
-        assert link.startswith((case / "out" / "runs").as_uri())
-        assert browser.console == []
-    finally:
-        browser.close()
+    browser.open(case / "out" / "report.html", 900, 900)
+    browser.until("!!document.querySelector('#fragility figure.chart').plot")
+    drawn = "document.querySelectorAll('#fragility figure.chart canvas').length"
+    browser.run("document.querySelector('#fragility figure:last-of-type').scrollIntoView()")
+    browser.until(f"{drawn} === document.querySelectorAll('#fragility figure.chart').length")
+    labels = "[...document.querySelectorAll('#fragility figure.chart')].map(f =>"
+    labels += " f.plot.axes.map(a => a._values.filter(v => v).length))"
+    assert all(count >= 2 for axes in browser.run(labels) for count in axes)
+    link = browser.run("document.querySelector('#fragility a').href")
+    assert link.startswith((case / "out" / "runs").as_uri())
+    assert browser.console == []
 
 
 @pytest.mark.usefixtures("unsaved")

@@ -9,7 +9,6 @@ import shutil
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from chromium import PROGRAM, Chromium
 
 import ssilang
 from ssilang.cli.main import main
@@ -137,16 +136,11 @@ def test_a_run_from_python_has_its_page():
         ssilang.sweep("osc.ssi", AG=1.0, report=True)
 
 
-@pytest.mark.skipif(PROGRAM is None, reason="needs Debian's chromium")
-def test_a_browser_draws_the_figures_and_follows_a_link(made, tmp_path):
-    browser = Chromium(tmp_path)
-    try:
-        browser.open(made / "report.html", 390, 700)
-        browser.until("!!document.querySelector('figure.chart').plot")
-        assert browser.run("document.documentElement.scrollWidth") == 390
-        browser.run("document.querySelector('#sweep a').click()")
-        browser.until("!!document.querySelector('section#energy')")
-        assert browser.console == []
-        assert browser.requests == []
-    finally:
-        browser.close()
+def test_a_browser_draws_the_figures_and_follows_a_link(made, browser):
+    browser.open(made / "report.html", 390, 700)
+    browser.until("!!document.querySelector('figure.chart').plot")
+    assert browser.run("document.documentElement.scrollWidth") == 390
+    browser.run("document.querySelector('#sweep a').click()")
+    browser.until("!!document.querySelector('section#energy')")
+    assert browser.console == []
+    assert browser.requests == []

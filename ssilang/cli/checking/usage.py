@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 
 from ssilang.language.say.errors import SsiError
 from ssilang.language.search import VERY_LIKE, nearest
@@ -17,6 +18,7 @@ _PROPERTIES = frozenset({"MATE", "MODE", "RIGI", "MASS", "AMOR", "CHAR"})
 _NODAL = frozenset({"APPU", "AMOR"})
 _WAYS = frozenset({"UX", "UY", "UZ", "RX", "RY", "RZ"})
 _LEVEL = {"UX", "UY"}, {"RX", "RY"}  # pairs that a base of space may have turned
+_SHEAR = re.compile(r"G(0|MAX|SOL|_?\d)?", re.IGNORECASE)
 _PULSATION = re.compile(r"\(?(2\.?\*PI|PI\*2\.?)\*")
 _WHOLE_SESSION = frozenset({"SAUV", "LIST", "REST", "NOMM"})  # may read any name
 
@@ -153,13 +155,20 @@ def left_to_right(script: tree.Script) -> Iterator[SsiError]:
 def crossed_words(script: tree.Script, *, plane: bool) -> Iterator[SsiError]:
     """Springs along one axis by another one's number, frequencies (Hz) that are pulsations.
 
-    Two horizontal axes of space may be turned.
+    And shear moduli for Young's. Two horizontal axes of space may be turned.
     """
     for statement in statements_of(script.body):
         for items in phrases_in(statement.items):
             word = (*items, None)[0]
             first = word.text[:4] if isinstance(word, tree.Name) else ""
             named: list[str] = []
+            for a, b in pairwise(items):
+                if (
+                    isinstance(a, tree.Quoted)
+                    and a.text == "YOUN"
+                    and _SHEAR.fullmatch(b.span.text)
+                ):
+                    yield SsiError("shear-for-young", b.span, name=b.span.text)
             for item in items if first in _NODAL else ():
                 (of, *more) = item.items if isinstance(item, tree.Paren) else (item,)
                 last = of.indices[-1] if isinstance(of, tree.Path) and not more else None

@@ -4,7 +4,6 @@ These absorb normally incident waves (Lysmer and Kuhlemeyer 1969).
 """
 
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from ssilang.kernel.elements.zone_fields import rows_of, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.mesh.changes.merge import regenerate
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
 # points that integrate two shape functions of the face times a linear field
@@ -42,24 +42,16 @@ def face_rule(cell_type: str) -> Rule:
 
 
 def parents(faces: CellBlock, model: Model) -> Parents:
-    """Cells of a model on which faces lie (the first found); a QUA4 of three nodes is a TRI3."""
+    """Cells of a model on which faces lie (the first found)."""
     zone = np.full(len(faces), -1, dtype=np.int64)
     cell = np.full(len(faces), -1, dtype=np.int64)
-    kinds = {faces.cell_type: np.ones(len(faces), bool)}
-    if faces.cell_type == "QUA4":
-        order = np.sort(faces.connectivity, axis=1)
-        kinds["TRI3"] = (np.diff(order, axis=1) > 0).sum(axis=1) == 2
-    for (number, part), (wanted, mine) in product(enumerate(model.zones), kinds.items()):
-        sides = [s for kind, s in part.cells.kind.faces if kind == wanted]
-        if not sides or not len(part.cells) or not mine.any():
+    for number, part in enumerate(model.zones):
+        sides = [s for kind, s in part.cells.kind.faces if kind == faces.cell_type]
+        if not sides or not len(part.cells):
             continue
         table = np.concatenate([part.cells.connectivity[:, list(s)] for s in sides])
         owner = np.tile(np.arange(len(part.cells)), len(sides))
-        given = faces.connectivity[mine]
-        if wanted != faces.cell_type:
-            given = np.array([np.unique(row) for row in given])
-        rows = np.full(len(faces), -1)
-        rows[mine] = rows_of(table, given)
+        rows = rows_of(table, faces.connectivity)
         found = (rows >= 0) & (zone < 0)
         zone[found], cell[found] = number, owner[rows[found]]
     return Parents(zone, cell)
@@ -137,7 +129,7 @@ def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Mat
     """
     blocks = [
         _damping(zone, faces, rows, of_cells, material)
-        for faces in boundary.blocks
+        for faces in regenerate(boundary).blocks
         for of in (require_parents(faces, model),)
         for zone, rows in zones_of_faces(of, model)
         for of_cells in (of.cell[rows],)

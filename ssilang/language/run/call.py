@@ -14,6 +14,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Span
 from ssilang.language.values import Mot, Procedure, Texte, is_of_noughts, like_radians, type_of
+from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID
 from ssilang.language.vocabulary.unit_systems import usual_of
 
 
@@ -197,14 +198,15 @@ class Call:
         return operand.value
 
     def refuse(self, a: Argument, operand: Operand) -> None:
-        """Refuse a number outside of the range of its declaration.
+        """Refuse a number outside of the range of its declaration, or that is none.
 
         Raises
         ------
         SsiError
             'out-of-range' or 'not-increasing'.
         """
-        if wrong := a.range.flaw(operand.value, a.name):
+        bound = ANY_NUMBER if a.range is UNSAID and a.usual.bounded else a.range
+        if wrong := bound.flaw(operand.value, a.name):
             raise self.flaw(wrong[0], a, operand, wrong[1])
 
     def tell_odd(self, a: Argument, operand: Operand) -> None:

@@ -97,11 +97,11 @@ def rest_of_others(start: Start) -> Told:
     if joints is None or problem.contact is not None or not problem.u.any():
         return
     acting, of_joints = T.T @ (loading.forces @ start.factors[0]), abs(joints.J @ T).sum(axis=0) > 0
-    found = [T.T @ f for f in (_held_at_start(problem), closed_forces(problem, problem.u))]
-    off = np.abs(np.array(found) - acting)
-    balanced = off[0][~of_joints].max(initial=0.0) < OFF * np.abs(acting).max(initial=0.0)
-    size = np.abs(found[0][of_joints]).max(initial=0.0) or np.inf
-    part = off[:, of_joints].max(axis=1, initial=0.0).min() / size
+    held = _held_at_start(problem), closed_forces(problem, problem.u)
+    off = np.abs(T.T @ np.stack(held, axis=1) - acting[:, None])
+    balanced = off[~of_joints, 0].max(initial=0.0) < OFF * np.abs(acting).max(initial=0.0)
+    size = np.abs(T.T @ (held[0] - problem.K @ problem.u)).max(initial=0.0) or np.inf
+    part = off[of_joints].max(axis=0, initial=0.0).min() / size
     if balanced and acting[~of_joints].any() and part > REST_OFF:
         yield "operators.dynamics.rest-of-others", {"part": 100.0 * part}
 

@@ -8,7 +8,6 @@ import ssilang.kernel.interface.family
 import ssilang.kernel.modal.shape_models  # noqa: F401
 from ssilang.io.archive import Archive, Decoder, Encoder, Record, read_archive, write_archive
 from ssilang.io.archive.classes import Packing, register_packing
-from ssilang.language.registry import find_operator
 from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.say.errors import SeveralErrors
 from ssilang.language.text.parser import parse_statements
@@ -142,13 +141,9 @@ def sauv(
     """Add a record to the file and write it."""
     frame = call.session.frame
     operands = [(o.name, o.value) for o in objects]
-    for name, value in [*operands]:
-        if name or not isinstance(value, str) or frame.find(value.upper()) is not None:
-            continue
-        if find_operator(value) is None:
+    for name, value in operands:
+        if not name and isinstance(value, str) and frame.find(value.upper()) is None:
             raise call.error("operators.files.no-object-to-save", value, value=value)
-        call.warn("operators.files.no-object-to-save", value, value=value)  # SAUV A ET B
-        operands.remove((name, value))
     if not operands:
         operands = [(n, frame.find(n)) for n in sorted(_own_names(frame))]
     save(call, operands, str(label).strip())

@@ -21,7 +21,7 @@ _NEXT = {
 _RATIO = arg("ratio", "FLOTTANT", en="ratio of steps", range=ANY_NUMBER)
 _COUNT = arg("count", "ENTIER", en="number of steps", range=NOT_NEGATIVE)
 _TIMES = arg("count", "ENTIER", en="repetitions", range=NOT_NEGATIVE)
-_FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", unit="Hz", range=ANY_NUMBER)
+_FREQUENCY = arg("frequency", "FLOTTANT", en="frequency", unit="Hz", usual=POSITIVE)
 _SETTINGS = {
     "PHAS": arg("phase", "FLOTTANT", en="phase", unit="deg", range=ANY_NUMBER),
     "AMPL": arg("size", "FLOTTANT", en="amplitude", range=ANY_NUMBER),

@@ -35,7 +35,7 @@ def _vibr(
     method: Chosen = Cases(
         {
             "PROCHE": [
-                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz", range=ANY_NUMBER),
+                arg("frequencies", "LISTREEL", en="frequencies", unit="Hz", usual=NOT_NEGATIVE),
                 opt("counts", "LISTENTI", en="modes near each, 1", range=POSITIVE),
             ],
             "INTERVALLE": [

@@ -20,7 +20,7 @@ def seis(
     call: Call,
     curve: Curve = Arg("EVOLUTIO", en="acceleration of the ground", over="s"),
     table: Table = Arg("TABLE", en="basis"),
-    factor: float = Arg("FLOTTANT", en="factor", range=ANY_NUMBER),
+    factor: float = Arg("FLOTTANT", en="factor", usual=NOT_ZERO),
     direction: str = Choice(AXES, optional=False, en="direction of the ground"),
 ) -> Load:
     """Seismic load."""

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 import pytest_asyncio
-import pytest_lsp
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 from pytest_lsp import ClientServerConfig, LanguageClient
@@ -39,32 +38,35 @@ FIN ;
 """
 
 
-@pytest_lsp.fixture(
-    scope="module",
-    config=ClientServerConfig(
+@pytest_asyncio.fixture(scope="module", loop_scope="module")
+async def session():
+    """A server for all tests: it reads all operators at its start."""
+    client = await ClientServerConfig(
         server_command=[sys.executable, "-m", "ssilang.cli.main", "lsp"],
         server_env={**os.environ, "PYTHONPATH": str(ROOT)},
-    ),
-)
-async def session(lsp_client: LanguageClient):
-    """A server for all tests: it reads all operators at its start."""
+    ).start()
     capabilities = lsp.ClientCapabilities()
-    await lsp_client.initialize_session(
+    await client.initialize_session(
         lsp.InitializeParams(capabilities=capabilities, process_id=os.getpid())
     )
-    yield
-    await lsp_client.shutdown_session()
+    yield client
+    await client.shutdown_session()
+    await client.stop()
 
 
 @pytest_asyncio.fixture(loop_scope="module")
 async def client(session: LanguageClient):
-    """The server without an open document."""
+    """The server without an open document; what it says against the protocol is a fault."""
+    faults, report = [], session.report_server_error
+    session.report_server_error = lambda *said: faults.append(said) or report(*said)
     yield session
     named = lsp.TextDocumentIdentifier(URI)
     session.text_document_did_close(lsp.DidCloseTextDocumentParams(named))
     # the answer comes behind all that was said of the document
     await session.completion_item_resolve_async(lsp.CompletionItem("nothing"))
     session.log_messages.clear()
+    session.report_server_error = report
+    assert faults == []
 
 
 def open_deck(client: LanguageClient, text: str = DECK) -> None:

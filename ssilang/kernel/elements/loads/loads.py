@@ -24,6 +24,7 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.boundary import contour, envelope
+from ssilang.kernel.mesh.changes.merge import regenerate
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -152,7 +153,7 @@ def _on_sides(
     faces: Mesh, model: Model
 ) -> Iterator[tuple[Zone, CellBlock, SurfaceGeometry, boundary.Parents]]:
     """The faces on each zone of continuous elements, with the cells that they bound."""
-    for block in faces.blocks:
+    for block in regenerate(faces).blocks:
         of = boundary.require_parents(block, model)
         for zone, rows in boundary.zones_of_faces(of, model):
             part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])

@@ -53,14 +53,10 @@ def merge_between(nodes: NodeTable, first: IntArray, second: IntArray, tolerance
         if free_a[i] and free_b[j]:
             free_a[i] = free_b[j] = False
             pairs.append((a[i], b[j]))
-    left = np.concatenate([a[free_a], b[free_b]])
-    if len(common) and len(left):
-        at = spatial.cKDTree(nodes.coordinates[common]).query(
-            nodes.coordinates[left], distance_upper_bound=tolerance
-        )[1]
-        pairs += [
-            (i, common[k]) for i, k in zip(left, np.ravel(at), strict=True) if k < len(common)
-        ]
+    if len(common):
+        left = np.concatenate([a[free_a], b[free_b]])
+        gap, at = spatial.cKDTree(nodes.coordinates[common]).query(nodes.coordinates[left])
+        pairs += zip(left[gap < tolerance], common[np.asarray(at)[gap < tolerance]], strict=True)
     table = np.sort(np.array(pairs, dtype=np.int64).reshape(-1, 2), axis=1)
     nodes.merge(table[:, 0], table[:, 1])
 

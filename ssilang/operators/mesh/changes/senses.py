@@ -3,6 +3,7 @@
 from ssilang.kernel.mesh import orientation
 from ssilang.kernel.mesh.boundary import (
     chained,
+    walked,
 )
 from ssilang.kernel.mesh.queries.partition import by_neighbours
 from ssilang.operators.dispatch import INVE, ORDO
@@ -58,24 +59,15 @@ def _ordered_block(block: CellBlock) -> CellBlock:
 
 def _in_one_sense(block: CellBlock) -> CellBlock:
     """Segments turned so that each chain runs in the sense of its first cell."""
-    table = block.connectivity.copy()
-    touching: dict[int, list[int]] = {}
-    for i, (a, b) in enumerate(table[:, [0, -1]].tolist()):
-        touching.setdefault(a, []).append(i)
-        touching.setdefault(b, []).append(i)
+    table = block.connectivity
+    nodes, times = np.unique(table[:, [0, -1]], return_counts=True)
+    corners = nodes[times != 2]
+    found, places = walked(table, np.concatenate([corners, table[:, 0]]))
+    parts = (found[1:, 0] != found[:-1, -1]) | np.isin(found[1:, 0], corners)
+    chain = np.cumsum(np.append(0, parts))
+    back = found[:, 0] != table[places, 0]
+    order = np.lexsort((places, chain))
+    first = back[order[np.unique(chain[order], return_index=True)[1]]]
     turned = np.zeros(len(table), dtype=bool)
-    seen = np.zeros(len(table), dtype=bool)
-    for first in range(len(table)):
-        todo = [] if seen[first] else [first]
-        seen[first] = True
-        while todo:
-            cell = todo.pop()
-            tail, head = table[cell, [0, -1]] if not turned[cell] else table[cell, [-1, 0]]
-            for node, at_start in ((int(head), True), (int(tail), False)):
-                for other in touching[node]:
-                    if not seen[other] and len(touching[node]) == 2:
-                        seen[other] = True
-                        starts_here = int(table[other, 0]) == node
-                        turned[other] = starts_here != at_start
-                        todo.append(other)
+    turned[places] = back ^ first[chain]
     return orientation.flip(block, turned)
