@@ -173,20 +173,14 @@ def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_pat
 
 def steps_of(path: Path) -> list[object]:
     """What VTK reads of each step of a .vtkhdf."""
-    import pyvista
     from vtkmodules.vtkIOHDF import vtkHDFReader
+
+    from tests.io.vtk.test_vtkhdf import step_of
 
     reader = vtkHDFReader()
     reader.SetFileName(str(path))
     reader.UpdateInformation()
-    found = []
-    for step in range(reader.GetNumberOfSteps()):
-        reader.SetStep(step)
-        reader.Update()
-        made = reader.GetOutput().NewInstance()
-        made.DeepCopy(reader.GetOutput())
-        found.append(pyvista.wrap(made))
-    return found
+    return [step_of(reader, step) for step in range(reader.GetNumberOfSteps())]
 
 
 def test_times_go_to_one_file_on_demand(tmp_path: Path) -> None:
