@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 from ssilang.io.atomic import replacing
 from ssilang.io.plots.markup import cut, to_mathtext
-from ssilang.io.plots.stage import Stage
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from ssilang.io.plots.stage import Stage
 
 DPI = 150
 _STYLE: dict[str, Any] = {
@@ -122,8 +123,10 @@ class Pictures:
         self._count = 0
 
     @cached_property
-    def stage(self) -> Stage:
+    def stage(self) -> "Stage":
         """Draws what stands in space, for all pictures of the run."""
+        from ssilang.io.plots.stage import Stage
+
         return Stage()
 
     def close(self) -> None:

@@ -18,9 +18,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import for_products, sp
 from ssilang.kernel.solvers.backends import DISSECTION
-from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
-from ssilang.kernel.solvers.cholesky.triangular import solve_columns
 from ssilang.kernel.solvers.factor import Ordering
 from ssilang.kernel.statics.linear_motion import rigid_motions, singular
 from ssilang.kernel.stepping.newmark import newmark_of
@@ -163,6 +161,8 @@ def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
     factor = inverse.factor
     if factor.name != DISSECTION or inverse.singular or right.shape[1] == 0:
         return None
+    from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
+    from ssilang.kernel.solvers.cholesky.triangular import solve_columns
 
     assert isinstance(factor, DissectedFactor)
     begin = int(factor.panels.first[-2])

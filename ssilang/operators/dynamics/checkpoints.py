@@ -12,10 +12,6 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from ssilang.io.checkpoint import Checkpoints, Kept, Rows, changed_names
-from ssilang.kernel.base.compiled.machine import processor
-from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.plasticity.bulk import State as BulkState
-from ssilang.kernel.plasticity.snapshot import BulkSnapshot
 from ssilang.kernel.stepping.keeping import State, digest_of, fitting, leaves, rebuilt, stride_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot
@@ -25,6 +21,10 @@ from ssilang.operators.files.outputs import digests_of_read, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
 from ssilang.threads import blas
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.bulk import Bulk
+    from ssilang.kernel.plasticity.bulk import State as BulkState
 
 Bodies = tuple["Bulk", "BulkState"]
 
@@ -190,6 +190,8 @@ class KeptCalculation:
         return dict(zip(names, columns, strict=False))
 
     def _instants(self, rows: Rows) -> Iterator[Snapshot]:
+        from ssilang.kernel.plasticity.snapshot import BulkSnapshot
+
         times = self.problem.times
         for k, step in enumerate(rows["step"].tolist() if "step" in rows else ()):
             parts = {name: rows[name][k] for name in PARTS}
@@ -243,6 +245,8 @@ class KeptCalculation:
 def arithmetic() -> dict[str, str]:
     """What the last bits of a result depend on, by name."""
     import scipy
+
+    from ssilang.kernel.base.compiled.machine import processor
 
     found = {"numpy": np.__version__, "scipy": scipy.__version__}
     for library in (np, scipy):

@@ -1,16 +1,12 @@
 """ZDYN: the time integration behind the procedure DYNAMIC."""
 
-from ssilang.io.training import TrainingFile
 from ssilang.kernel.base.compiled.cache import is_compiled
 from ssilang.kernel.interface.interface import without_zones
-from ssilang.kernel.plasticity.bulk import Bulk, State, stiffness_beside
 from ssilang.kernel.plasticity.points import plastic_zones
-from ssilang.kernel.plasticity.run import run_bulk
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.keeping import Cut
 from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, make_problem
-from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import History, integrate
 from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics import plausibility
@@ -36,6 +32,10 @@ from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
+
+if TYPE_CHECKING:
+    from ssilang.io.training import TrainingFile
+    from ssilang.kernel.plasticity.bulk import Bulk, State
 
 MOST_STEPS = 1e9
 """Steps beyond which a list of times is a slip of the pen."""
@@ -110,7 +110,7 @@ def _integrated(
     problem: Problem,
     observers: Sequence[Observer],
     line: ProgressLine,
-    bodies: tuple[Bulk, State] | None = None,
+    bodies: "tuple[Bulk, State] | None" = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
     tolerance, shelf = entries.get("REDUCTION"), training_file(entries)
@@ -124,6 +124,8 @@ def _integrated(
     if bodies is not None:
         if tolerance is not None:
             raise entries.error("operators.dynamics.reduction-of-plastic-bodies")
+        from ssilang.kernel.plasticity.run import run_bulk
+
         return run_bulk(problem, *bodies, observers, line, dynamic=True, keeper=keeper, full=full)
     if tolerance is None:
         return integrate(problem, observers, line, full, driver, keeper)
@@ -131,11 +133,12 @@ def _integrated(
         raise entries.error("operators.dynamics.reduction-or-charmeca")
     if full:
         raise entries.error("operators.dynamics.reduction-or-newton")
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
 
 
-def training_file(entries: Entries) -> TrainingFile | None:
+def training_file(entries: Entries) -> "TrainingFile | None":
     """The basis that APPRENTISSAGE names: all runs of a sweep share it."""
     name, session = entries.get("APPRENTISSAGE"), entries.call.session
     if name is None:
@@ -145,18 +148,21 @@ def training_file(entries: Entries) -> TrainingFile | None:
     path, own = output_path(entries.call, f"{name}.npz"), run_output(session).directory
     if session.shared is not None and path.is_relative_to(own):
         path = session.shared / path.relative_to(own)
+    from ssilang.io.training import TrainingFile
 
     return TrainingFile(path)
 
 
 def _step_again(
-    tolerance: float | None, shelf: TrainingFile | None, problem: Problem, every: int | None,
+    tolerance: float | None, shelf: "TrainingFile | None", problem: Problem, every: int | None,
     extremes: Extremes,
 ) -> None:  # fmt: skip
     """The same motion for its largest values, which its loop does not give without cost.
 
     `every` is that of a kept calculation, whose steps are cut there (None: it was not kept).
     """
+    from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+
     if tolerance is None:
         integrate(problem, [extremes], keeper=None if every is None else Cut(every))
     else:
@@ -230,6 +236,8 @@ def _with_bodies(entries: Entries, inputs: Inputs) -> Inputs:
     zones = plastic_zones(inputs.model)
     if not zones:
         return inputs
+    from ssilang.kernel.plasticity.bulk import stiffness_beside
+
     material = entries.needed("CARACTERISTIQUES")
     stiffness = without_zones(inputs.stiffness, zones)
     blocks = (*stiffness.blocks, *(stiffness_beside(z, material) for z in zones))

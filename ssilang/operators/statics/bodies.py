@@ -5,15 +5,14 @@ from ssilang.kernel.elements.results.frames import FOLLOWING
 from ssilang.kernel.elements.solids.finite_motion import motion_of
 from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.plasticity.bulk import Bulk, State, bulk_of, state_from_fields
-from ssilang.kernel.plasticity.expansion import free_strains
-from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
-from ssilang.kernel.plasticity.large.finite_yielding import finite_bulk
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
 from ssilang.kernel.statics.doubled import face_keys
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.bulk import Bulk, State
 
 _STATE = ("CONTRAINTES", "VARIABLES_INTERNES", "DEFORMATIONS_INELASTIQUES")
 """Results that a calculation goes on from."""
@@ -37,7 +36,10 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
     if start is None or start.reached is None:
         _warn_of_two_models(entries, zones)
 
-    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+    def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
+        from ssilang.kernel.plasticity.bulk import bulk_of
+        from ssilang.kernel.plasticity.expansion import free_strains
+
         bulk = bulk_of(zones, material, problem.numbering)
         load = entries.get("CHARGEMENT") or entries.get("CHAR")
         bulk = replace(bulk, free=free_strains(load, zones, material))
@@ -77,7 +79,10 @@ def finite_bodies(entries: Entries, zones: tuple[Zone, ...], start: Any) -> Bodi
         entries.warn("operators.statics.joint-axes-stay")
     material: CellField = entries.needed("CARACTERISTIQUES")
 
-    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+    def make(problem: "Problem", inputs: "Inputs") -> "tuple[Bulk, State]":
+        from ssilang.kernel.plasticity.large.finite_flow import LAGRANGIAN
+        from ssilang.kernel.plasticity.large.finite_yielding import finite_bulk
+
         yielding = tuple(z for z in zones if is_plastic(z))
         elastic = tuple(z for z in zones if z not in yielding)
         stress, variables, plastic = (start.of(word) for word in _STATE)
@@ -98,8 +103,9 @@ def finite_zones(entries: Entries) -> tuple[Zone, ...]:
     return tuple(z for z in model.zones if z.formulation == "MECANIQUE" and not is_joint(z))
 
 
-def warn_of_confinement(entries: Entries, problem: Problem, bulk: Bulk, state: State) -> None:
+def warn_of_confinement(entries: Entries, problem: Problem, bulk: "Bulk", state: "State") -> None:
     """Warn of ground of friction that has no stress, and gets none before the loads."""
+    from ssilang.kernel.plasticity.bulk import Bulk
     from ssilang.kernel.statics.yielding import unconfined
 
     if type(bulk) is Bulk and (found := unconfined(problem, bulk, state)) is not None:
@@ -138,6 +144,8 @@ _HELD = (
 """Of large displacements or not, of plastic or elastic solids: codes, strains from which told."""
 
 
-def _given(bulk: Bulk, start: Any) -> State | None:
+def _given(bulk: "Bulk", start: Any) -> "State | None":
+    from ssilang.kernel.plasticity.bulk import state_from_fields
+
     given: Any = tuple(start.of(word) for word in _STATE)
     return state_from_fields(bulk, given)

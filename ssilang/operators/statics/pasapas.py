@@ -5,9 +5,7 @@ from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
-from ssilang.kernel.plasticity.following import no_bodies
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
-from ssilang.kernel.plasticity.run import BulkRun, run_bulk
 from ssilang.kernel.statics.stepping import step_statics
 from ssilang.kernel.statics.thermal_load import (
     check_strains,
@@ -59,6 +57,9 @@ from ssilang.operators.statics.solve import NOT_SMALL, far, is_anywhere, warn_of
 from ssilang.operators.statics.temperatures import warn_of_temperatures
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.run import BulkRun
 
 
 @operator("ZPAS", family="statics")
@@ -123,6 +124,8 @@ def _stretch(
     number: int,
 ) -> Table:
     """Steps of one stage; the state at their end."""
+    from ssilang.kernel.plasticity.run import run_bulk
+
     given, dynamic = stage.entries, work.flag("DYNAMIQUE")
     inputs, stresses = _inputs(given, start, times, dynamic)
     finite = finite_zones(given)
@@ -267,8 +270,11 @@ def _other_times(
 
 def _path_run(
     problem: Problem, inputs: Inputs, bodies: Bodies | None, observers: list[Observer]
-) -> BulkRun:
+) -> "BulkRun":
     """A calculation along a path, at its start."""
+    from ssilang.kernel.plasticity.following import no_bodies
+    from ssilang.kernel.plasticity.run import BulkRun
+
     bulk, state = (no_bodies(problem), ()) if bodies is None else bodies(problem, inputs)
     return BulkRun(problem, bulk, state, tuple(observers))
 

@@ -6,7 +6,6 @@ from ssilang.kernel.fields.deformed import displacements
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, outside, vector_to_field
 from ssilang.kernel.plasticity.added_load import SHIFT, Added, LoadLaw, loaded_bulk
 from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.plasticity.following import no_bodies
 from ssilang.kernel.statics.thermal_load import along_normals, pressures
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
 from ssilang.operators.prelude import *
@@ -105,7 +104,9 @@ def pressure_law(load: Load, sides: tuple[Zone, ...]) -> Callable[[Problem], Loa
 def loaded_bodies(law_of: Callable[[Problem], LoadLaw], said: str, bodies: Bodies | None) -> Bodies:
     """Bodies, if there are any, under a load that depends on where they are."""
 
-    def make(problem: Problem, inputs: Inputs) -> tuple[Bulk, State]:
+    def make(problem: "Problem", inputs: "Inputs") -> tuple[Bulk, State]:
+        from ssilang.kernel.plasticity.following import no_bodies
+
         start: tuple[Bulk, State] = (no_bodies(problem), ())
         bulk, state = start if bodies is None else bodies(problem, inputs)
         first = float(problem.times[0])

@@ -1,17 +1,22 @@
 """PASAPAS along a path: indirect control (PILOTAGE_INDIRECT) and automatic one (AUTOMATIQUE)."""
 
+from __future__ import annotations
+
 import time
 
 from ssilang.kernel.elements.families import family_of, strain
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector, vector_to_field
-from ssilang.kernel.plasticity.driven_load import Trace, follow_directions, follow_time, history_of
-from ssilang.kernel.plasticity.following import Control, PathRun, Split
-from ssilang.kernel.plasticity.run import BulkRun
-from ssilang.kernel.stepping.run import History
 from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.tables.entries import Entries
+
+if TYPE_CHECKING:
+    from ssilang.kernel.plasticity.driven_load import Trace
+    from ssilang.kernel.plasticity.following import Control, PathRun, Split
+    from ssilang.kernel.plasticity.run import BulkRun
+    from ssilang.kernel.stepping.run import History
+
 
 FLAT = 1e-12
 """Slope over the greatest one that no longer moves a control."""
@@ -235,6 +240,8 @@ def driven_parts(entries: Entries) -> list[LoadPart]:
 
 def follow(entries: Entries, run: BulkRun) -> History:
     """Step along the path; fills COEFFICIENT_DE_PILOTAGE where the control is indirect."""
+    from ssilang.kernel.plasticity.driven_load import history_of
+
     started = time.perf_counter()
     try:
         if control_asked(entries) == "AUTOMATIQUE":
@@ -249,6 +256,8 @@ def follow(entries: Entries, run: BulkRun) -> History:
 
 
 def _indirect(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
+    from ssilang.kernel.plasticity.driven_load import follow_directions
+
     curve = entries.needed("PARAMETRE_DE_PILOTAGE")
     asked = np.diff([curve.at(float(t)) for t in run.problem.times])
     if not asked.all():
@@ -259,6 +268,8 @@ def _indirect(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
 
 
 def _automatic(entries: Entries, run: BulkRun) -> tuple[PathRun, Trace]:
+    from ssilang.kernel.plasticity.driven_load import follow_time
+
     asked = entries.get("AUTOCRIT")
     most = entries.get("AUTOPAS")
     every = entries.get("AUTORESU")
