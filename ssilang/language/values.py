@@ -455,7 +455,9 @@ def normalised(value: object) -> object:
     """The language's form of what an operator returned (numpy scalars, plain strings)."""
     if isinstance(value, np.generic):
         value = value.item()
-    return Mot(value) if type(value) is str else value
+    if type(value) is str:
+        return Mot(value)
+    return value
 
 
 MAY_BE_EMPTY = frozenset(

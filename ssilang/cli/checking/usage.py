@@ -41,8 +41,8 @@ def unused_names(script: tree.Script) -> list[SsiError]:
         for target in statement.targets:
             if isinstance(target, tree.Name):
                 first.setdefault(target.text, target)
-                word = (*statement.items, target)[0].span.text.upper()
-                others |= {target.text} if word[:4] != "TABL" else set()
+                if (*statement.items, target)[0].span.text[:4].upper() != "TABL":
+                    others.add(target.text)
             elif isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
                 filled.add(target.base.text)
                 read |= _words(target.indices)
@@ -119,9 +119,10 @@ def misspelt_names(
             near = nearest(item.text, long_names, VERY_LIKE)
             # a word with a letter in front or behind is a name made from a keyword
             made = near in item.text or item.text in near
-            if near and not made:
-                told = {"name": item.text, "like": near}
-                found.setdefault(item.text, SsiError("perhaps-misspelt", item.span, **told))
+            if near and not made and item.text not in found:
+                found[item.text] = SsiError(
+                    "perhaps-misspelt", item.span, name=item.text, like=near
+                )
     return list(found.values())
 
 

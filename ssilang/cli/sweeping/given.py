@@ -40,7 +40,9 @@ def parse_value(text: str) -> Value:
         if math.isinf(number):
             raise GivenError("cli.value-too-large", text=text)
         return number
-    return text.upper() == "VRAI" if text.upper() in ("VRAI", "FAUX") else text
+    if text.upper() in ("VRAI", "FAUX"):
+        return text.upper() == "VRAI"
+    return text
 
 
 def parse_values(text: str) -> list[Value]:

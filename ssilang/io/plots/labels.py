@@ -124,4 +124,6 @@ def formatted(descriptor: str, value: float) -> str:
         return str(round(value))
     if kind == "F":
         return f"{value:.{digits}f}"
-    return f"{value:.{max(digits, 1)}G}" if kind == "G" else f"{value:.{digits}E}"
+    if kind == "G":
+        return f"{value:.{max(digits, 1)}G}"
+    return f"{value:.{digits}E}"

@@ -63,7 +63,10 @@ def frequency_of(value: float) -> float:
 
 
 def modes_near(
-    stiffness: Matrix, mass: Matrix, wanted: Sequence[tuple[float, int]], solver: Solver = FIRST_FIT
+    stiffness: Matrix,
+    mass: Matrix,
+    wanted: Sequence[tuple[float, int]],
+    solver: Solver = FIRST_FIT,
 ) -> list[Mode]:
     """For each (frequency, number): the modes nearest by the square of frequency; increasing.
 
@@ -84,7 +87,11 @@ def modes_near(
 
 
 def modes_between(
-    stiffness: Matrix, mass: Matrix, low: float, high: float, solver: Solver = FIRST_FIT
+    stiffness: Matrix,
+    mass: Matrix,
+    low: float,
+    high: float,
+    solver: Solver = FIRST_FIT,
 ) -> list[Mode]:
     """All modes of frequencies in [low, high] Hz, increasing; 0 is a free motion's."""
     problem = reduced_problem(stiffness, mass, solver=solver)

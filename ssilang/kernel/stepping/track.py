@@ -130,7 +130,9 @@ class Rows:
         kept: FloatArray = getattr(self.tap, name)
         if name == "reaction" and not kept.shape[1]:
             return balance_of(self.problem, self.unknowns[places]).of(self)
-        return kept[:, places] if self.view.map is None else self.view.map[places](kept)
+        if self.view.map is None:
+            return kept[:, places]
+        return self.view.map[places](kept)
 
     @cached_property
     def joints(self) -> JointRows:

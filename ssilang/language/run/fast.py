@@ -53,7 +53,9 @@ def _operand(item: tree.Item) -> Value | None:
             if len(item.items) == 1 and isinstance(item.items[0], tree.Name | tree.Number)
             else None
         )
-    return _path(item) if isinstance(item, tree.Path) else None
+    if isinstance(item, tree.Path):
+        return _path(item)
+    return None
 
 
 def _name(text: str) -> Value:

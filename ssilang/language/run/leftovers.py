@@ -64,7 +64,9 @@ def leftover_error(
         return SsiError(
             "hidden-operator", hidden.span, name=hidden.name, found=type_of(hidden.value)
         )
-    return _unknown_word(words[0], later) if words else _excess(left[0], every)
+    if words:
+        return _unknown_word(words[0], later)
+    return _excess(left[0], every)
 
 
 def _quoted(operand: Operand) -> bool:

@@ -35,7 +35,9 @@ def results_of(form: Form, values: Mapping[str, Any] | None = None) -> Results |
         )
     if isinstance(given, By):
         return given.of((values or {}).get(given.name))
-    return given if given is not None else annotated(form.function)
+    if given is not None:
+        return given
+    return annotated(form.function)
 
 
 @cache

@@ -333,7 +333,9 @@ def _known_hint(data: dict[str, object]) -> hints.Hint:
 
 def _shown_index(index: object) -> str:
     """An index of a table as a script would write it; of other objects the type."""
-    return repr(index) if isinstance(index, str | int | float) else type_of(index)
+    if isinstance(index, str | int | float):
+        return repr(index)
+    return type_of(index)
 
 
 def _inside(data: dict[str, object]) -> hints.Hint:

@@ -63,13 +63,23 @@ _ENTRIES: dict[str, list[Entry]] = {
         opt("second_name", "MOT", en="name of the second"),
         _PARTS[1],
     ],
-    "CHPO": [arg("field", "CHPOINT", en="field"), _COMPONENT, arg("line", "MAILLAGE", en="line")],
+    "CHPO": [
+        arg("field", "CHPOINT", en="field"),
+        _COMPONENT,
+        arg("line", "MAILLAGE", en="line"),
+    ],
     "TEMP": [
         arg("history", "LISTCHPO", "TABLE", en="fields, or results"),
         TIMES,
         opt("index", "MOT", en="what of the results"),
         STEPS,
-        opt("names", "MOT", "LISTMOTS", en="component, or several", kind="component"),
+        opt(
+            "names",
+            "MOT",
+            "LISTMOTS",
+            en="component, or several",
+            kind="component",
+        ),
         opt("support", "POINT", "MAILLAGE", en="points"),
         many("cell", "ENTIER", en="zone, cell, point", range=POSITIVE),
     ],
@@ -370,7 +380,11 @@ def _made(field: NodeField | instants.InstantField) -> NodeField:
 
 
 def _in_a_cell(
-    call: Call, fields: Sequence[Any], times: FloatArray, colour: int, unit_of: Callable[[str], str]
+    call: Call,
+    fields: Sequence[Any],
+    times: FloatArray,
+    colour: int,
+    unit_of: Callable[[str], str],
 ) -> Curve:
     """Component of fields in cells at point N3 of cell N2 of zone N1."""
     name = str(call.required("MOT")).rstrip()

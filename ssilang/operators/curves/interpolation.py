@@ -42,7 +42,12 @@ _SPLINE = (
 
 
 def _interpolate(
-    call: Call, value: Any, function: Chosen, smooth: bool, left: float | None, right: float | None
+    call: Call,
+    value: Any,
+    function: Chosen,
+    smooth: bool,
+    left: float | None,
+    right: float | None,
 ) -> Any:
     """Interpolate."""
     x, y = _points_of(call, function)

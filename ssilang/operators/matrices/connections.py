@@ -138,7 +138,10 @@ def warn_repeated(
 
 
 def _warn_swapped_joints(
-    tell: Tell, matrix: Matrix, model: Model | None, characteristics: CellField | None
+    tell: Tell,
+    matrix: Matrix,
+    model: Model | None,
+    characteristics: CellField | None,
 ) -> None:
     for node, gap in drawn_gaps(model, characteristics):
         tell("operators.matrices.gap-drawn", node=matrix.table.told(node), gap=gap)
@@ -149,7 +152,10 @@ def _warn_swapped_joints(
 
 
 def _warn_footings(
-    tell: Tell, matrix: Matrix, model: Model | None, characteristics: CellField | None
+    tell: Tell,
+    matrix: Matrix,
+    model: Model | None,
+    characteristics: CellField | None,
 ) -> None:
     for node, angle in inclinations(model, characteristics):
         if angle > _TURNED:

@@ -231,7 +231,9 @@ def _begin(entries: Entries, problem: FrequencyProblem, first: float) -> Begin:
         moved = _reduced(problem, work.needed("DDEP0"))
         way = (moved, float(work.needed("DTIME0")))
     u = np.zeros(problem.T.shape[1]) if known is None else _reduced(problem, known)
-    return Begin(u, float(time), way, number) if again else Begin(u, first, way, -1)
+    if again:
+        return Begin(u, float(time), way, number)
+    return Begin(u, first, way, -1)
 
 
 def _reduced(problem: FrequencyProblem, field: NodeField) -> FloatArray:

@@ -4,7 +4,13 @@ from ssilang.kernel.continuation.arc import Lengths
 from ssilang.kernel.continuation.harmonics import LinkForces, Oscillators, basis_of
 from ssilang.kernel.continuation.response import Response, forced_response, normal_mode
 from ssilang.kernel.matrices.assembly import field_to_vector
-from ssilang.operators.modal.dyne import TABLES, System, damping_of, system_of, tables_by_role
+from ssilang.operators.modal.dyne import (
+    TABLES,
+    System,
+    damping_of,
+    system_of,
+    tables_by_role,
+)
 from ssilang.operators.modal.dyne_links import links_of
 from ssilang.operators.prelude import *
 from ssilang.operators.tables.entries import Entries

@@ -202,8 +202,9 @@ def _stretch(
     if not dynamic or finite:
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     moved = reached.values.get("DEPLACEMENTS")
-    told = dynamic or entries.call.session.warned("operators.dynamics.load-on-supports")
-    if not told and moved is not None and not is_anywhere(moved) and _pushes(load, times[-1]):
+    told = entries.call.session.warned("operators.dynamics.load-on-supports")
+    stays = moved is not None and not (told or dynamic or is_anywhere(moved))
+    if stays and _pushes(load, float(times[-1])):
         entries.warn("operators.statics.nothing-moves")
     judged = not finite and not dynamic and not all(map(is_joint, zones))  # whose size is none
     for told in far(moved, NOT_SMALL) if moved is not None and judged else ():
@@ -213,10 +214,11 @@ def _stretch(
     return Table.of(reached.values)
 
 
-def _pushes(load: Load | None, time: Any) -> bool:
+def _pushes(load: Load | None, time: float) -> bool:
     """Whether forces or pressures act at a time."""
     parts = () if load is None else load.parts
-    return any(p.time and p.time.at(time) and p.name.strip() in ("MECA", "PRES") for p in parts)
+    curves = (p.time for p in parts if p.name.strip() in ("MECA", "PRES"))
+    return any(c is not None and c.at(time) != 0.0 for c in curves)
 
 
 def _not_kept(work: Entries) -> list[str]:

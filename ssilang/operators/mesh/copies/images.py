@@ -162,7 +162,13 @@ def _objects(leaving: int, *left: str, types: Sequence[str] = GEOMETRIC) -> Any:
 
 _SHIFTED = (
     _objects(1, "POINT", "CHPOINT", types=(*GEOMETRIC, "RIGIDITE")),
-    arg("by", "POINT", "CHPOINT", en="vector, or displacements", unit="m"),
+    arg(
+        "by",
+        "POINT",
+        "CHPOINT",
+        en="vector, or displacements",
+        unit="m",
+    ),
 )
 
 

@@ -67,7 +67,9 @@ class FullNewtonSolver:
 
     def _push(self, forces: FloatArray) -> FloatArray | float:
         """Forces (n,) of relations and friction."""
-        return 0.0 if self.contact is None else self.contact.pushing.T @ forces
+        if self.contact is None:
+            return 0.0
+        return self.contact.pushing.T @ forces
 
     def _turn(
         self,
