@@ -104,7 +104,10 @@ def _modes(
         modes = modes_between(stiffness, mass, ends[0], ends[1], solver_of(call.session))
         if not modes and mass.inertial:  # a factor of buckling is no frequency
             call.warn("operators.modal.no-frequency-between", low=ends[0], high=ends[1])
-        modes = modes[:lowest] if lowest else modes[-highest:]
+        if lowest:
+            modes = modes[:lowest]
+        elif highest:
+            modes = modes[-highest:]
     else:
         wanted = _wanted(call, method)
         modes = modes_near(stiffness, mass, wanted, solver_of(call.session))
