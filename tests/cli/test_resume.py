@@ -91,7 +91,7 @@ def test_a_checkpoint_of_another_deck_is_refused(case, capsys):
         (None, ["other parameters", "PAS1=2"]),
         (("ssilang.cli.run.__version__", "9.9.9"), ["written by ssilang 0.1.0, this is 9.9.9"]),
         (("ssilang.io.checkpoint.VERSION", 99), ["were written by ssilang"]),
-        (("ssilang.kernel.stepping.keeping.digest_of", lambda problem: "another"),
+        (("ssilang.operators.dynamics.checkpoints.digest_of", lambda problem: "another"),
          ["checkpoint of calculation 1"]),
     ],
 )  # fmt: skip

@@ -39,14 +39,14 @@ def hopping(case: ClubB | ClubC) -> Callable[[RunResult], None]:
 
 def methods_on_a_wall(result: RunResult) -> None:
     """Corrected methods follow the rigid wall, penalty and SDM a wall of their stiffness."""
-    tables = [variable(result, n) for n in ("TT", "TU")]
+    curves = variable(result, "EVU").parts
     # impacts are seen at the end of their step: a lag of less than a step for each of the eight
-    t, u = (table.get(3).values for table in tables)
+    t, u = curves[2].abscissas, curves[2].ordinates
     error = np.max(np.abs(u - ClubA().motion(t)[0]))
     assert error <= 8 * (t[1] - t[0]) * ClubA().u0 * ClubA().w
     soft = ClubB(k_y=1e4 * STRUCTURE_STIFFNESS)
     for method in (1, 7):
-        t, u = (table.get(method).values for table in tables)
+        t, u = curves[method - 1].abscissas, curves[method - 1].ordinates
         assert np.max(np.abs(u - soft.motion(t)[0])) <= 1e-2 * soft.u0
 
 

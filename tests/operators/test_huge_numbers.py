@@ -54,8 +54,8 @@ def code_of(text, folder):
         (PLANE + "P = 1.E300 0. ;", "kernel.mesh.node-out-of-range"),
         (PLANE + "P = 1.E99 0. ;", ""),
         (NAN + PLANE + "P = X 0. ;", "kernel.mesh.node-out-of-range"),
-        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' X 'DFIN' 1. ;", "out-of-range"),
-        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' 1. 'DFIN' Y ;", "out-of-range"),
+        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' X 'DFIN' 1. ;", "not-finite"),
+        (NAN + PLANE + "L = DROI (0 0) (1 0) 'DINI' 1. 'DFIN' Y ;", "not-finite"),
         (NAN + "L = PROG 0. PAS X 1. ;", "not-finite"),
         (NAN + "L = PROG X PAS 0.1 1. ;", "operators.lists.steps-not-finite"),
         (NAN + "L = PROG 0. PAS 0.1 Y ;", "operators.lists.too-long"),
@@ -182,11 +182,11 @@ def test_an_operator_that_fails_over_a_matrix_names_it(tmp_path):
     text = (
         "OPTI DIME 2 ; P1 = 0. 0. ; P2 = 1. 0. ; K = (APPU 'UX' 4. P1) ET (APPU 'UX' 9. P2) ;"
         "M = MASS 'UX' 1. (P1 ET P2) ; B = VIBR 'SIMU' 0.1 2 K M ; MP = PJBA B M ;"
-        "T = VIBC MP (PJBA B K) (PJBA B (AMOR 'UX' X (P1 ET P2))) ;"
+        "T = VIBC MP (PJBA B K) (PJBA B (X * (AMOR 'UX' 1. (P1 ET P2)))) ;"
     )
     result = run_text(NAN + text, tmp_path)
     assert [e.code for e in result.errors] == ["operand-not-finite"]
-    assert result.errors[0].span.text.startswith("(PJBA B (AMOR 'UX' X ")
+    assert result.errors[0].span.text.startswith("(PJBA B (X * (AMOR 'UX' ")
 
 
 def test_stresses_of_a_shell_without_thickness_have_no_principal_values(tmp_path):
