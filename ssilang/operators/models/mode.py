@@ -273,7 +273,7 @@ def _unknown(call: Call, said: str) -> Exception:
         names = behaviours.UNPUBLISHED[said]
         raise call.error("operators.models.law-without-equations", said, said=said, names=names)
     written = next((o.value for o in call.used[::-1] if str(o.value).upper() == said), None)
-    laws = (*behaviours.ELASTICITIES, *behaviours.JOINT_WORDS)
+    laws = (*behaviours.ELASTICITIES, *behaviours.JOINT_WORDS, *behaviours.OWN_LAWS)
     if (other := behaviours.full_word(said, behaviours.OTHER_FORMULATIONS)) is not None:
         subject = behaviours.OTHER_FORMULATIONS[other]
         code = "operators.models.formulation-not-available"
