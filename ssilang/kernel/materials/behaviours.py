@@ -182,8 +182,10 @@ def _own_words(words: list[str], elasticity: str, family: str) -> tuple[str, str
     """FLUAGE or ENDOMMAGEMENT, and the law behind it."""
     laws, families = OWN_LAWS[words[0]]
     if family not in families:
-        told = {"family": family, "group": words[0], "families": families}
-        raise MaterialError("kernel.materials.family-without-law", **told)
+        raise MaterialError(
+            "kernel.materials.family-without-law", family=family, group=words[0],
+            families=families, shells="plate" in families,
+        )  # fmt: skip
     if len(words) != 2 or words[1] not in laws:
         raise MaterialError("kernel.materials.which-law", group=words[0], laws=laws)
     if elasticity not in ("", "ISOTROPE"):
