@@ -119,7 +119,7 @@ def arc_about_axis(start: FloatArray, origin: FloatArray, axis: FloatArray, angl
     unit = unit_vector(axis, "kernel.mesh.two-points-axis-coincide")
     centre = origin + (start - origin) @ unit * unit
     first = start - centre
-    if float(np.linalg.norm(first)) == 0.0:
+    if float(np.linalg.norm(first)) <= 1e-12 * float(np.abs([start, origin]).max()):
         raise MeshError("kernel.mesh.point-turn-lies-axis")
     return Arc(centre, first, np.cross(unit, first), angle)
 
