@@ -262,7 +262,8 @@ def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: Float
     dd = problem.loading.imposed @ factors - problem.constraints.C @ motion.u
     before = [x.copy() for x in motion]
     outcome = solver.solve(motion, -_imbalance(problem, motion, factors), dd, NOTHING)
-    if outcome.turns > 0 and np.isfinite(outcome.du).all():
+    # beyond the step's own size it is no correction: nothing holds the body, but for rounding
+    if outcome.turns > 0 and np.abs(outcome.du).max() <= np.abs(motion.u).max():
         motion.u[:] += outcome.du
         return
     _go_back(motion, before)
