@@ -41,6 +41,8 @@ class Law:
         Parameters in degrees, with the columns that take their tangents.
     variables : dict
         Internal variables that results show, with their columns of the state, whose sum they are.
+    opposite : dict
+        Further ones, each another variable with its sign changed.
     rocking : callable or None
         For a whole footing at a joint of two points, whose jumps are rotations and opening: its
         stiffness in full contact about t1 and t2, each (n,), from the parameters; `turning` has
@@ -62,6 +64,7 @@ class Law:
     linear: bool = False
     angles: dict[str, tuple[str, ...]] = field(default_factory=dict)
     variables: dict[str, tuple[Variable, ...]] = field(default_factory=dict)
+    opposite: dict[str, str] = field(default_factory=dict)
     rocking: Callable[[FloatArray], tuple[FloatArray, FloatArray]] | None = None
     in_space: tuple[str, ...] | None = ()
     two_points: bool = False

@@ -49,17 +49,11 @@ def law_of(behaviour: tuple[str, ...]) -> Law:
     return LAWS["ELASTIQUE"]
 
 
-_SHORTENING = "EPCO"
-"""The variable that is another one (LAM3) with its sign changed."""
-
-
 def shown_variables(law: Law, state: FloatArray, dimension: int) -> dict[str, FloatArray]:
     """Internal variables by name, each (...), of a state (..., N_STATE); no second slip in 2D."""
-    return {
-        name: state[..., list(columns)].sum(axis=-1) * (-1.0 if name == _SHORTENING else 1.0)
-        for name, columns in law.variables.items()
-        if dimension == 3 or not name.endswith("2")
-    }
+    names = (name for name in law.variables if dimension == 3 or not name.endswith("2"))
+    shown = {name: state[..., list(law.variables[name])].sum(axis=-1) for name in names}
+    return shown | {name: -shown[other] for name, other in law.opposite.items()}
 
 
 def state_of(law: Law, given: ZoneField, shape: tuple[int, int]) -> FloatArray:
@@ -68,7 +62,7 @@ def state_of(law: Law, given: ZoneField, shape: tuple[int, int]) -> FloatArray:
     Variables that are not given are zero.
     """
     state = np.zeros((shape[0] * shape[1], N_STATE))
-    known = {n: c for n, c in law.variables.items() if n in given and n != _SHORTENING}
+    known = {name: columns for name, columns in law.variables.items() if name in given}
     for name, columns in known.items():
         state[:, columns[0]] = np.broadcast_to(given.at(name, "STRESSES"), shape).ravel()
     for first, *others in known.values():

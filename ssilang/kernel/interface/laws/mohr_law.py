@@ -222,8 +222,9 @@ def check_mohr_parameters(parameters: FloatArray) -> None:
 _PLASTIC: dict[str, tuple[Var, ...]] = {
     "EPSE": (Var.CUMULATED,), "STAT": (Var.STATUS,), "EPOU": (Var.OPENING,),
     "LAM1": (Var.PULLED,), "PLA1": (Var.SLIP1,), "PLA2": (Var.SLIP2,),
-    "PLA3": (Var.XI, Var.OPENING), "LAM3": (Var.DAMAGE,), "EPCO": (Var.DAMAGE,),
+    "PLA3": (Var.XI, Var.OPENING), "LAM3": (Var.DAMAGE,),
 }  # fmt: skip
+_OPPOSITE = {"EPCO": "LAM3"}
 
 LAWS = {
     "JOINT_DILATANT": Law(
@@ -235,6 +236,7 @@ LAWS = {
         check_mohr_parameters,
         angles={"PHI": ("TPHI",), "MU": ("TPSI",)},
         variables=_PLASTIC,
+        opposite=_OPPOSITE,
     ),
     "COULOMB": Law(
         LawCode.MOHR,
@@ -245,5 +247,6 @@ LAWS = {
         check_mohr_parameters,
         angles={"FRIC": ("TPHI", "TPSI")},
         variables=_PLASTIC,
+        opposite=_OPPOSITE,
     ),
 }
