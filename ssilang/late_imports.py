@@ -5,6 +5,8 @@ help; numba looks for a YAML file of settings, mostly in vain, and for packages 
 a tenth of a second a run. These modules are found as ever, and loaded when something in them is
 asked for.
 
+`Late` stands for a module under a name, loaded when something in it is used.
+
 What is loaded stays: `lasting` keeps the search for garbage from walking through it.
 """
 
@@ -12,9 +14,11 @@ import gc
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib import import_module
 from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import LazyLoader
 from types import ModuleType
+from typing import Any
 
 SELDOM = frozenset(
     {
@@ -42,6 +46,18 @@ class LateFinder:
         if spec is not None and spec.loader is not None:
             spec.loader = LazyLoader(spec.loader)
         return spec
+
+
+class Late:
+    """A module, loaded when something in it is used."""
+
+    def __init__(self, module: str) -> None:
+        self._module = module
+
+    def __getattr__(self, name: str) -> Any:
+        value = getattr(import_module(self._module), name)
+        setattr(self, name, value)
+        return value
 
 
 def load_late() -> None:

@@ -22,9 +22,9 @@ from ssilang.io.plots.animation import save_animation
 from ssilang.io.plots.palette import shade
 from ssilang.io.plots.stage import hidden_plotter, light_up
 from ssilang.io.plots.view import DEFAULT_DIRECTION
+from ssilang.io.vtk.library import pyvista
 from ssilang.io.vtk.silence import silent
 from ssilang.io.vtk.vtkhdf import COMPONENT, opened_hdf
-from ssilang.kernel.base.scientific import pyvista
 from ssilang.kernel.fields.deformed import round_down
 from ssilang.system import in_bounds
 

@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError, OutputError
+from ssilang.io.vtk.library import pyvista
 from ssilang.io.vtk.series import read_pvd
 from ssilang.io.vtk.silence import silent
 from ssilang.io.vtk.vtkhdf import opened_hdf
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
-from ssilang.kernel.base.scientific import pyvista
 from ssilang.system import in_bounds
 
 FRAMES = 60
@@ -312,9 +312,10 @@ def _opened(path: Path) -> _Steps:
 
 
 def _of_hdf(path: Path) -> _Steps:
-    reader, times = opened_hdf(path)
-    if not reader.CanReadFile(str(path)):
-        raise SceneError("report.series-damaged", name=path.name)
+    try:
+        reader, times = opened_hdf(path)
+    except InputError:
+        raise SceneError("report.series-damaged", name=path.name) from None
 
     def grid(step: int) -> Any:
         reader.SetStep(step)

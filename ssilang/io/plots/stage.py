@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.errors import NoGraphicsError
+from ssilang.io.vtk.library import pyvista
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.scientific import pyvista
 from ssilang.remembered import remembered
 
 Inks = NDArray[np.float64]  # (n, 4) red green blue opacity

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.errors import OutputError
+from ssilang.io.errors import InputError, OutputError
 from ssilang.io.vtk import hdf5
 from ssilang.io.vtk.grid import DataArray, Grid
 from ssilang.io.vtk.growing import (
@@ -377,11 +377,19 @@ def _plain_names(arrays: Mapping[str, DataArray]) -> dict[str, DataArray]:
 
 
 def opened_hdf(path: Path) -> tuple[Any, list[float]]:
-    """VTK's reader of a .vtkhdf, and its instants: pyvista gives no times of these files."""
+    """VTK's reader of a .vtkhdf, and its instants: pyvista gives no times of these files.
+
+    Raises
+    ------
+    InputError
+        If VTK knows at once that it is none.
+    """
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
     from vtkmodules.vtkIOHDF import vtkHDFReader
 
     reader = vtkHDFReader()
+    if not reader.CanReadFile(str(path)):
+        raise InputError("io.not-viewed-no-points", path=path)
     reader.SetFileName(str(path))
     reader.UpdateInformation()
     held, steps = reader.GetOutputInformation(0), vtkStreamingDemandDrivenPipeline.TIME_STEPS()
