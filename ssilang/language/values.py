@@ -134,17 +134,19 @@ class Table:
             self.set(Mot("SOUSTYPE"), Mot(subtype))
 
     @classmethod
-    def of(cls, entries: Mapping[Any, object], subtype: str = "") -> "Table":
-        """A table of values by index, a string being a word."""
+    def of(
+        cls, entries: Mapping[Any, object] | Iterable[tuple[Any, object]], subtype: str = ""
+    ) -> "Table":
+        """A table of values by index (a mapping, or pairs), a string being a word."""
         table = cls(subtype)
-        for index, value in entries.items():
+        for index, value in entries.items() if isinstance(entries, Mapping) else entries:
             table.set(Mot(index) if isinstance(index, str) else index, value)
         return table
 
     @classmethod
     def numbered(cls, values: Iterable[object], subtype: str = "") -> "Table":
         """A table of values at 1, 2 ..."""
-        return cls.of(dict(enumerate(values, start=1)), subtype)
+        return cls.of(enumerate(values, start=1), subtype)
 
     def _key(self, index: object) -> tuple[object, ...]:
         """Key of an index, or that by which an object went before it was merged with another."""

@@ -316,18 +316,11 @@ def join_bases(first: Table, second: Table) -> Table:
             "operators.modal.tables-cannot-joined", subtype=first.subtype, subtype_2=second.subtype
         )
     inner = [t.get("MODES") for t in (first, second)]
-    table = Table(first.subtype)
     if all(isinstance(t, Table) for t in inner):
-        for index, value in first.items():
-            table.set(index, value)
-        table.set(Mot("MODES"), join_bases(*inner))
-        return table
-    for index, value in first.items():
-        if not isinstance(index, int):
-            table.set(index, value)
+        return Table.of([*first.items(), ("MODES", join_bases(*inner))], first.subtype)
+    others = (pair for pair in first.items() if not isinstance(pair[0], int))
     pairs = [
         (k, i, v) for k, t in enumerate((first, second)) for i, v in t.items() if type(i) is int
     ]
-    for number, (*_, entry) in enumerate(sorted(pairs), start=1):
-        table.set(number, entry)
-    return table
+    shapes = enumerate((entry for *_, entry in sorted(pairs)), start=1)
+    return Table.of([*others, *shapes], first.subtype)

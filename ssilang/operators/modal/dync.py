@@ -166,10 +166,8 @@ def _response(found: Response, system: System, free: bool) -> Table:
     by_order = Table()
     for place in range(Q.shape[1]):
         order = (place + 1) // 2 * (1 if place % 2 else -1)
-        by_point = Table()
-        for j, mark in enumerate(marks):
-            by_point.set(mark, ListReel(Q[:, place, j].copy()))
-        by_order.set(order, by_point)
+        histories = (ListReel(values.copy()) for values in Q[:, place].T)
+        by_order.set(order, Table.of(zip(marks, histories, strict=True)))
     entries: dict[str, Any] = {
         "FREQUENCE": ListReel(np.array(found.frequencies)),
         "COEFFICIENTS": by_order,

@@ -64,13 +64,10 @@ def _at_step(lists: object, step: int, begun: bool) -> Table | None:
         return None
     made, rows = Table(), [0, step] if begun else [step]
     for index, values in lists.items():
-        one: object = Table()
         if isinstance(values, ListReel):
-            one = ListReel(values.values[rows])
-        else:
-            for place, row in enumerate(rows, 1):
-                one.set(place, values.get(row + 1))  # type: ignore[attr-defined]
-        made.set(index, one)
+            made.set(index, ListReel(values.values[rows]))
+        elif isinstance(values, Table):
+            made.set(index, Table.numbered(values.get(row + 1) for row in rows))
     return made
 
 

@@ -50,12 +50,11 @@ def _tabulated(session: Session) -> Table:
     last, _ = _read_clocks(session)
     now = _clocks(session)["last"]
     begun = now[0] - session.started, now[1]
-    made = Table()
+    made: dict[str, object] = {}
     for name, since, before in zip(("TEMPS_HORLOGE", "TEMPS_CPU"), begun, last, strict=True):
         times = {"INITIAL": round(1000 * since), "DERNIER_APPEL": round(1000 * before)}
-        made.set(Mot(name), Table.of(times))
-    made.set(Mot("APPELS"), Table.of({k: ListEnti(v) for k, v in session.calls.items()}))
-    return made
+        made[name] = Table.of(times)
+    return Table.of(made | {"APPELS": Table.of({k: ListEnti(v) for k, v in session.calls.items()})})
 
 
 @TEMP.form(said("SGAC"))

@@ -89,10 +89,9 @@ def vide(call: Call) -> Any:
         raise call.missing(("MOT",))
     if not tabulated:
         return tuple(made)
-    table = Table()
     indices = [] if places is None else list(places.values)
     if isinstance(places, ListReel | ListEnti):
         indices = places.values.tolist()
-    for i, value in enumerate(made):
-        table.set(indices[i] if i < len(indices) else i + 1, value)
-    return table
+    return Table.of(
+        (indices[i] if i < len(indices) else i + 1, value) for i, value in enumerate(made)
+    )

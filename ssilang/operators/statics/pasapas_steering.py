@@ -42,12 +42,10 @@ def working_table(table: Table) -> Table:
 
     What a script has put there itself, for its own procedures, stays.
     """
-    work, given = Table(), table.get("WTABLE")
+    given = table.get("WTABLE")
     kept = given.items() if isinstance(given, Table) and not given.has("FOR0") else []
-    for index, value in [*kept, *table.items()]:
-        if index not in ("WTABLE", "ESTIMATION"):
-            work.set(index, value)
-    return work
+    pairs = [*kept, *table.items()]
+    return Table.of((i, value) for i, value in pairs if i not in ("WTABLE", "ESTIMATION"))
 
 
 def tell_parts(inner: Table) -> None:

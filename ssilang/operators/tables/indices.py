@@ -57,10 +57,7 @@ def _without(
 
 def copied(table: Table) -> Table:
     """A new table with the same indices and values."""
-    made = Table()
-    for index, value in table.items():
-        made.set(index, value)
-    return made
+    return Table.of(table.items())
 
 
 @COPI.form()
