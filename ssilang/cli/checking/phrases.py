@@ -455,7 +455,8 @@ def _only_unknown_is_mesh(reader: PhraseReader, call: AbstractCall) -> None:
         unknown[0].value = typed("MAILLAGE")
     elif unknown:
         keys = _keywords("MODE")
-        own = call.operands[: call.operands.index(unknown[not meshes])]
+        first = unknown[0] if meshes else unknown[1]  # without a known mesh one of them is it
+        own = call.operands[: call.operands.index(first)]
         call.used = [o for o in own if isinstance(o.value, Mot)]
         words = takewhile(
             lambda w: w is not ANY_WORD and str(w)[:4] not in keys, (o.value for o in call.used)

@@ -230,8 +230,9 @@ class Checker:
         if not statement.assigns:
             self._effects(statement, word, scope)
         values = self._values(statement, scope)
-        for name in bare_names(statement.items):
-            called = scope.values.get(name.text, self.session.library.find(name.text))
+        names, library = (name.text for name in bare_names(statement.items)), self.session.library
+        for name in names if scope.dimension is not None else ():
+            called = scope.values[name] if name in scope.values else library.find(name)
             if isinstance(called, Procedure) and _DIMENSION.search(called.definition.span.text):
                 scope.dimension = None
         for i, target in enumerate(statement.targets):

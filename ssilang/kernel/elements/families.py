@@ -260,11 +260,13 @@ def plastic_strain_names(zone: Zone) -> tuple[str, ...]:
 
 def inelastic(names: tuple[str, ...]) -> tuple[str, ...]:
     """Names of inelastic strains of those of strains: EIXX of EPXX, FRN DRN, FEPS EPS, FFCX CX."""
-    own = ("F" + (n[1:] if n[0] == "D" else n.rjust(3, "F")) for n in names)
-    return tuple(
-        f if n[0] == "D" or len(n) < 4 else n[0] + "I" + n[2:]
-        for n, f in zip(names, own, strict=True)
-    )
+    return tuple(map(_inelastic, names))
+
+
+def _inelastic(name: str) -> str:
+    if name[0] == "D":
+        return "F" + name[1:]
+    return "F" + name.rjust(3, "F") if len(name) < 4 else name[0] + "I" + name[2:]
 
 
 def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> FloatArray:

@@ -148,8 +148,7 @@ def unlike_sides(
     length l: `rho V_p A = sqrt(s K s t M t) / l`.
     """
     heavy = {id(b.raw_nodes): b for b in mass.blocks}
-    dampers = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
-    edges = [(b, face_keys(b.nodes)) for b in dampers]
+    edges = [(b, face_keys(b.nodes)) for b in _of_sides(damping)]
     solids = bordered_solids(stiffness) if edges else []
     for (block, zone, border), (axis, name) in product(solids, NORMALS):
         x, base = block.table.coordinates[block.nodes, axis], axis == zone.cells.kind.dimension - 1
@@ -173,22 +172,34 @@ def unlike_sides(
     return None
 
 
-def absorbing_ends(stiffness: "Matrix", damping: "Matrix") -> tuple[IntArray, IntArray]:
+def _of_sides(damping: Matrix) -> list[ElementMatrices]:
+    """Dashpots on sides of cells."""
+    return [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
+
+
+def absorbing_ends(stiffness: Matrix, damping: Matrix) -> tuple[IntArray, IntArray]:
     """Nodes of the highest sides of cells if some have dashpots, of the lowest if none has."""
-    dampers = [b for b in damping.blocks if b.kind == "AMORTISSEMENT" and b.raw_nodes.shape[1] > 1]
-    solids, ends = bordered_solids(stiffness) if dampers else [], list[IntArray]()
-    braked = np.concatenate([face_keys(b.nodes) for b in dampers] or [np.zeros(0, np.int64)])
+    braked = [face_keys(b.nodes) for b in _of_sides(damping)]
+    solids = bordered_solids(stiffness) if braked else []
     heights = [b.table.coordinates[b.nodes, z.cells.kind.dimension - 1] for b, z, _ in solids]
-    for level, absorbs in ((max((x.max() for x in heights), default=0.0), True),
-                           (min((x.min() for x in heights), default=0.0), False)):  # fmt: skip
-        faces = [braked[:0].reshape(0, 2)]
-        for (block, zone, border), x in zip(solids, heights, strict=True):
-            for (_, at), own in zip(zone.cells.kind.faces, border, strict=True):
-                flat = own & (np.abs(x[:, at] - level).max(axis=1) < SAME * np.ptp(x))
-                faces.append(block.nodes[flat][:, at])
-        on = any(np.isin(face_keys(f), braked).any() for f in faces if len(f))
-        ends.append(np.concatenate([f.ravel() for f in faces if on is absorbs] or [braked[:0]]))
-    return ends[0], ends[1]
+    none = np.zeros(0, np.int64)
+    if not solids:
+        return none, none
+
+    def sides_at(level: float) -> list[IntArray]:
+        return [
+            block.nodes[own & (np.abs(x[:, at] - level).max(axis=1) < SAME * np.ptp(x))][:, at]
+            for (block, zone, border), x in zip(solids, heights, strict=True)
+            for (_, at), own in zip(zone.cells.kind.faces, border, strict=True)
+        ]
+
+    levels = max(x.max() for x in heights), min(x.min() for x in heights)
+    ends = [sides_at(level) for level in levels]
+    above, below = (
+        any(np.isin(face_keys(s), np.concatenate(braked)).any() for s in sides) for sides in ends
+    )
+    nodes = [np.concatenate([none, *(s.ravel() for s in sides)]) for sides in ends]
+    return nodes[0] if above else none, none if below else nodes[1]
 
 
 def _strained(

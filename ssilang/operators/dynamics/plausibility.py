@@ -15,7 +15,7 @@ from ssilang.kernel.materials.model import same_elements
 from ssilang.kernel.matrices.assembly import imposed_outside, outside
 from ssilang.kernel.plasticity.points import plastic_zones
 from ssilang.kernel.statics.conditioning import joint_conditioning
-from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes
+from ssilang.kernel.statics.doubled import bodies_apart, idle_nodes, terms_of
 from ssilang.kernel.statics.linear_motion import rigid_motions
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.node_histories import NodeHistories
@@ -84,7 +84,8 @@ HELD = 0.99  # of all mass, on nodes that do not move
 OF_MASS = ("operators.dynamics.mass-held", "operators.dynamics.ground-too-light")
 SUPPORTS = {"DYNAMIC": "RIGI", "PASAPAS": "BLOCAGES_MECANIQUES"}
 """Entry of each procedure that conditions belong to."""
-FAR = 100.0  # sizes of the model, what slides may go far; times what was seen, also in stages
+FAR = 100.0  # sizes of the model; what slides may go far
+STAGED = 100.0  # times what was seen; a load that is put on in stages may grow by less
 
 
 def warn_of_start(entries: Entries, start: Start, *, in_statics: bool = False) -> None:
@@ -188,8 +189,9 @@ def _masses_alone(start: Start) -> Told:
 
 
 def _on_supports(start: Start) -> Told:
-    for name in dict.fromkeys(start.names[k] for k in on_supports(start)):
-        other_side = len(_held_on_the_other_side(start.problem, start.inputs)) > 0
+    names = dict.fromkeys(start.names[k] for k in on_supports(start))
+    other_side = bool(names) and len(_held_on_the_other_side(start.problem, start.inputs)) > 0
+    for name in names:
         told = {"name": name, "other_side": other_side}
         yield "operators.dynamics.load-on-supports", told
 
@@ -353,7 +355,7 @@ def _flaws(x: FloatArray, y: FloatArray, times: FloatArray, at_rest: bool) -> To
     ahead = AHEAD
     if np.abs(y - np.interp(x, x[ends], y[ends]))[: ends[1] + 1].max() < NOUGHT * size:
         # the time itself may be the factor of the load; what reaches 1 later is the whole load
-        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else FAR
+        ahead = HALF if size == 1.0 != x[ends[1]] - x[0] else STAGED
     if np.abs(y[x > last]).max(initial=0.0) > ahead * saw > 0.0:
         yield "operators.dynamics.load-ahead", told | {"value": saw, "most": size}
     before = np.append(y[x < first], np.interp(first, x, y))
@@ -457,8 +459,7 @@ def warn_of_parts(entries: Entries, problem: Problem, inputs: Inputs) -> None:
     resolve, none = stiff.table.resolve, np.zeros(0, np.int64)
     known = [b.nodes.ravel() for b in stiff.blocks]
     known += [resolve(z.cells.raw).ravel() for z in zones]
-    held = [resolve(r.nodes) for r in stiff.relations]
-    lost = np.setdiff1d(np.concatenate([none, *held]), np.concatenate([none, *known]))
+    lost = np.setdiff1d(resolve(terms_of(stiff).nodes), np.concatenate([none, *known]))
     for block in given.blocks if isinstance(given, CellField) and len(lost) else ():
         if len(own := np.intersect1d(resolve(block.cells.raw), lost)):
             told = {"count": len(block.cells), "node": stiff.table.told(int(own[0]))}

@@ -344,11 +344,16 @@ def bridged(start: Start) -> Told:
 def stops_on_held(start: Start) -> Told:
     """Sides in contact that are held whole, on cells that go on below them."""
     contact, numbering = start.problem.contact, start.problem.numbering
-    for sign in (1.0, -1.0) if contact is not None and len(contact) else ():
-        assert contact is not None
-        side = contact.G.indices[contact.G.data * sign > 0.0]
-        push = np.bincount(numbering.codes[side], np.abs(contact.G.data[contact.G.data * sign > 0]))
-        if len(side) and (axis := numbering.unknowns[int(push.argmax())]) in AXES:
+    if contact is None:
+        return
+    for sign in (1.0, -1.0):
+        own = sign * contact.G.data > 0.0
+        if not own.any():
+            continue
+        side = contact.G.indices[own]
+        push = np.bincount(numbering.codes[side], np.abs(contact.G.data[own]))
+        axis = numbering.unknowns[int(push.argmax())]
+        if axis in AXES:
             lower = np.unique(numbering.nodes[side])
             yield from _ground_held(start.problem, start.inputs.stiffness, lower, axis)
 

@@ -8,9 +8,15 @@ from ssilang.language.registry import HelpTable
 from ssilang.language.vocabulary.terms import Word
 from ssilang.messages.message import teller
 from ssilang.operators.vocabulary.pages import default_told, label
-from ssilang.operators.vocabulary.words import Row, parameter_rows, sample, sample_of_law
+from ssilang.operators.vocabulary.words import (
+    OF_BODIES,
+    Row,
+    parameter_rows,
+    sample,
+    sample_of_law,
+)
 
-_KINDS = ("elasticity", "plastic", "creep", "damage", "joint", "impedance", "contact")
+_KINDS = (*OF_BODIES, "contact")
 _COLUMNS = ("help.column-parameter", "help.column-unit", "help.column-default",
             "help.column-range", "help.column-meaning")  # fmt: skip
 

@@ -173,7 +173,7 @@ def _option(word: Word, language: str) -> Iterator[str | list[str]]:
 
 def _formulation(word: Word, language: str) -> Iterator[str | list[str]]:
     kinds = {"CONTACT": ("contact",), "CHARGEMENT": ("load",), "LIAISON": ("link",)}.get(
-        word.name, ("elasticity", "plastic", "creep", "damage", "joint", "impedance")
+        word.name, words.OF_BODIES
     )
     laws = dict.fromkeys(w.name for w in vocabulary.words("law") if w.kind in kinds)
     yield _filled(teller(language)("help.laws"), laws)

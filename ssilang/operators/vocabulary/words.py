@@ -54,6 +54,8 @@ _USUAL = {
 }
 _GROUPS = {"plastic": "PLASTIQUE", "creep": "FLUAGE", "damage": "ENDOMMAGEMENT"}
 """Words that laws of a kind stand behind."""
+OF_BODIES = ("elasticity", "plastic", "creep", "damage", "joint", "impedance")
+"""Kinds of laws of the formulation MECANIQUE."""
 _FORMULATION = {"contact": "CONTACT", "pressure": "CHARGEMENT", "link": "LIAISON"}
 
 
@@ -76,10 +78,8 @@ def sample_of_law(law: Word) -> Zone | None:
     if law.kind == "plastic" and name in PLASTIC_LAWS and name != "SECTION":
         element = "POJS" if name in behaviours.UNIAXIAL_LAWS else "QUA4"
         return sample(element, plane, ("ELASTIQUE", "ISOTROPE", "PLASTIQUE", name))
-    if (
-        law.kind in _GROUPS
-        and name in behaviours.OWN_LAWS.get(group := _GROUPS[law.kind], ((),))[0]
-    ):
+    group = _GROUPS.get(law.kind, "")
+    if group in behaviours.OWN_LAWS and name in behaviours.OWN_LAWS[group][0]:
         return sample("QUA4", plane, ("ELASTIQUE", "ISOTROPE", group, name))
     if law.kind == "impedance":
         return sample("IMP1", space, ("ELASTIQUE", "IMPEDANCE", name))

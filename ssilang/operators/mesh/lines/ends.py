@@ -25,7 +25,7 @@ ANGLE = opt("angle", "FLOTTANT", en="angle", unit="deg", usual=between(-360.0, 3
 SIZES = key(
     "sizes",
     ("DINI", "DFIN"),
-    arg("size", "FLOTTANT", unit="m", range=ANY_NUMBER, usual=NOT_NEGATIVE),
+    arg("size", "FLOTTANT", unit="m", usual=NOT_NEGATIVE),
     repeated=True,
     en="mesh size at the start, at the end, in place of the one there; 0 beside a negative number",
 )
