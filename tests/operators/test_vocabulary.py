@@ -55,7 +55,7 @@ def components():
         *DAMAGE_LAWS.values(),
         *JOINT_LAWS.values(),
     )
-    return names.union(*(law.variables for law in laws))
+    return names.union(*({*law.variables, *getattr(law, "opposite", ())} for law in laws))
 
 
 _ALL = [(kind, word) for kind in vocabulary.KINDS for word in vocabulary.words(kind)]
