@@ -78,7 +78,6 @@ class LoadPart:
         Cast3M's name: 'MECA' (forces), 'DIMP' (imposed displacements), 'T', 'Q', ...
     space : NodeField or CellField, or None
         Multiplied by `time` (None with `steps`).
-    time : Curve or None
     steps : tuple of (float, field)
         A field at given times, linear between.
     beside : tuple of NodeField

@@ -30,7 +30,6 @@ class ElementMatrices:
     zone : Zone or None
         Model zone it was made from (None: made by hand); lets a law that replaces the linear
         stiffness of its zone take these blocks out.
-    symmetric : bool
     viscous : bool
         Whether its material has a viscosity, which a matrix of damping is made of.
     dense : bool

@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.io.recording import Recording
 from ssilang.io.vtk.grid import ORDERS
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.interface.footing import Footing, Loads
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.stepping.extremes import Extremes
@@ -19,7 +19,7 @@ from ssilang.kernel.stepping.run import History
 from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics.motion_files import VtkObserver, stress_of
 from ssilang.operators.dynamics.reports import ENERGIES
-from ssilang.operators.dynamics.watching import joint_places
+from ssilang.operators.dynamics.watching import even, joint_places
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
@@ -33,13 +33,6 @@ NUMBERS = 6_000_000
 
 COLUMNS = ("share", "force", "pressure", "opening")
 """Histories of a footing, beside its moments and rotations."""
-
-
-def even(count: int, most: int) -> BoolArray:
-    """Which of so many instants are taken: the first, the last, and evenly between."""
-    wanted = np.zeros(count, bool)
-    wanted[np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))] = True
-    return wanted
 
 
 @dataclass(eq=False)

@@ -300,6 +300,6 @@ def zero(
             return hooke_block(zone, np.zeros((1, n_points(zone.element, support), s, s)), support)
         shape = (len(zone.cells), n_points(zone.element, support))
         components = {n: np.zeros(shape) for n in _names(zone, word)}
-        return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+        return zone.block(components, support)
 
     return on_zones(model, title, make)

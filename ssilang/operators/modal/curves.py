@@ -44,7 +44,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     names = names or evol.names_in_time(call, known)
     if not names:
         raise call.missing(("MOT",))
-    places_of = [(name, node) for name in names for node in evol.nodes_named(support.value)]
+    places_of = [(name, node) for name in names for node in support.value.node_ids.tolist()]
     return _curves(call, times, contributions(list(fields), shapes), known, places_of, colours)
 
 
@@ -104,7 +104,7 @@ def _places_asked(call: Call, fields: list[NodeField]) -> list[tuple[str, int]]:
     names = evol.names_in_time(call, fields)
     if not names:
         raise call.missing(("MOT",))
-    return [(name, node) for name in names for node in evol.nodes_named(support.value)]
+    return [(name, node) for name in names for node in support.value.node_ids.tolist()]
 
 
 def _at(call: Call, asked: ListReel, times: FloatArray, weights: FloatArray) -> FloatArray:

@@ -192,7 +192,7 @@ def _usable(call: Call, mesh: Mesh | Point, wish: Wish) -> tuple[Mesh, tuple[Cel
     if isinstance(mesh, Point):
         if not {"IMPEDANCE", *shape_models.UNKNOWN} & {*wish.laws}:
             raise call.error("operators.models.no-element-on-a-point", mesh)
-        mesh = Mesh.of(mesh.nodes, "POI1", np.array([[mesh.node]]))
+        mesh = mesh.mesh
     if not mesh.blocks:
         raise call.error("operators.models.mesh-empty", mesh)
     if not wish.formulation and not wish.laws:

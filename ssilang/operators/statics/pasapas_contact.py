@@ -135,9 +135,7 @@ def stress_offsets(
         size = max(float(np.abs(now.components[n]).max(initial=0.0)) for n in names)
         left = max(float(np.abs(v).max(initial=0.0)) for v in rest.values())
         if left > NEGLIGIBLE * max(size, left):
-            found[id(zone)] = CellFieldBlock(
-                now.cells, rest, now.support, now.element, now.constituent
-            )
+            found[id(zone)] = replace(now, components=rest)
     return found
 
 
