@@ -101,10 +101,6 @@ def _in_numbers(call: Call, values: Any) -> bool:
     return bool(np.any(equal_items(values.values, item, tolerance, False)))
 
 
-def _in_cloud(call: Call, cloud: Any) -> bool:
-    return str(call.required("MOT")).rstrip() in cloud.columns
-
-
 def _in_load(call: Call, load: Load) -> bool:
     said = str(call.required("MOT")).rstrip()
     kind = call.optional("MOT")
@@ -145,7 +141,8 @@ def _in_solution(call: Call, solution: Any) -> bool:
 _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
     "TABLE": _in_table, "OBJET": _in_object, "CHPOINT": _in_field, "MCHAML": _in_field,
     "LISTMOTS": _in_words, "LISTENTI": _in_numbers, "LISTREEL": _in_numbers,
-    "CHARGEME": _in_load, "NUAGE": _in_cloud, "MMODEL": _in_model,
+    "CHARGEME": _in_load, "MMODEL": _in_model,
+    "NUAGE": lambda call, cloud: str(call.required("MOT")).rstrip() in cloud.columns,
     "SOLUTION": _in_solution,
 }  # fmt: skip
 

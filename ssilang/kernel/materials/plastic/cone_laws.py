@@ -18,12 +18,7 @@ def isotropic(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_strengths(parameters: PointParameters) -> None:
-    """Refuse hardening curves with strengths that are not positive.
-
-    Raises
-    ------
-    MaterialError
-    """
+    """Refuse hardening curves with strengths that are not positive."""
     for curve in parameters.curves["ECRO"][0]:
         if (curve.parts[0].ordinates <= 0).any():
             raise MaterialError("kernel.materials.curve-strengths-not", name="ECRO")
@@ -48,12 +43,7 @@ def saturating(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_saturating(parameters: PointParameters) -> None:
-    """Refuse strengths that sink.
-
-    Raises
-    ------
-    MaterialError
-    """
+    """Refuse strengths that sink."""
     slope, rate = parameters["KISO"], parameters["VELO"]
     falls = (rate > 0) & (parameters["SIGI"] < parameters["SIG0"])
     if (falls | (slope < 0) | (rate < 0)).any():
