@@ -40,7 +40,7 @@ from ssilang.kernel.interface.laws.law_table import (
 )
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.interface.point_state import energies_of_points, point_states
-from ssilang.kernel.interface.response import Joints, local_jumps
+from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone, same_elements
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -127,9 +127,8 @@ class Interface:
 
     def jumps(self, u: FloatArray) -> FloatArray:
         """Local jumps (n_points, d) by displacements (n,)."""
-        w = np.zeros((self.n_points, self.dimension))
-        local_jumps(self.points, self.J @ u, w)
-        return w
+        of_pairs = (self.J @ u).reshape(-1, self.dimension)[self.pairs]
+        return np.einsum("pia,pa->pi", self.B, of_pairs.reshape(len(self.B), self.B.shape[2]))
 
     def initial_state(self) -> FloatArray:
         """State of joints never loaded, shape (n_points, N_STATE)."""
