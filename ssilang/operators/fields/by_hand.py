@@ -15,7 +15,7 @@ from ssilang.operators.fields.signs import names_of, nature_of
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import on_zones
 
-_SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+_SUPPORTS: tuple[Support, ...] = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
 _TITLE = key("title", "TITRE", "MOT", en="title of the field")
@@ -237,16 +237,8 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
     return made
 
 
-def _scalar(support: Support) -> tuple[str, Support]:
-    return "SCALAIRE", support
-
-
 _TITLES: dict[str, tuple[str, Support]] = {
-    "NOEUD": _scalar("NOEUD"),
-    "GRAVITE": _scalar("GRAVITE"),
-    "RIGIDITE": _scalar("RIGIDITE"),
-    "MASSE": _scalar("MASSE"),
-    "STRESSES": _scalar("STRESSES"),
+    **{support: ("SCALAIRE", support) for support in _SUPPORTS},
     "DEPLACEM": ("DEPLACEMENTS", "NOEUD"),
     "FORCES": ("FORCES", "NOEUD"),
     "TEMPERAT": ("TEMPERATURES", "NOEUD"),
