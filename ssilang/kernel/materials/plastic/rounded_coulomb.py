@@ -6,6 +6,10 @@ k is Coulomb's section up to 25 degrees of Lode's angle and a sine of three time
 beyond, with continuous slope (Abbo and Sloan, Computers and Structures 54, 1995). The tip is a
 hyperbola. The surface being smooth, the return is the closest point by Newton on stress and
 multiplier together, and its tangent is exact.
+
+A step may be integrated in parts (NSUB), halved where Newton's method does not converge soon
+(Perez-Foguet, Rodriguez-Ferran and Huerta, Computer Methods in Applied Mechanics and Engineering
+190, 2001); the tangent is that of all parts together.
 """
 
 from dataclasses import dataclass, replace
@@ -40,19 +44,68 @@ def respond(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
     """Parameters COHE and PHI (radians); variable EPSE."""
-    moduli = parameters.moduli
-    trial = stress + np.einsum("mij,mj->mi", moduli, strain)
-    found, tangent, p = trial.copy(), moduli.copy(), variables[:, 0].copy()
+    trial = stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
+    found, p, tangent, _ = _returned(parameters, trial, variables[:, 0])
+    return Response(found, p[:, None], tangent)
+
+
+def _returned(
+    parameters: PointParameters, trial: FloatArray, p: FloatArray, whole: BoolArray | None = None
+) -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
+    """Stresses, EPSE, tangents, turns of Newton's method (0: elastic).
+
+    Points that are not `whole` (all by default) have NITE turns: -1 where these do not do.
+    """
+    found, tangent, p = trial.copy(), parameters.moduli, p.copy()
+    turns = np.zeros(len(p), dtype=np.int64)
     size = np.abs(trial).max(axis=1) + parameters["COHE"]
     rows = np.flatnonzero(_surface(parameters, trial)[0] > 1e-13 * size)
     if len(rows):
         some = parameters.at(rows)
         compliance = some.compliance
-        found[rows], tangent[rows] = _closest_point(_Return(some, compliance, trial[rows]))
+        points = _Return(some, compliance, trial[rows])
+        if whole is None:
+            found[rows], tangent[rows] = _closest_point(points)
+        else:
+            found[rows], tangent[rows], turns[rows] = _soon(points, whole[rows])
         plastic = np.einsum("mij,mj->mi", compliance, trial[rows] - found[rows])
         square = (plastic[:, :3] ** 2).sum(axis=1) + 0.5 * (plastic[:, 3:] ** 2).sum(axis=1)
         p[rows] += np.sqrt(2 / 3 * square)
-    return Response(found, p[:, None], tangent)
+    return found, p, tangent, turns
+
+
+def respond_in_parts(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """The response over parts of the step, the first as long as the last of the step before.
+
+    A part whose return takes more than NITE turns is halved, down to a step's NSUB-th; one that
+    takes few leads to longer ones in the next step. Variables EPSE and NSUB (length of a part).
+    """
+    n, many, stress = len(stress), np.rint(parameters["NSUB"]), stress.copy()
+    trial = np.einsum("mij,mj->mi", parameters.moduli, strain)
+    elastic, compliance = parameters.moduli, parameters.compliance
+    p, tangent = variables[:, 0].copy(), np.zeros((n, 6, 6))
+    length = np.where(variables[:, 1] > 0, variables[:, 1], many)
+    at, parts, turns = np.zeros(n), np.zeros(n), np.zeros(n)
+    while len(rows := np.flatnonzero(at < many)):
+        share = (length / many)[rows]
+        new, q, part, took = _returned(
+            parameters.at(rows), stress[rows] + share[:, None] * trial[rows], p[rows],
+            length[rows] <= 1,
+        )  # fmt: skip
+        done, lost = took >= 0, rows[took < 0]
+        length[lost] //= 2
+        rows, share = rows[done], share[done, None, None]
+        before = tangent[rows] + share * elastic[rows]
+        tangent[rows] = part[done] @ compliance[rows] @ before
+        stress[rows], p[rows] = new[done], q[done]
+        at[rows] += length[rows]
+        parts[rows] += 1
+        turns[rows] += took[done]
+    easy = (turns < 4 * parts) & (parts > 1)
+    longer = np.minimum(np.rint(length * (5 - turns / parts)), many)
+    return Response(stress, np.stack([p, np.where(easy, longer, length)], axis=1), tangent)
 
 
 def criterion(parameters: PointParameters, stress: FloatArray) -> FloatArray:
@@ -138,6 +191,28 @@ def _closest_point(points: _Return) -> tuple[FloatArray, FloatArray]:
         unknown[rows] = found
     unknown[lost], jacobian[lost] = np.nan, np.eye(7)
     return unknown[:, :6], np.linalg.inv(jacobian)[:, :6, :6].astype(float)
+
+
+def _soon(points: _Return, whole: BoolArray) -> tuple[FloatArray, FloatArray, IntArray]:
+    """Stresses, tangents and turns of full Newton steps; -1 turns for points not `whole` that NITE
+    of them do not bring to a last step below PSUB of the stress.
+    """
+    unknown = np.pad(points.trial, ((0, 0), (0, 1)))
+    turns = np.full(len(unknown), -1, dtype=np.int64)
+    for turn in range(1, 1 + int(points.parameters["NITE"].max())):
+        rows = np.flatnonzero((turns < 0) & (points.parameters["NITE"] >= turn))
+        some = points.at(rows)
+        rest, jacobian, _ = some.equations(unknown[rows])
+        step = np.linalg.solve(jacobian, -rest[..., None])[..., 0]
+        unknown[rows] += step
+        size = np.maximum(np.abs(unknown[rows, :6]).max(axis=1), 1.0)
+        turns[rows[np.abs(step).max(axis=1) < some.parameters["PSUB"] * size]] = turn
+    tangent = np.linalg.inv(points.equations(unknown)[1])[:, :6, :6].astype(float)
+    rows = np.flatnonzero(whole & (turns < 0))
+    if len(rows):
+        unknown[rows, :6], tangent[rows] = _closest_point(points.at(rows))
+        turns[rows] = TURNS
+    return unknown[:, :6], tangent, turns
 
 
 def _surface(
