@@ -154,7 +154,7 @@ class Evaluator(phrases.PhraseRunner):
     # ---- statements ------------------------------------------------------------------------
 
     def _tolerant(self, statement: tree.Statement) -> None:
-        """Run a statement; with OPTI ERRE IGNORE, CONTROLE its errors are shown and the run goes on.
+        """Run a statement; under OPTI ERRE IGNORE, CONTROLE errors are shown and the run goes on.
 
         It goes on too behind an operator of Cast3M that is not built, until its result is read.
         """
