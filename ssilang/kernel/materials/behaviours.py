@@ -27,8 +27,8 @@ OTHER_FORMULATIONS = {
 _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "hoop", "across", "beam", "timoshenko",
-        "pipe", "joint", "fibre",
+        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "hoop", "across", "beam",
+        "timoshenko", "pipe", "joint", "fibre",
     ),
     "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),

@@ -128,7 +128,7 @@ class Hoop(Bar):
 
 
 class Across(Bar):
-    """Normal force EFFX = YOUN SECT EPSS of bars across the plane, EPSS being the section's EPZZ."""
+    """Normal force EFFX = YOUN SECT EPSS of bars across the plane, EPSS the section's EPZZ."""
 
     def layout(self, zone: Zone) -> family.Layout:
         """What the section's node has, its displacement and rotations."""

@@ -92,7 +92,7 @@ def _thickened(
 
 
 def with_section(zone: Zone, own: family.Layout) -> family.Layout:
-    """A layout behind whose rows, in generalised plane strain, those of the section's node stand."""
+    """A layout; in generalised plane strain the rows of the section's node come last."""
     if zone.mode is not Mode.GENERALISED_PLANE_STRAIN:
         return own
     n, k = own.raw_nodes.shape
