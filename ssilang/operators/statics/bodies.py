@@ -67,11 +67,10 @@ def _in_parts(entries: Entries, zones: Sequence[Zone], material: CellField) -> C
     """Characteristics, with what SUBSTEPPING says of laws that are integrated in parts."""
     if not entries.get("SUBSTEPPING"):
         return material
-    names = {"NSUB": "NMAXSUBSTEPS", "NITE": "NITERINTER_MAX", "PSUB": "PRECISINTER"}
-    said = {name: float(entries.get(entry)) for name, entry in names.items()}
+    said = {"NSUB": entries.get("NMAXSUBSTEPS"), "NITE": entries.get("NITERINTER_MAX")}
 
     def block(zone: Zone) -> CellFieldBlock:
-        values = {name: np.full((len(zone.cells), 1), value) for name, value in said.items()}
+        values = {name: np.full((len(zone.cells), 1), float(value)) for name, value in said.items()}
         return CellFieldBlock(zone.cells, values, "GRAVITE", zone.element, zone.constituent)
 
     blocks = tuple(block(zone) for zone in zones if "RH_COULOMB" in zone.behaviour)

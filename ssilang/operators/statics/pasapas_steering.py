@@ -71,10 +71,11 @@ def tell_parts(inner: Table) -> None:
 
 def tell_step(table: Table, time: float) -> None:
     """What WTABLE holds of the step that ends at a time: its number, that time."""
-    inner = table.get("WTABLE")
+    inner = table.inner("WTABLE")
     asked = inner.get("TEMPS_CALCULES")
-    done = asked.values[asked.values > 0.0] <= time + 1e-9 * abs(time)
-    for word, value in (("PAS", int(done.sum())), ("T_FINAL", time), ("CONV", True)):
+    calculated = asked.values[asked.values > 0.0] if isinstance(asked, ListReel) else np.empty(0)
+    step = int((calculated <= time + 1e-9 * abs(time)).sum())
+    for word, value in (("PAS", step), ("T_FINAL", time), ("CONV", True)):
         inner.set(Mot(word), value)
 
 

@@ -215,7 +215,7 @@ def test_parts_of_a_step_are_those_of_so_many_steps(most: float) -> None:
     """One local iteration does for no part that flows: all are as short as they may be."""
     p = parameters("RH_COULOMB")
     once = PLASTIC_LAWS["RH_COULOMB"]
-    p.values.update({n: np.full(M, v) for n, v in (("NSUB", most), ("NITE", 1.0), ("PSUB", 1e-8))})
+    p.values.update({n: np.full(M, v) for n, v in (("NSUB", most), ("NITE", 1.0))})
     law, (first, _) = law_at(once, p), steps(7)
     stress, variables = np.zeros((M, 6)), np.zeros((M, 1))
     for _ in range(int(most)):

@@ -151,7 +151,7 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         rounded_coulomb.respond,
         ("COHE", "PHI"),
         check=rounded_coulomb.check,
-        defaults={"NSUB": 1.0, "NITE": 15.0, "PSUB": 1e-8},
+        defaults={"NSUB": 1.0, "NITE": 15.0},
         shaped=_in_parts,
     ),
     "IWAN": PlasticLaw(

@@ -50,11 +50,11 @@ def respond(
 
 
 def _returned(
-    parameters: PointParameters, trial: FloatArray, p: FloatArray, whole: BoolArray | None = None
+    parameters: PointParameters, trial: FloatArray, p: FloatArray, most: int = 0
 ) -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
     """Stresses, EPSE, tangents, turns of Newton's method (0: elastic).
 
-    Points that are not `whole` (all by default) have NITE turns: -1 where these do not do.
+    With `most` turns at most those are -1 where these do not do.
     """
     found, tangent, p = trial.copy(), parameters.moduli, p.copy()
     turns = np.zeros(len(p), dtype=np.int64)
@@ -64,10 +64,13 @@ def _returned(
         some = parameters.at(rows)
         compliance = some.compliance
         points = _Return(some, compliance, trial[rows])
-        if whole is None:
-            found[rows], tangent[rows] = _closest_point(points)
+        if most:
+            unknown = np.pad(points.trial, ((0, 0), (0, 1)))
+            jacobian, lost, took = points.newton(unknown, most)
+            found[rows], tangent[rows] = unknown[:, :6], np.linalg.inv(jacobian)[:, :6, :6]
+            turns[rows] = np.where(lost, -1, took)
         else:
-            found[rows], tangent[rows], turns[rows] = _soon(points, whole[rows])
+            found[rows], tangent[rows] = _closest_point(points)
         plastic = np.einsum("mij,mj->mi", compliance, trial[rows] - found[rows])
         square = (plastic[:, :3] ** 2).sum(axis=1) + 0.5 * (plastic[:, 3:] ** 2).sum(axis=1)
         p[rows] += np.sqrt(2 / 3 * square)
@@ -79,30 +82,29 @@ def respond_in_parts(
 ) -> Response:
     """The response over parts of the step, the first as long as the last of the step before.
 
-    A part whose return takes more than NITE turns is halved, down to a step's NSUB-th; one that
+    A part whose return takes NITE turns and more is halved, down to a step's NSUB-th; one that
     takes few leads to longer ones in the next step. Variables EPSE and NSUB (length of a part).
     """
-    n, many, stress = len(stress), np.rint(parameters["NSUB"]), stress.copy()
+    many, most, stress = np.rint(parameters["NSUB"]), int(parameters["NITE"].max()), stress.copy()
     trial = np.einsum("mij,mj->mi", parameters.moduli, strain)
     elastic, compliance = parameters.moduli, parameters.compliance
-    p, tangent = variables[:, 0].copy(), np.zeros((n, 6, 6))
+    p, tangent = variables[:, 0].copy(), np.zeros_like(elastic)
     length = np.where(variables[:, 1] > 0, variables[:, 1], many)
-    at, parts, turns = np.zeros(n), np.zeros(n), np.zeros(n)
+    at, parts, turns = np.zeros((3, len(stress)))
     while len(rows := np.flatnonzero(at < many)):
-        share = (length / many)[rows]
-        new, q, part, took = _returned(
-            parameters.at(rows), stress[rows] + share[:, None] * trial[rows], p[rows],
-            length[rows] <= 1,
-        )  # fmt: skip
-        done, lost = took >= 0, rows[took < 0]
-        length[lost] //= 2
-        rows, share = rows[done], share[done, None, None]
-        before = tangent[rows] + share * elastic[rows]
-        tangent[rows] = part[done] @ compliance[rows] @ before
+        shortest = bool((length[rows] <= 1).any())  # those, first, whatever turns they take
+        rows = rows[length[rows] <= 1] if shortest else rows
+        share = (length / many)[rows, None]
+        tried, turns_given = stress[rows] + share * trial[rows], 0 if shortest else max(most - 1, 1)
+        new, q, part, took = _returned(parameters.at(rows), tried, p[rows], turns_given)
+        done = took >= 0
+        length[rows[~done]] //= 2
+        rows, share = rows[done], share[done, None]
+        tangent[rows] = part[done] @ compliance[rows] @ (tangent[rows] + share * elastic[rows])
         stress[rows], p[rows] = new[done], q[done]
         at[rows] += length[rows]
         parts[rows] += 1
-        turns[rows] += took[done]
+        turns[rows] += most if shortest else took[done] + (took[done] > 0)
     easy = (turns < 4 * parts) & (parts > 1)
     longer = np.minimum(np.rint(length * (5 - turns / parts)), many)
     return Response(stress, np.stack([p, np.where(easy, longer, length)], axis=1), tangent)
@@ -148,19 +150,23 @@ class _Return:
         scale = np.maximum(np.cos(self.parameters["PHI"]), 0.01 * self.far())
         return rest, jacobian, np.maximum(strain, np.abs(f)) / (scale * self.parameters["COHE"])
 
-    def newton(self, unknown: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Changes stress and multiplier `unknown`; Jacobian, which points have not converged."""
+    def newton(
+        self, unknown: FloatArray, most: int = TURNS
+    ) -> tuple[FloatArray, BoolArray, IntArray]:
+        """Changes stress and multiplier `unknown`; Jacobian, which points are lost, turns."""
         rest, jacobian, norm = self.equations(unknown)
         norm[self.far() > FAR] = np.nan
-        for _ in range(TURNS):
+        turns = np.zeros(len(norm), dtype=np.int64)
+        for _ in range(most):
             rows = np.flatnonzero(norm > SMALL)
             if not len(rows):
                 break
+            turns[rows] += 1
             step = np.linalg.solve(jacobian[rows], -rest[rows, :, None])[..., 0].astype(float)
             unknown[rows], rest[rows], jacobian[rows], norm[rows] = self.at(rows).searched(
                 unknown[rows], step, norm[rows]
             )
-        return jacobian, ~(norm <= SMALL)
+        return jacobian, ~(norm <= SMALL), turns
 
     def searched(
         self, unknown: FloatArray, step: FloatArray, norm: FloatArray
@@ -180,39 +186,17 @@ class _Return:
 def _closest_point(points: _Return) -> tuple[FloatArray, FloatArray]:
     """Stresses (m, 6), NaN where none is found, and tangents (m, 6, 6)."""
     unknown = np.pad(points.trial, ((0, 0), (0, 1)))
-    jacobian, lost = points.newton(unknown)
+    jacobian, lost, _ = points.newton(unknown)
     rows = np.flatnonzero(lost & (points.far() <= FAR))
     if len(rows):  # far beyond a sharp tip: along ever sharper ones
         some = points.at(rows)
         found = np.pad(some.trial, ((0, 0), (0, 1)))
         for halvings in range(int(np.log2(some.far().max() / TIP)), -1, -1):
             tipped = replace(some, tip=TIP * 2.0**halvings)
-            jacobian[rows], lost[rows] = tipped.newton(found)
+            jacobian[rows], lost[rows], _ = tipped.newton(found)
         unknown[rows] = found
     unknown[lost], jacobian[lost] = np.nan, np.eye(7)
     return unknown[:, :6], np.linalg.inv(jacobian)[:, :6, :6].astype(float)
-
-
-def _soon(points: _Return, whole: BoolArray) -> tuple[FloatArray, FloatArray, IntArray]:
-    """Stresses, tangents and turns of full Newton steps; -1 turns for points not `whole` that NITE
-    of them do not bring to a last step below PSUB of the stress.
-    """
-    unknown = np.pad(points.trial, ((0, 0), (0, 1)))
-    turns = np.full(len(unknown), -1, dtype=np.int64)
-    for turn in range(1, 1 + int(points.parameters["NITE"].max())):
-        rows = np.flatnonzero((turns < 0) & (points.parameters["NITE"] >= turn))
-        some = points.at(rows)
-        rest, jacobian, _ = some.equations(unknown[rows])
-        step = np.linalg.solve(jacobian, -rest[..., None])[..., 0]
-        unknown[rows] += step
-        size = np.maximum(np.abs(unknown[rows, :6]).max(axis=1), 1.0)
-        turns[rows[np.abs(step).max(axis=1) < some.parameters["PSUB"] * size]] = turn
-    tangent = np.linalg.inv(points.equations(unknown)[1])[:, :6, :6].astype(float)
-    rows = np.flatnonzero(whole & (turns < 0))
-    if len(rows):
-        unknown[rows, :6], tangent[rows] = _closest_point(points.at(rows))
-        turns[rows] = TURNS
-    return unknown[:, :6], tangent, turns
 
 
 def _surface(
