@@ -60,6 +60,8 @@ class Workspace:
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
+    solved : mapping of NodeField to list of ElementMatrices
+        What RESO found displacements with, some cells of each zone.
     sides : list of (first side, second side, method)
         What IMPO 'MAIL' made contact meshes of.
     records : mapping of (file, column) to (step, values over the largest)
@@ -80,6 +82,7 @@ class Workspace:
     output: RunOutput | None = None
     petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
+    solved: WeakKeyDictionary[Any, list[Any]] = field(default_factory=WeakKeyDictionary)
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
     sides: list[tuple[Mesh, Mesh, str]] = field(default_factory=list)
     records: dict[tuple[str, int], tuple[float, FloatArray]] = field(default_factory=dict)

@@ -1,6 +1,7 @@
 """Entries that a script puts into a table for a procedure: unknown ones, and wrong values."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from ssilang.cli.checking.kinds import ANY_WORD, kind_word
@@ -48,6 +49,7 @@ def doubtful_entries(script: tree.Script, session: Session, values: Values) -> I
                     given.setdefault(target.base.text, {})[index.text.rstrip()] = target
     for table, call in called.items():
         yield from () if table in procedures else _late(script, table, *call)
+    yield from _twice(script)
 
 
 def _late(
@@ -73,6 +75,35 @@ def _late(
         if own and isinstance(index, tree.Quoted) and table not in reads(code, index.text):
             told = {"procedure": declared.name, "where": f"'{index.text}'"}
             yield SsiError("entry-behind-call", target.span, **told)
+
+
+def _twice(script: tree.Script) -> Iterator[SsiError]:
+    """Entries that are set again while nothing has read their table since.
+
+    Tables that have another name too, or that procedures of the script may read, are left alone.
+    """
+    alone = [s.items[0] for s in statements_of(script.body) if s.targets and len(s.items) == 1]
+    others = {i.text for i in alone if isinstance(i, tree.Name)}
+    others |= _names_in(n for n in script.body if isinstance(n, tree.Definition))
+    fresh: dict[tuple[str, str], tree.Path] = {}
+    for node in script.body:
+        target = (*node.targets, None)[0] if isinstance(node, tree.Statement) else None
+        set_now = isinstance(target, tree.Path) and isinstance(target.base, tree.Name)
+        read = _names_in([replace(node, targets=target.indices) if set_now else node])
+        whole = isinstance(node, tree.Statement) and reads_all(node)
+        fresh = {key: at for key, at in fresh.items() if not whole and key[0] not in read}
+        if isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
+            (index, *more), table = target.indices, target.base.text
+            if isinstance(index, tree.Quoted) and not more and table not in others:
+                if (table, index.text) in fresh:
+                    yield SsiError("entry-twice", target.span, where=f"'{index.text}'")
+                fresh[table, index.text] = target
+
+
+def _names_in(nodes: Iterable[tree.Node]) -> set[str]:
+    """Names that stand anywhere in statements."""
+    parts = (i for s in statements_of(nodes) for i in tree.leaves((*s.items, *s.targets)))
+    return {i.text for i in parts if isinstance(i, tree.Name)}
 
 
 def _copied(statement: tree.Statement, given: Given) -> dict[str, tree.Path]:
