@@ -61,7 +61,7 @@ class Workspace:
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
     solved : mapping of NodeField to list of ElementMatrices
-        What RESO found displacements with, some cells of each zone.
+        What displacements and shapes were found with, some cells of each zone.
     sides : list of (first side, second side, method)
         What IMPO 'MAIL' made contact meshes of.
     records : mapping of (file, column) to (step, values over the largest)

@@ -8,6 +8,7 @@ from ssilang.kernel.statics import doubled
 from ssilang.language.values import Solution
 from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.solve import found_with
 from ssilang.operators.workspace import solver_of
 
 _FREQUENCY = arg("frequency", "FLOTTANT", range=NOT_NEGATIVE, en="frequency", unit="Hz")
@@ -118,6 +119,8 @@ def _modes(
         twice = [m for m, u, v in zip(modes, shapes, shapes[1:], strict=False) if np.allclose(u, v)]
         if twice:
             call.warn("operators.modal.mode-twice", frequency=twice[0].frequency)
+    for mode in modes:
+        found_with(call, stiffness, mode.shape)
     free = sum(m.frequency == 0.0 for m in modes)
     if free and stiffness.relations and mass.inertial:  # a body that nothing holds is meant to fly
         call.warn("operators.modal.free-motions", count=free)

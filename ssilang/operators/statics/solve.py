@@ -1,7 +1,6 @@
 """RESO REAC DIAG: linear systems with conditions, reactions, negative eigenvalues."""
 
 import math
-from itertools import product
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
-_FIRST, _OTHER = 4, 1e-3  # cells whose matrices are kept; what is more than rounding of them
+_FIRST = 4  # cells whose matrices are kept
 FAR, NOT_SMALL = 10.0, 0.2
 """Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
@@ -94,7 +93,7 @@ def _reso(
         down = load.components.get("FZ") if down is None else down  # of revolution
         if down is not None:
             warn_of_weight(call, matrix, (), matrix.table.resolve(down.nodes), -down.values)
-        workspace(call.session).solved[solution] = _first_cells(matrix)
+        found_with(call, matrix, solution)
         if is_anywhere(load) and not is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
         judged = workspace(call.session).units is not None
@@ -105,33 +104,32 @@ def _reso(
     return solutions
 
 
-def _first_cells(matrix: Matrix) -> list[ElementMatrices]:
-    """Element matrices of some cells of each elastic zone that has one block alone."""
+def found_with(call: Call, matrix: Matrix, solution: NodeField) -> NodeField:
+    """The displacements, with some cells of each elastic zone that has one block alone kept."""
     if "first cells" not in matrix.cache:
         zones = [b.zone for b in matrix.blocks if b.zone is not None]
         matrix.cache["first cells"] = [
-            replace(b, raw_nodes=b.raw_nodes[:_FIRST], values=b.values[:_FIRST].copy())
+            replace(b, zone=_first_cells(b.zone), values=b.values[:_FIRST].copy())
             for b in matrix.blocks
             if b.zone is not None
             and not {"PLASTIQUE", "ENDOMMAGEMENT"} & {*b.zone.behaviour}
             and sum(same_elements(z, b.zone) for z in zones) == 1
         ]
-    found: list[ElementMatrices] = matrix.cache["first cells"]
-    return found
+    workspace(call.session).solved[solution] = matrix.cache["first cells"]
+    return solution
+
+
+def _first_cells(zone: Zone) -> Zone:
+    return replace(zone, cells=replace(zone.cells, raw=zone.cells.raw[:_FIRST], _resolved=[]))
 
 
 def tell_other_stiffness(call: Call, u: NodeField, model: Model, material: CellField) -> None:
-    """Warn where parameters make other element matrices than those that RESO found u with."""
+    """Warn where parameters make other element matrices than those that u was found with."""
     found = workspace(call.session).solved.get(u, ())
-    for zone, known in product(model.zones if found else (), found):
-        if not same_elements(known.zone, zone):
-            continue
-        cells = replace(zone.cells, raw=zone.cells.raw[:_FIRST], _resolved=[])
-        now = np.abs(families.stiffness(replace(zone, cells=cells), material).values)
-        then = np.abs(known.values)
-        if np.abs(now - then).max() > _OTHER * then.max():
-            told = {"node": known.table.told(int(known.nodes[0, 0]))}
-            call.warn("operators.statics.stress-of-others", times=now.max() / then.max(), **told)
+    for zone in model.zones if found else ():
+        if off := families.unlike(found, _first_cells(zone), material):
+            told = {"node": zone.cells.nodes.told(int(zone.cells.raw[0, 0])), "off": off}
+            call.warn("operators.statics.stress-of-others", **told)
 
 
 def warn_of_weight(
