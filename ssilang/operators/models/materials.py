@@ -35,6 +35,7 @@ SHAPES = ("DEFO", "RIDE", "MADE")
 """Parameters of models MODAL and STATIQUE that are fields at points."""
 
 
+_OUTSIDE = 0.1  # of the width of a section: a plate on a face has its middle a little outside
 _AXES = (
     arg("first", "POINT", en="first axis, or centre"),
     many("others", "POINT", en="further vectors or points"),
@@ -244,6 +245,8 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
         # Refuse what does not describe a section.
         if name == "MODS" and not isinstance(value, Model):
             raise call.error("operators.models.section-model-wrong", value)
+        if name == "MODS":
+            _tell_outside(call, value)
         if name == "MATS" and not isinstance(value, CellField):
             raise call.error("operators.models.section-material-wrong", value)
         return _one_object(value, n)
@@ -267,6 +270,21 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if name == "VECT":
         raise call.error("operators.models.vect-is-a-vector", value)
     return np.full((n, 1), float(value)), "GRAVITE"
+
+
+def _tell_outside(call: Call, section: Model) -> None:
+    """Warn of points of a section far outside the box of its faces."""
+    kinds = [np.zeros((0, 2)), np.zeros((0, 2))]
+    for zone in section.zones:
+        face = int(zone.element != "POJS")
+        kinds[face] = np.concatenate([kinds[face], zone.cells.coordinates[..., :2].reshape(-1, 2)])
+    points, faces = kinds
+    if len(points) and len(faces):
+        low, high = faces.min(axis=0), faces.max(axis=0)
+        off = (np.maximum(low - points, points - high) / (high - low)).max(axis=1)
+        if (worst := off.max()) > _OUTSIDE:
+            y, z = points[off.argmax()]
+            call.warn("operators.models.fibre-outside", section, y=y, z=z, share=100.0 * worst)
 
 
 def _no_number(call: Call, name: str, value: Any) -> SsiError:
