@@ -232,9 +232,12 @@ def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Tabl
 
 @operator("REAC", family="solve", full_name="REACTION", gives=Like("solution"))
 def _reac(
+    call: Call,
     matrix: Matrix = _MATRIX,
     solution: NodeField | Table = Arg("CHPOINT", "TABLE", en="solution, or table of shapes"),
 ) -> NodeField | Table:
+    if not matrix.relations:
+        call.warn("operators.statics.no-conditions", matrix)
     if isinstance(solution, NodeField):
         return reactions(matrix, solution)
     for entry, shape, index in _shapes(solution):
