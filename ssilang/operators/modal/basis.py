@@ -14,6 +14,8 @@ from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.prelude import *
 
+BEYOND = 1e-3  # of the largest force at a node: no rounding
+
 
 @dataclass(frozen=True)
 class Shape:
@@ -135,7 +137,25 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     known = {dual_of(name) for s in shapes for name in s.field.components}
     if known.isdisjoint(names := list(force.components)):
         call.warn("operators.modal.force-of-other-names", force, names=names, known=sorted(known))
+    _tell_beyond(call, force, shapes[0].field)
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
+
+
+def _tell_beyond(call: Call, force: NodeField, shape: NodeField) -> None:
+    """Warn of inertia forces of masses that the modes were found without."""
+    known = workspace(call.session).driven
+    if not isinstance(mass := known.get(shape), Matrix) or (field := known.get(force)) is None:
+        return
+    own = product(mass, field)
+    for name in {"FX", "FY", "FZ"} & {*force.components}:
+        part = force.components[name]
+        pull, usual = np.abs(part.values), np.abs(own.values_at(name, part.nodes))
+        scale = float(np.median(pull[usual > 0.0] / usual[usual > 0.0])) if usual.any() else 1.0
+        beyond, off = pull - scale * usual, BEYOND * pull.max(initial=0.0)
+        if beyond.min(initial=0.0) > -off and off < beyond.max(initial=0.0):
+            told = {"node": force.table.told(int(part.nodes[beyond.argmax()]))}
+            told |= {"driven": pull.sum() / scale, "mass": usual.sum()}
+            call.warn("operators.modal.driven-beyond", **told)
 
 
 @_pjba.form()

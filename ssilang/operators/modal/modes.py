@@ -121,6 +121,7 @@ def _modes(
             call.warn("operators.modal.mode-twice", frequency=twice[0].frequency)
     for mode in modes:
         found_with(call, stiffness, mode.shape)
+        workspace(call.session).driven[mode.shape] = mass
     free = sum(m.frequency == 0.0 for m in modes)
     if free and stiffness.relations and mass.inertial:  # a body that nothing holds is meant to fly
         call.warn("operators.modal.free-motions", count=free)
