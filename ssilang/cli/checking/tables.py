@@ -85,19 +85,20 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
     alone = [s.items[0] for s in statements_of(script.body) if s.targets and len(s.items) == 1]
     others = {i.text for i in alone if isinstance(i, tree.Name)}
     others |= _names_in(n for n in script.body if isinstance(n, tree.Definition))
-    fresh: dict[tuple[str, str], tree.Path] = {}
+    fresh = list[tuple[str, str]]()
     for node in script.body:
-        target = (*node.targets, None)[0] if isinstance(node, tree.Statement) else None
-        set_now = isinstance(target, tree.Path) and isinstance(target.base, tree.Name)
-        read = _names_in([replace(node, targets=target.indices) if set_now else node])
-        whole = isinstance(node, tree.Statement) and reads_all(node)
-        fresh = {key: at for key, at in fresh.items() if not whole and key[0] not in read}
-        if isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
-            (index, *more), table = target.indices, target.base.text
-            if isinstance(index, tree.Quoted) and not more and table not in others:
-                if (table, index.text) in fresh:
-                    yield SsiError("entry-twice", target.span, where=f"'{index.text}'")
-                fresh[table, index.text] = target
+        entry = None
+        if isinstance(node, tree.Statement):
+            target = (*node.targets, None)[0]
+            if isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
+                entry = target.base.text, " . ".join(i.span.text for i in target.indices)
+                known = all(isinstance(i, tree.Quoted) for i in target.indices)
+                node = replace(node, targets=target.indices)
+            fresh *= not reads_all(node)
+        fresh = [key for key in fresh if key[0] not in _names_in([node])]
+        if entry in fresh:
+            yield SsiError("entry-twice", node.span, where=entry[1])
+        fresh += [entry] if entry is not None and known and entry[0] not in others else []
 
 
 def _names_in(nodes: Iterable[tree.Node]) -> set[str]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.scientific import spatial
+from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -129,7 +130,7 @@ def held_on_axis(matrix: Matrix) -> IntArray:
     assert cells[0].zone is not None
     own, terms = np.unique(np.concatenate([b.nodes.ravel() for b in cells])), terms_of(matrix)
     radii = np.abs(matrix.table.coordinates[own, 0])
-    axis, moves = own[radii <= NEAR * radii.max()], MOVES.get(cells[0].zone.options["harmonic"], ())
+    axis, moves = own[radii <= NEAR * radii.max()], MOVES.get(harmonic(cells[0].zone), ())
     held = {u: np.isin(axis, terms.nodes[terms.alone & (terms.names == u)]) for u in RINGS}
     along = np.any([axis < 0, *(held[u] for u in moves)], axis=0)
     across = np.all([axis >= 0, *(held[u] for u in RINGS if u not in moves)], axis=0)

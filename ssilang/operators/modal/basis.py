@@ -143,8 +143,9 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
 
 def _tell_beyond(call: Call, force: NodeField, shape: NodeField) -> None:
     """Warn of inertia forces of masses that the modes were found without."""
-    known = workspace(call.session).driven
-    if not isinstance(mass := known.get(shape), Matrix) or (field := known.get(force)) is None:
+    known, none = workspace(call.session).origins, ((), None)
+    (_, mass), (_, field) = known.get(shape, none), known.get(force, none)
+    if mass is None or field is None:
         return
     own = product(mass, field)
     for name in {"FX", "FY", "FZ"} & {*force.components}:

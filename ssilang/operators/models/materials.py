@@ -274,16 +274,13 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
 
 def _tell_outside(call: Call, section: Model) -> None:
     """Warn of points of a section far outside the box of its faces."""
-    kinds = [np.zeros((0, 2)), np.zeros((0, 2))]
-    for zone in section.zones:
-        face = int(zone.element != "POJS")
-        kinds[face] = np.concatenate([kinds[face], zone.cells.coordinates[..., :2].reshape(-1, 2)])
-    points, faces = kinds
-    if len(points) and len(faces):
-        low, high = faces.min(axis=0), faces.max(axis=0)
-        off = (np.maximum(low - points, points - high) / (high - low)).max(axis=1)
+    places = [(z.element, z.cells.coordinates.reshape(-1, 3)) for z in section.zones]
+    faces = [x for element, x in places if element != "POJS"]
+    for x in (x for element, x in places if element == "POJS" and faces):
+        low, high = (f(np.concatenate(faces), axis=0) for f in (np.min, np.max))
+        off = (np.maximum(low - x, x - high)[:, :2] / (high - low)[:2]).max(axis=1)
         if (worst := off.max()) > _OUTSIDE:
-            y, z = points[off.argmax()]
+            y, z, _ = x[off.argmax()]
             call.warn("operators.models.fibre-outside", section, y=y, z=z, share=100.0 * worst)
 
 

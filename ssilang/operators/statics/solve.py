@@ -15,7 +15,7 @@ from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
-_FIRST = 4  # cells whose matrices are kept
+_FIRST = 4  # cells whose matrices are compared
 FAR, NOT_SMALL = 10.0, 0.2
 """Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
@@ -93,7 +93,7 @@ def _reso(
         down = load.components.get("FZ") if down is None else down  # of revolution
         if down is not None:
             warn_of_weight(call, matrix, (), matrix.table.resolve(down.nodes), -down.values)
-        found_with(call, matrix, solution)
+        workspace(call.session).origins[solution] = matrix.blocks, None
         if is_anywhere(load) and not is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
         judged = workspace(call.session).units is not None
@@ -104,30 +104,17 @@ def _reso(
     return solutions
 
 
-def found_with(call: Call, matrix: Matrix, solution: NodeField) -> NodeField:
-    """The displacements, with some cells of each elastic zone that has one block alone kept."""
-    if "first cells" not in matrix.cache:
-        zones = [b.zone for b in matrix.blocks if b.zone is not None]
-        matrix.cache["first cells"] = [
-            replace(b, zone=_first_cells(b.zone), values=b.values[:_FIRST].copy())
-            for b in matrix.blocks
-            if b.zone is not None
-            and not {"PLASTIQUE", "ENDOMMAGEMENT"} & {*b.zone.behaviour}
-            and sum(same_elements(z, b.zone) for z in zones) == 1
-        ]
-    workspace(call.session).solved[solution] = matrix.cache["first cells"]
-    return solution
-
-
-def _first_cells(zone: Zone) -> Zone:
-    return replace(zone, cells=replace(zone.cells, raw=zone.cells.raw[:_FIRST], _resolved=[]))
-
-
 def tell_other_stiffness(call: Call, u: NodeField, model: Model, material: CellField) -> None:
-    """Warn where parameters make other element matrices than those that u was found with."""
-    found = workspace(call.session).solved.get(u, ())
+    """Warn where parameters make other matrices of the first cells than those u was found with."""
+    found, _ = workspace(call.session).origins.get(u, ((), None))
     for zone in model.zones if found else ():
-        if off := families.unlike(found, _first_cells(zone), material):
+        given = [b for b in found if same_elements(b.zone, zone)]
+        if len(given) != 1 or {"PLASTIQUE", "ENDOMMAGEMENT"} & {*zone.behaviour}:
+            continue
+        cells = replace(zone.cells, raw=zone.cells.raw[:_FIRST], _resolved=[])
+        part = replace(zone, cells=cells)
+        known = replace(given[0], zone=part, values=given[0].values[:_FIRST])
+        if off := families.unlike([known], part, material):
             told = {"node": zone.cells.nodes.told(int(zone.cells.raw[0, 0])), "off": off}
             call.warn("operators.statics.stress-of-others", **told)
 
