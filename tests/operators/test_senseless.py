@@ -113,6 +113,10 @@ FILES = {
                   + "".join(f"{i / 100};{i % 7 - 3};{i % 5 - 2}\n" for i in range(121))},
         "operators.curves.record-at-other-step",
     ),
+    "a record in m/s2 times g": (
+        "E = 9.81 * (LIRE 'SIGNAL' 'a.csv' 'SI') ;",
+        {"a.csv": cut(0.1).replace("0;", "0;2")}, "operators.curves.gravity-again",
+    ),
     "a constant added to a record": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ; T = @SEISME (EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' "
         "(0.5 + (EXTR E 'ORDO'))) ;", {"a.csv": cut(0.1)}, "stdlib.seisme-drifts",
@@ -228,6 +232,9 @@ SENSIBLE_FILES = {
     "a record that begins at a fifth of its peak": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ;",
         {"a.csv": cut(0.2)},
+    ),
+    "a record of a peak of 1 m/s2, scaled to g": (
+        "E = 9.81 * (LIRE 'SIGNAL' 'a.csv' 'SI') ;", {"a.csv": cut(0.1)},
     ),
     "surfaces": (
         "S = LIRE 'STL' 'm.stl' ; OPTI DIME 3 ; S = LIRE 'STL' 'n.stl' ;",
