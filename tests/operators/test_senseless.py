@@ -114,8 +114,7 @@ FILES = {
         "operators.curves.record-at-other-step",
     ),
     "a record in m/s2 times g": (
-        "E = 9.81 * (LIRE 'SIGNAL' 'a.csv' 'SI') ;",
-        {"a.csv": cut(0.1).replace("0;", "0;2")}, "operators.curves.gravity-again",
+        "E = 9.81 * (LIRE 'PEER' 'a.txt' 'SI') ;", READ, "operators.curves.gravity-again",
     ),
     "a constant added to a record": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ; T = @SEISME (EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' "
@@ -234,7 +233,8 @@ SENSIBLE_FILES = {
         {"a.csv": cut(0.2)},
     ),
     "a record of a peak of 1 m/s2, scaled to g": (
-        "E = 9.81 * (LIRE 'SIGNAL' 'a.csv' 'SI') ;", {"a.csv": cut(0.1)},
+        "E = 9.81 * (LIRE 'PEER' 'a.txt' 'SI') ;",
+        {"a.txt": READ["a.txt"].replace("2 3 4 5 6", "-1 1 -1 1 0")},
     ),
     "surfaces": (
         "S = LIRE 'STL' 'm.stl' ; OPTI DIME 3 ; S = LIRE 'STL' 'n.stl' ;",

@@ -13,6 +13,7 @@ from ssilang.kernel.statics.linear import product, solve
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.solve import is_anywhere
 
 BEYOND = 1e-3  # of the largest force at a node: no rounding
 
@@ -137,8 +138,17 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     known = {dual_of(name) for s in shapes for name in s.field.components}
     if known.isdisjoint(names := list(force.components)):
         call.warn("operators.modal.force-of-other-names", force, names=names, known=sorted(known))
+    elif is_anywhere(force) and not any(_moved(s.field, force) for s in shapes):
+        call.warn("operators.modal.force-on-supports", force)
     _tell_beyond(call, force, shapes[0].field)
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
+
+
+def _moved(shape: NodeField, force: NodeField) -> bool:
+    """Whether a shape moves anything that a force acts on."""
+    laden = {n: p.nodes[p.values != 0.0] for n, p in force.components.items()}
+    known = [n for n in shape.components if dual_of(n) in laden]
+    return any(shape.values_at(n, laden[dual_of(n)]).any() for n in known)
 
 
 def _tell_beyond(call: Call, force: NodeField, shape: NodeField) -> None:
