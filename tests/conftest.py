@@ -21,7 +21,7 @@ from not_tested import pytest_terminal_summary  # noqa: F401
 from ssilang import late_imports
 from ssilang.cli.main import SELDOM
 from ssilang.cli.sweeping import pool, worker
-from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
+from ssilang.cli.sweeping.worker import Row, Task
 from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
 from ssilang.kernel.solvers.backends import keep_factors
@@ -59,13 +59,8 @@ def one_after_the_other(unsaved: None, monkeypatch: pytest.MonkeyPatch) -> Itera
     Pictures of its figures are composed alone: to write them was most of the rest.
     """
 
-    def row_of(task: Task) -> Row:
-        with pytest.MonkeyPatch.context() as patch:  # the objects of all tests are too many
-            patch.setattr(worker, "gc", SimpleNamespace(get_freeze_count=lambda: 0))
-            return row_anyhow(task)
-
     def run_all(tasks: list[Task], jobs: int) -> Iterator[Row]:
-        return pool.run_all(tasks, jobs) if jobs > 1 else map(row_of, tasks)
+        return pool.run_all(tasks, jobs) if jobs > 1 else pool.run_alone(tasks)
 
     monkeypatch.setattr("ssilang.cli.sweeping.sweep.run_all", run_all)
     yield
@@ -141,6 +136,7 @@ def pytest_collection_finish() -> None:
     gc.collect()  # searches through all come when so much is new as was found here
     # a run asks whether something is frozen, and the answer counts all that is
     late_imports.gc = SimpleNamespace(**vars(gc) | {"get_freeze_count": lambda: 1})
+    worker.gc = SimpleNamespace(get_freeze_count=lambda: 0)  # the objects of all tests are too many
 
 
 class _Memory:
