@@ -17,6 +17,7 @@ from _pytest.pathlib import import_path
 from hypothesis import HealthCheck, settings
 from left_behind import nothing_is_left_behind  # noqa: F401
 from not_tested import pytest_terminal_summary  # noqa: F401
+from petsc_there import lacking
 
 from ssilang import late_imports
 from ssilang.cli.main import SELDOM
@@ -88,6 +89,13 @@ def unplaced(monkeypatch: pytest.MonkeyPatch) -> None:
     """Parts of figures stay where they are put: room for texts is half of a picture's time."""
     engine = "matplotlib.layout_engine.ConstrainedLayoutEngine"
     monkeypatch.setattr(f"{engine}.execute", lambda *_: None)
+
+
+@pytest.fixture(scope="session")
+def petsc_is_there() -> None:
+    """Who runs its tests asks whether it is there, and not each process that collects them."""
+    if lacking():
+        pytest.skip(lacking())
 
 
 class _Nothing(set[str]):
