@@ -117,12 +117,14 @@ LATE = {"operators", "stdlib"}
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Long tests come first: none is left to one process while the others wait for it.
 
+    Then those of the command line, that wait for processes of theirs, so that quick ones are last.
     Then those that compile, so that they are one process's: two would compile the same at a time.
     """
 
-    def order(item: pytest.Item) -> tuple[bool, bool, bool]:
+    def order(item: pytest.Item) -> tuple[bool, ...]:
         folders, short = item.nodeid.split("/"), item.get_closest_marker("long") is None
-        return short, COMPILE.isdisjoint(folders), not LATE.isdisjoint(folders)
+        late = not LATE.isdisjoint(folders)
+        return short, "cli" not in folders, COMPILE.isdisjoint(folders), late
 
     items.sort(key=order)
 
