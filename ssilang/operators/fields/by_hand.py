@@ -161,13 +161,13 @@ def cell_field(
     at = points or integration or (position or "NOEUD").rstrip()
     if at not in _SUPPORTS:
         raise call.error("operators.fields.no-support", support=at, supports=_SUPPORTS)
-    points_at, kind = cast(Support, at), (title or "").rstrip()
+    kind = (title or "").rstrip()
     named = [(name.rstrip(), value) for name, value in pairs]
     if place:
         name, cell = named[-1]
-        return _at_one_point(call, support, name, (cell, *place), points_at, kind)
+        return _at_one_point(call, support, name, (cell, *place), at, kind)
     said = None if constituent is None else constituent.rstrip()
-    return _in_cells(support, named, points_at, kind, said, deal)
+    return _in_cells(support, named, at, kind, said, deal)
 
 
 def _at_one_point(
