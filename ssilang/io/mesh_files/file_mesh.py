@@ -17,6 +17,10 @@ def refuse_doubles(name: str, numbered: Iterable[tuple[int, object]]) -> None:
     Parameters
     ----------
     numbered : pairs of a number and what bears it; the same twice is once
+
+    Raises
+    ------
+    InputError
     """
     known: dict[int, object] = {}
     for number, held in numbered:

@@ -58,7 +58,12 @@ def parents(faces: CellBlock, model: Model) -> Parents:
 
 
 def require_parents(faces: CellBlock, model: Model) -> Parents:
-    """The same, refusing faces that lie on no cell."""
+    """The same, refusing faces that lie on no cell.
+
+    Raises
+    ------
+    MeshError
+    """
     found = parents(faces, model)
     lost = int((found.zone < 0).sum())
     if lost:

@@ -67,7 +67,12 @@ def refuse_parts_of_layer(
 
 
 def refuse_layer_at_rest(matrix: Matrix) -> None:
-    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's)."""
+    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's).
+
+    Raises
+    ------
+    KernelError
+    """
     kinds = {b.kind for b in matrix.blocks if HISTORIES[0] in b.unknowns}
     if kinds == {"RIGIDITE"}:
         raise KernelError("kernel.waves.matched-layer-at-rest")

@@ -18,7 +18,12 @@ def isotropic(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_strengths(parameters: PointParameters) -> None:
-    """Refuse hardening curves with strengths that are not positive."""
+    """Refuse hardening curves with strengths that are not positive.
+
+    Raises
+    ------
+    MaterialError
+    """
     for curve in parameters.curves["ECRO"][0]:
         if (curve.parts[0].ordinates <= 0).any():
             raise MaterialError("kernel.materials.curve-strengths-not", name="ECRO")
@@ -43,7 +48,12 @@ def saturating(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_saturating(parameters: PointParameters) -> None:
-    """Refuse strengths that sink."""
+    """Refuse strengths that sink.
+
+    Raises
+    ------
+    MaterialError
+    """
     slope, rate = parameters["KISO"], parameters["VELO"]
     falls = (rate > 0) & (parameters["SIGI"] < parameters["SIG0"])
     if (falls | (slope < 0) | (rate < 0)).any():
