@@ -240,7 +240,11 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if zone.formulation == "LIAISON" and not isinstance(value, float | CellField):
         return _one_object(value, n)
     if isinstance(value, Mesh | Table | str):
-        raise _no_number(call, name, value)
+        refused = _no_number(call, name, value)
+        if not refused.data["word"]:
+            raise refused
+        call.warn(refused.code, value, **refused.data)  # whoever reads it is refused
+        return _one_object(value, n)
     if name in ("MODS", "MATS"):
         # Refuse what does not describe a section.
         if name == "MODS" and not isinstance(value, Model):
