@@ -342,10 +342,10 @@ def _tell_rounding(
         else:
             _tell_held_side(call, fields, name, node)
             still = name in ways and held(problem)[problem.numbering.index_of(node, name)]
-            told_side = call.session.warned("operators.curves.held-side")
-            first = fields.track not in _LOOKED_AT and not told_side
-            if still and first and problem.loading.forces.any():
-                told = {"node": problem.numbering.table.told(node)}
+            table, up = problem.numbering.table, len(axes_of(problem)) - 1
+            top = float(table.coordinates[problem.numbering.nodes, up].max())
+            if still and table.coordinates[node, up] == top and problem.loading.forces.any():
+                told = {"node": table.told(node)}
                 call.warn("operators.curves.held-there", name=name, **told)
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
