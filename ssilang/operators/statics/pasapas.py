@@ -408,6 +408,9 @@ def _inputs(
     if dynamic and material is not None:
         heavy += [mass(z, material) for z in (*yielding, *finite)]
     sides = sides_of(model, material, stresses.offsets)
+    zones = () if model is None else model.zones
+    if sides.matrix is None and any(z.formulation == "CONTACT" for z in zones):
+        entries.warn("operators.statics.sides-apart")
     more = [] if sides.gaps is None else [LoadPart("MECA", sides.gaps)]
     more += driven_parts(entries)
     if more:

@@ -420,7 +420,7 @@ def test_points_have_each_their_own_answer(name: str) -> None:
 @pytest.mark.parametrize("name", list(GIVEN))
 def test_work_is_stored_or_lost_and_never_won(name: str) -> None:
     """Elastic and locked energy grow by no more than the work, at each fine step of any path."""
-    m, fine = 20, 100
+    m, fine = 20, 60
     p = unlike(name, m)
     law = law_at(LAWS[name], p)
     stress, variables = np.zeros((m, 6)), np.zeros((m, len(law.variables)))
