@@ -83,6 +83,8 @@ class LoadPart:
     beside : tuple of NodeField
         Of the forces of a free field: masses and dampers on the diagonal (of UX, ...) that they
         were found with, the dampers where the free field moves them.
+    free : bool
+        Whether it is said not to follow the matter ('LIBRE').
     """
 
     name: str
@@ -90,6 +92,7 @@ class LoadPart:
     time: Curve | None = None
     steps: tuple[tuple[float, NodeField | CellField], ...] = ()
     beside: tuple[NodeField, ...] = ()
+    free: bool = False
 
 
 @dataclass(frozen=True, eq=False)

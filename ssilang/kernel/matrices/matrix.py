@@ -34,6 +34,9 @@ class ElementMatrices:
         Whether its material has a viscosity, which a matrix of damping is made of.
     dense : bool
         Whether its material has a density, which a mass is made of.
+    part : tuple of two tuples of str, or None
+        Of a part of a matrix: the unknowns and equations that it has, its other columns and rows
+        being zero.
     """
 
     table: NodeTable
@@ -47,6 +50,7 @@ class ElementMatrices:
     symmetric: bool = True
     viscous: bool = False
     dense: bool = False
+    part: tuple[tuple[str, ...], tuple[str, ...]] | None = None
 
     @property
     def nodes(self) -> IntArray:

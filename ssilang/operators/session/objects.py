@@ -109,10 +109,8 @@ def _in_load(call: Call, load: Load) -> bool:
         held = [p.space if p.space is not None else p.steps[0][1] for p in parts]
         made = ["LISTOBJE" if p.steps else type_of(h) for p, h in zip(parts, held, strict=True)]
         return str(kind).strip() in made
-    if said.upper() in ("LIBR", "LIBRE"):
-        return False
-    if said.upper() == "LIE":
-        return bool(load.parts)
+    if said.upper() in ("LIBR", "LIBRE", "LIE"):
+        return any(p.free == (said.upper() != "LIE") for p in load.parts)
     return any(p.name.rstrip() == said for p in load.parts)
 
 
