@@ -55,9 +55,11 @@ def test_the_sound_decks_run(name, tmp_path):
         ("CONTINU", "T1 . 'NB_ITERATION'", "ZNAN", ["not finite"]),  # hung
         ("DYNC", "TN . 'ITERMOY'", "ZNAN", ["number"]),  # hung
         # empty objects
-        ("CONTINU", "T1 . 'FREQUENCE'", "(VIDE 'EVOLUTIO')", ["no curve"]),
-        ("SPPLANC", "T1 . 'EXCIT' . 'DSP'", "(VIDE 'EVOLUTIO')", ["no curve"]),
+        ("CONTINU", "T1 . 'FREQUENCE'", "(VIDE 'EVOLUTIO')", ["is empty"]),
+        ("SPPLANC", "T1 . 'EXCIT' . 'DSP'", "(VIDE 'EVOLUTIO')", ["is empty"]),
+        ("CONTINU of loads", "T1 . 'MODELE'", "(VIDE 'MMODEL')", ["is empty"]),
         ("HBM", "T1 . 'RESULTATS' . 1 . 'COMPOSANTES'", "(MOTS)", ["names no component"]),
+        ("CONTINU of loads", "T1 . 'CARACTERISTIQUES'", "ZCH", ["must be MCHAML"]),
         # out of range
         ("DYNAMIC", "T1 . 'PAS_SAUVES'", "0", ["PAS_SAUVES >= 1"]),
         ("DYNAMIC with a joint", "T1 . 'RHO_INF'", "-1.", ["0 <= RHO_INF <= 1"]),

@@ -186,8 +186,6 @@ def joined_matrix(
     given = [m for m in parts if m is not None]
     if not blocks and not given:
         model: Model = entries.needed("MODELE")
-        if not model.zones:
-            raise entries.error("operators.statics.no-mechanical-zone")
         return Matrix(model.mesh.nodes, (), (), kind)
     table = blocks[0].table if blocks else given[0].table
     all_blocks = (*blocks, *(b for m in given for b in m.blocks))
