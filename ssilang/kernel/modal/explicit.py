@@ -135,10 +135,8 @@ def largest_step(M: FloatArray, K: FloatArray, scheme: str) -> float:
 
 def stiffness_of_links(links: LinkArrays) -> FloatArray:
     """Stiffness (n, n) of the springs of stops at planes, all closed."""
-    flat = links.kinds == PLANE
-    numbers = links.numbers[flat]
-    normals, springs = numbers[:, NX : NZ + 1], numbers[:, STIFF, None]
-    receives, sees = (
-        np.einsum("ld,ldn->ln", normals, a[flat]) for a in (links.receives, links.sees)
-    )
-    return np.asarray(receives.T @ (springs * sees))
+    numbers = links.numbers[links.kinds == PLANE]
+    normals = numbers[:, NX : NZ + 1]
+    receives, sees = (a[links.kinds == PLANE] for a in (links.receives, links.sees))
+    rows = "l,la,lai,lb,lbj->ij", numbers[:, STIFF], normals, receives, normals, sees
+    return np.asarray(np.einsum(*rows))

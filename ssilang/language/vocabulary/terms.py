@@ -105,8 +105,7 @@ class Range:
         if isinstance(value, int | float):
             return None if value in self else self._outside(value, name)
         if type_of(value) == "EVOLUTIO":
-            held = [p.ordinates for p in value.parts if p.ordinates.dtype == float]
-            numbers = np.concatenate([*held, np.empty(0)])
+            numbers = np.hstack([(), *(p.ordinates for p in value.parts if p.ordinates.size)]).real
         elif isinstance(value, ListReel | ListEnti):
             numbers = np.asarray(value.values, dtype=float)
         else:
