@@ -97,6 +97,8 @@ def test_an_entry_that_cannot_be_used_is_named(name, path, value, says, tmp_path
         ("PASAPAS piloted", "T1 . 'ZONE_DE_PILOTAGE'", "(VIDE 'MAILLAGE')"),
         ("DYNC", "TL . 'LIAISON_A' . 1 . 'EXPOSANT'", "1.E-30"),
         ("CONTINU", "T1 . 'MASSE_CONSTANTE'", "(VIDE 'RIGIDITE')"),
+        ("HBM", "T1 . 'BLOCAGES_MECANIQUES'", "ZRI"),
+        ("HBM", "T1 . 'BLOCAGES_MECANIQUES'", "(BLOQ 'UX' P1)"),
     ],
 )
 def test_objects_without_content_end_in_words(name, path, value, tmp_path):
