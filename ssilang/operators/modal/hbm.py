@@ -92,8 +92,7 @@ MATRICES = {
 def known_names(entries: Entries) -> Names:
     """Unknowns and harmonics of a table given to HBM."""
     harmonics = entries.needed("N_HARMONIQUE")
-    words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
-    given = [m for m in (entries.get(w) for w in words) if m is not None]
+    given = [m for source, _ in MATRICES.values() if (m := entries.get(source)) is not None]
     return names_of(given, harmonics)
 
 
@@ -102,8 +101,6 @@ def zhbm(call: Call, table: Table = Arg("TABLE", en="table of HBM")) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
     entries = Entries(call, table, "HBM")
     names = known_names(entries)
-    entries.needed("RIGIDITE_CONSTANTE")
-    entries.needed("MASSE_CONSTANTE")
     for index, (source, terms) in MATRICES.items():
         given = entries.get(source)
         if given is None:
