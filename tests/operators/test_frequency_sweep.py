@@ -35,8 +35,9 @@ AMOR = "T1 . 'AMORTISSEMENT' = AMOR MO CA ;"
     [
         ("VOIGT", "VISC 12.", AMOR, 400.0 + 12.0j * W),
         ("REUSS", "VISC 12.", "", 1.0 / (1.0 / 400.0 + 1.0 / (12.0j * W))),
-        ("COMPLEXE", "VISC 12.", "", 400.0 + 12.0j * W),  # the model's damping, without a matrix
-        ("", "AMOR 5.", "", 400.0 + 4.0j * W),  # per cent of the critical one
+        ("COMPLEXE", "VISC 12.", AMOR, 400.0 + 12.0j * W),
+        ("COMPLEXE", "VISC 12.", "", 400.0),  # numbers count by a matrix alone, and this is told
+        ("", "AMOR 5.", AMOR, 400.0 + 4.0j * W),  # per cent of the critical one
     ],
 )
 def test_springs_and_dashpots_stand_beside_or_behind_each_other(

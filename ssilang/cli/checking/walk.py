@@ -329,7 +329,7 @@ class Checker:
             return None
         evaluator = self.session.evaluator
         if not statement.assigns:
-            if error := evaluator.unread(left):
+            if error := evaluator.unread(statement, left):
                 raise error
             return []
         if any(isinstance(i, tree.Symbol | tree.Quoted) for i in statement.targets):

@@ -236,7 +236,7 @@ class Evaluator(phrases.PhraseRunner):
     def _unnamed(self, statement: tree.Statement) -> list[Operand]:
         """Run a statement without names; the results that nobody takes are dropped."""
         left = self.phrase(statement.items, statement.span, one_name=True)
-        if error := self.unread(left):
+        if error := self.unread(statement, left):
             if not error.warns:
                 raise error
             if statement not in self._warned:
@@ -366,14 +366,15 @@ class Evaluator(phrases.PhraseRunner):
         """Names that have a value, and those of procedures."""
         return {*self.session.frame.names(), *self.session.library.standard_names}
 
-    def unread(self, left: Sequence[Operand]) -> SsiError | None:
+    def unread(self, statement: tree.Statement, left: Sequence[Operand]) -> SsiError | None:
         """The error for what nothing reads in a statement without names.
 
         It warns where the statement is one word or one value, which Cast3M drops (`STOP ;`), but
         for a word that is misspelt or that Cast3M has.
         """
         error = leftover_error([o for o in left if not o.result], self.session.assignments)
-        if error is not None and len(left) == 1 and error.code in ("excess", "unknown-operator"):
+        alone = len(statement.items) == 1
+        if error is not None and alone and error.code in ("excess", "unknown-operator"):
             word = str(left[0].value)
             error.warns = not suggestion(error, self.known_names()) and not find_cast3m_word(word)
         return error

@@ -1,6 +1,6 @@
 """PASAPAS under OPTI 'MODE' 'FREQ': harmonic responses over a sweep of frequencies."""
 
-from ssilang.kernel.elements.families import mass, stiffness, viscosity
+from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.elements import is_joint
@@ -75,12 +75,11 @@ def _inputs(entries: Entries) -> HarmonicInputs:
     none = CellField((), "CARACTERISTIQUES")
     material: CellField = entries.needed("CARACTERISTIQUES") if mechanical else none
     blocks: dict[str, list[ElementMatrices]] = {"RIGIDITE": [], "MASSE": [], "AMORTISSEMENT": []}
-    springs = []
+    springs, silent = [], False
     for zone in (z for z in mechanical if not is_shape(z)):
         if is_impedance(zone):
             given = zone_field(zone, material).own()
-            if counts_damping(zone, given):
-                blocks["AMORTISSEMENT"].append(viscosity(zone, material))
+            silent = silent or counts_damping(zone, given)
             blocks["MASSE"].append(mass(zone, material))
             if dynamic_stiffness(zone, given, 1.0) is not None:
                 springs.append((zone, given))
@@ -93,6 +92,8 @@ def _inputs(entries: Entries) -> HarmonicInputs:
         shapes = shape_matrix(mechanical, material, kind)
         found += [] if shapes is None else [shapes]
     damping = entries.get("AMORTISSEMENT")
+    if silent and damping is None:
+        entries.warn("operators.statics.dashpots-by-numbers")
     if damping is None and blocks["AMORTISSEMENT"]:
         damping = joined_matrix(entries, blocks["AMORTISSEMENT"], (), "AMORTISSEMENT")
     supports = entries.get("BLOCAGES_MECANIQUES")
