@@ -6,6 +6,7 @@ be neither replaced nor removed, as on Windows. Windows' own locks are played by
 
 import ast
 import csv
+import errno
 import io
 import os
 import re
@@ -347,6 +348,11 @@ STRANGE = {
     'a"b': "sign", "end.": "end", "a /b": "end", "a./b.csv": "end",
 }  # fmt: skip
 PLAIN = ("a", "auxiliary.csv", "com.csv", "com10", "x.aux", "../a", "./b", "fort.8", "a b", "é²")
+
+
+def test_a_file_whose_name_says_null_is_no_name_with_a_nought() -> None:
+    fault = OSError(errno.ENOTEMPTY, "Directory not empty", "null")
+    assert system.system_reason(fault) == "Directory not empty"
 
 
 def test_names_that_windows_refuses_are_told() -> None:

@@ -11,16 +11,21 @@ G = 9.81
 STONE = {"YOUN": 3e10, "NU": 0.2, "RHO": 2400.0}
 
 
-def test_a_block_at_rest_carries_its_weight_in_its_joint():
-    b = Builder()
-    block = b.block((-1, 0), (1, 1), size=0.5, **STONE)
-    joint = b.joint(block, KN=1e9, KS=1e9, FROT=0.7)
+def test_blocks_at_rest_carry_their_weights_in_their_joints():
+    """Two beside each other, of other weights and sizes: each in its own joint."""
+    b, found = Builder(), []
+    for x, width, rho in ((-1, 2, 2400.0), (3, 4, 1500.0)):
+        block = b.block((x, 0), (x + width, 1), size=0.5, **STONE | {"RHO": rho})
+        found.append((block, b.joint(block, KN=1e9, KS=1e9, FROT=0.7), rho * G * width))
     motion = b.run([0.0, 0.001, 0.002])
-    normal = motion.traction(joint)[-1, :, -1]
-    weight = 2400.0 * G * 2.0
-    assert normal.mean() * 2.0 == pytest.approx(-weight, rel=2e-3)
-    assert motion.contact(joint) == pytest.approx(1.0)
-    assert np.ptp(motion.history("DEPL", "UY", (1, 1), of=block).y) < 1e-9
+    for (block, joint, weight), x, width in zip(found, (1, 7), (2, 4), strict=True):
+        normal = motion.traction(joint)[-1, :, -1]
+        assert len(normal) == 4 * width
+        assert normal.mean() * width == pytest.approx(-weight, rel=2e-3)
+        assert motion.contact(joint) == pytest.approx(1.0)
+        assert np.ptp(motion.history("DEPL", "UY", (x, 1), of=block).y) < 1e-9
+    with pytest.raises(ssilang.Error, match="nearest"):
+        motion.history("DEPL", "UY", (1, 1), of=block)
 
 
 @together(

@@ -64,6 +64,9 @@ def test_two_nodes_at_one_place_are_told_apart():
     with pytest.raises(ssilang.Error, match=r"several nodes stand there: 1 .* and 2 "):
         r.history("DEPL", "UX", (0.0, 0.0))
     assert r.history("DEPL", "UX", 2).y.tolist() == [1.0]
+    for more, said in ((" V = TABL ; V . 1 = T . 1 ;", "T and V"), (" OUBL T ;", "no table")):
+        with pytest.raises(ssilang.Error, match=said):
+            ssilang.run(deck + more).history("DEPL", "UX", 2)
 
 
 def test_tables_of_results_are_made_as_far_as_they_are_asked_for(oscillator):

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from script_runs import finder, refused
+import pyvista
+from script_runs import finder, ran, refused
 from together import together
 
 from ssilang.cli.run import run_text
@@ -75,6 +76,26 @@ def test_fields_at_a_few_nodes_are_those_of_the_body(step, most, monkeypatch):
                 assert x.components.keys() == y.components.keys()
                 for name, values in x.components.items():
                     assert np.array_equal(values, y.components[name]), name
+
+
+def test_cells_of_a_series_have_what_is_their_own(tmp_path):
+    """Joints have tractions, the block its stresses, ground that yields those of its law."""
+    step = "T . 'MODELE' = MJ ET M1 ET M2 ; T . 'CARACTERISTIQUES' = AJ ET A1 ET A2 ; "
+    step += "T . 'PAS_SAUVES_VTK' = 20 ; T . 'TEMPS_CALCULES' = PROG 0. 'PAS' 2.E-4 0.004 ;"
+    script = BLOCK.format(step=YIELDS + step).partition("T . 'MAILLAGE_SAUVE'")[0]
+    script += "R = R1 . (DIME R1) ; S = SIGM M1 A1 (R . 'DEPL') ; "
+    root = ran(script, tmp_path).session.root
+    ground, joints = root.find("R").get("CONTRAINTES").blocks
+    shown = pyvista.read(tmp_path / "dynamic.0002.vtu").cell_data
+
+    def means(block, *names):
+        return np.stack([block.components[n].mean(axis=1) for n in names], axis=1)
+
+    stresses = [means(b, "SMXX", "SMYY", "SMXY") for b in (root.find("S").blocks[0], ground)]
+    np.testing.assert_allclose(shown["traction"][:4, :2], means(joints, "SMN", "SMSN"))
+    np.testing.assert_allclose(shown["stress"][4:, [0, 1, 3]], np.concatenate(stresses))
+    assert np.isnan(shown["traction"][4:]).all()
+    assert np.isnan(shown["stress"][:4]).all()
 
 
 NAMED = """T . 'RELATIONS_SAUVEES' = TABL ; T . 'RELATIONS_SAUVEES' . 'BASE' = B1 ; """

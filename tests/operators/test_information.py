@@ -1,9 +1,13 @@
-"""INFO, NOTI, AIDE, SOUC."""
+"""INFO, NOTI, AIDE, SOUC, DATE."""
+
+from datetime import datetime
+from types import SimpleNamespace
 
 from script_runs import ran
 from together import together
 
 from ssilang.cli.run import run_text
+from ssilang.operators.session import clock
 
 
 def test_info_prints_the_page_in_the_language_of_the_session(tmp_path):
@@ -79,3 +83,11 @@ def test_assi_runs_a_phrase_for_all_objects_of_a_table(phrase, values, tmp_path)
     found = result.session.root.find("X")
     assert found.subtype == "ESCLAVE"
     assert {i: v for i, v in found.items() if i != "SOUSTYPE"} == values
+
+
+@together("month, word", [(3, "mars"), (8, "août"), (12, "décembre")])
+def test_date_tells_the_month_in_letters(month, word, monkeypatch, tmp_path):
+    now = SimpleNamespace(now=lambda: datetime(2024, month, 9, 7, 5))
+    monkeypatch.setattr(clock, "datetime", now)
+    root = ran("M = DATE 'MOIS' 'LETT' ; D = DATE 'LETT' ;", tmp_path).session.root
+    assert (root.find("M"), root.find("D").rstrip()) == (word, f"9 {word} 2024 - 07H05min")

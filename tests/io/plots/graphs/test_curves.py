@@ -249,20 +249,23 @@ def test_a_legend_says_what_looks_alike_once() -> None:
 @pytest.mark.parametrize("log", [True, False])
 def test_frequencies_of_a_spectrum_have_their_periods_above(log: bool) -> None:
     f = np.geomspace(0.2, 40.0, 60)
-    made = CurvePart(f, 1 / f, "FREQ", "ACCE").measured("Hz")
-    figure = draw_curves(Curve((made,)), CurveOptions(log_x=log))
-    figure.draw_without_rendering()
-    (panel,) = figure.axes
+    plain = tuple(CurvePart(f, a / f, "FREQ", "ACCE", str(a)) for a in (1, 2))
+    made = Curve(tuple(part.measured("Hz") for part in plain))
+    figures = [draw_curves(c, CurveOptions(log_x=log)) for c in (made, Curve(plain))]
+    for figure in figures:
+        figure.draw_without_rendering()
+    (panel,), (bare,) = (figure.axes for figure in figures)
     (upper,) = panel.child_axes
+    above, right_above = (axes.get_legend().get_window_extent().y0 for axes in (panel, bare))
+    assert above > upper.get_tightbbox().y1
+    assert right_above < bare.bbox.y1 + 0.1 * bare.bbox.height
     assert upper.get_xlabel() == "T (s)"
     periods = upper.get_xticks()
     assert len(periods) > 3
     for period in periods:
         place = panel.transData.transform((1.0 / period, 0.0))[0]
         assert upper.transData.transform((period, 0.0))[0] == pytest.approx(place)
-    # 1/f of a signal in time has no such axis
-    (plain,) = draw_curves(Curve((CurvePart(f, 1 / f, "FREQ"),))).axes
-    assert not plain.child_axes
+    assert not bare.child_axes  # of a signal in time
 
 
 def test_pictures_are_numbered_and_svg_keeps_its_words(tmp_path: Path) -> None:
