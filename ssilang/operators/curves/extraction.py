@@ -305,6 +305,6 @@ def _times_left(call: Call, sign: str, number: float, curve: Curve) -> Curve:
     return _times(call, sign, curve, number)
 
 
-for _signs, _kind in ((SIGNS, "ENTIER"), ("+ - / **", "FLOTTANT")):
-    rule(_signs, "EVOLUTIO", _kind)(lambda sign, a, b: _scaled(sign, a, float(b), False))
-    rule(_signs, _kind, "EVOLUTIO")(lambda sign, a, b: _scaled(sign, b, float(a), True))
+for _kind in ("ENTIER", "FLOTTANT"):
+    rule(SIGNS, "EVOLUTIO", _kind)(lambda sign, a, b: _scaled(sign, a, float(b), False))
+    rule(SIGNS, _kind, "EVOLUTIO")(lambda sign, a, b: _scaled(sign, b, float(a), True))
