@@ -233,11 +233,11 @@ class Evaluator(phrases.PhraseRunner):
             return None
         return Operand(Mot(word), item.span, result=True)
 
-    def _unnamed(self, statement: tree.Statement) -> list[Operand]:
-        """Run a statement without names; the results that nobody takes are dropped."""
+    def _unnamed(self, statement: tree.Statement, asked: bool = False) -> list[Operand]:
+        """Run a statement without names; results that nobody takes, or asked for, are dropped."""
         left = self.phrase(statement.items, statement.span, one_name=True)
         if error := self.unread(statement, left):
-            if not error.warns:
+            if asked or not error.warns:
                 raise error
             if statement not in self._warned:
                 self._warned.add(statement)
@@ -252,7 +252,7 @@ class Evaluator(phrases.PhraseRunner):
             operands = self.operands_of(items)
             if not isinstance(operands[0].value, Mot | Texte | Procedure):
                 return [o.value for o in operands]
-        return [o.value for o in self._unnamed(statement)]
+        return [o.value for o in self._unnamed(statement, asked=True)]
 
     def reduced(self, operands: Sequence[Operand], span: Span) -> list[Any]:
         """Values that a phrase of these operands leaves."""
