@@ -17,11 +17,12 @@ from _pytest.pathlib import import_path
 from hypothesis import HealthCheck, settings
 from left_behind import nothing_is_left_behind  # noqa: F401
 from not_tested import pytest_terminal_summary  # noqa: F401
+from petsc_there import lacking
 
 from ssilang import late_imports
 from ssilang.cli.main import SELDOM
 from ssilang.cli.sweeping import pool, worker
-from ssilang.cli.sweeping.worker import Row, Task, row_anyhow
+from ssilang.cli.sweeping.worker import Row, Task
 from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
 from ssilang.kernel.solvers.backends import keep_factors
@@ -59,13 +60,8 @@ def one_after_the_other(unsaved: None, monkeypatch: pytest.MonkeyPatch) -> Itera
     Pictures of its figures are composed alone: to write them was most of the rest.
     """
 
-    def row_of(task: Task) -> Row:
-        with pytest.MonkeyPatch.context() as patch:  # the objects of all tests are too many
-            patch.setattr(worker, "gc", SimpleNamespace(get_freeze_count=lambda: 0))
-            return row_anyhow(task)
-
     def run_all(tasks: list[Task], jobs: int) -> Iterator[Row]:
-        return pool.run_all(tasks, jobs) if jobs > 1 else map(row_of, tasks)
+        return pool.run_all(tasks, jobs) if jobs > 1 else pool.run_alone(tasks)
 
     monkeypatch.setattr("ssilang.cli.sweeping.sweep.run_all", run_all)
     yield
@@ -95,6 +91,13 @@ def unplaced(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(f"{engine}.execute", lambda *_: None)
 
 
+@pytest.fixture(scope="session")
+def petsc_is_there() -> None:
+    """Who runs its tests asks whether it is there, and not each process that collects them."""
+    if lacking():
+        pytest.skip(lacking())
+
+
 class _Nothing(set[str]):
     """What processes of tests may start: the other processors have tests of their own."""
 
@@ -114,12 +117,14 @@ LATE = {"operators", "stdlib"}
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Long tests come first: none is left to one process while the others wait for it.
 
+    Then those of the command line, that wait for processes of theirs, so that quick ones are last.
     Then those that compile, so that they are one process's: two would compile the same at a time.
     """
 
-    def order(item: pytest.Item) -> tuple[bool, bool, bool]:
+    def order(item: pytest.Item) -> tuple[bool, ...]:
         folders, short = item.nodeid.split("/"), item.get_closest_marker("long") is None
-        return short, COMPILE.isdisjoint(folders), not LATE.isdisjoint(folders)
+        late = not LATE.isdisjoint(folders)
+        return short, "cli" not in folders, COMPILE.isdisjoint(folders), late
 
     items.sort(key=order)
 
@@ -141,6 +146,7 @@ def pytest_collection_finish() -> None:
     gc.collect()  # searches through all come when so much is new as was found here
     # a run asks whether something is frozen, and the answer counts all that is
     late_imports.gc = SimpleNamespace(**vars(gc) | {"get_freeze_count": lambda: 1})
+    worker.gc = SimpleNamespace(get_freeze_count=lambda: 0)  # the objects of all tests are too many
 
 
 class _Memory:

@@ -60,6 +60,9 @@ class Workspace:
         What solves for OPTI 'SOLVEUR' 'PETSC', if the run was given a command that starts it.
     heated : mapping of object to str
         What comes of the stresses of a temperature: forces, displacements, stresses; the cells.
+    origins : mapping of NodeField to (element matrices, NodeField or Matrix or None)
+        What displacements and shapes were found with, and the mass of these; of forces that are
+        a mass times accelerations these.
     sides : list of (first side, second side, method)
         What IMPO 'MAIL' made contact meshes of.
     records : mapping of (file, column) to (step, values over the largest)
@@ -80,6 +83,7 @@ class Workspace:
     output: RunOutput | None = None
     petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
+    origins: WeakKeyDictionary[Any, Any] = field(default_factory=WeakKeyDictionary)
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
     sides: list[tuple[Mesh, Mesh, str]] = field(default_factory=list)
     records: dict[tuple[str, int], tuple[float, FloatArray]] = field(default_factory=dict)

@@ -171,6 +171,23 @@ def test_an_entry_that_comes_behind_the_call_it_is_for_is_told(text, told):
 
 
 @together(
+    "text, told",
+    [
+        ("T . 'RIGI' = K ; T . 'MASS' = M ; T . 'RIGI' = K ET B ;", True),
+        ("T . 'RIGI' = K ; T . 'RIGI' = (T . 'RIGI') ET B ;", False),
+        ("T . 'RIGI' = K ; DYNAMIC T ; T . 'RIGI' = K ET B ;", False),
+        ("T . 'RIGI' = K ; T = TABL ; T . 'RIGI' = K ET B ;", False),
+        ("T . 'RIGI' = K ; SI X ; T . 'RIGI' = B ; FINSI ;", False),
+        ("T . 'RIGI' = K ; REPE B 2 ; T . 'RIGI' = B ; DYNAMIC T ; FIN B ;", False),
+        ("U = T ; T . 'RIGI' = K ; DYNAMIC U ; T . 'RIGI' = B ;", False),
+        ("DEBP RUNS ; PASAPAS T ; FINP ; T . 'RIGI' = K ; RUNS ; T . 'RIGI' = B ;", False),
+    ],
+)
+def test_an_entry_that_is_set_twice_and_not_read_between_is_told(text, told):
+    assert ("entry-twice" in codes("T = TABL ; " + text)) == told
+
+
+@together(
     "text",
     [
         STALE + "A = MATE M 'KN' 2. ; K = RIGI M A ; MESS K ;",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from petsc_there import COMMAND as COMMAND_OF_PETSC
-from petsc_there import environment, lacking
+from petsc_there import environment
 
 from ssilang.io.mesh_files import gmsh_alone
 from ssilang.kernel.solvers.petsc.client import SERVER
@@ -178,7 +178,7 @@ def test_settings_of_libraries(tmp_path: Path) -> None:
     assert ran(place) == []
 
 
-@pytest.mark.skipif(bool(lacking()), reason=lacking() or "it is there")
+@pytest.mark.usefixtures("petsc_is_there")
 def test_options_of_petsc(tmp_path: Path) -> None:
     """Its options write any file."""
     (tmp_path / "case.ssi").write_text("OPTI 'SOLVEUR' 'PETSC' ; " + DRAWN.replace("\n", " "))

@@ -23,6 +23,7 @@ from left_behind import closed_pipes_end_it
 
 import ssilang
 from ssilang.cli.run import run_text
+from ssilang.cli.sweeping import worker
 from ssilang.cli.sweeping.given import parse_values
 from ssilang.cli.sweeping.pool import run_grown, run_here
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
@@ -556,7 +557,7 @@ def test_a_trunk_or_a_fork_that_dies_costs_its_own_run_alone(tmp_path, work, los
     assert [r["run"] for r in rows if r["exit_code"]] == [lost]
 
 
-def test_what_a_run_of_a_fork_leaves_is_gone_before_the_next(tmp_path):
+def test_what_a_run_of_a_fork_leaves_is_gone_before_the_next(tmp_path, monkeypatch):
     left = []
 
     def work(task):
@@ -565,12 +566,9 @@ def test_what_a_run_of_a_fork_leaves_is_gone_before_the_next(tmp_path):
         left.append(weakref.ref(session.arrays))
         return {}
 
-    gc.freeze()  # as the process does from which others fork
-    try:
-        assert row_anyhow(Task(1, tmp_path, tmp_path, {}), work) == {}
-        assert left[0]() is None
-    finally:
-        gc.unfreeze()
+    monkeypatch.setattr(worker, "gc", gc)  # what is there of other tests is frozen, as of the trunk
+    assert row_anyhow(Task(1, tmp_path, tmp_path, {}), work) == {}
+    assert left[0]() is None
 
 
 def test_a_sweep_that_is_left_ends_its_processes(tmp_path):

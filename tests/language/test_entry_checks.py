@@ -147,16 +147,16 @@ def test_swapped_letters_count_once():
 
 
 def test_entries_without_effect_are_told_once_and_those_that_ask_for_nothing_are_not():
-    more = "T1 . 'SUBSTEPPING' = 3 ; T1 . 'NMAXSUBSTEPS' = 5 ; T1 . 'ACCELERATION' = FAUX ;"
+    more = "T1 . 'K_TANGENT' = 3 ; T1 . 'MAXISOUSPAS' = 5 ; T1 . 'ACCELERATION' = FAUX ;"
     more += "T1 . 'HYPOTHESE_DEFORMATIONS' = 'LINEAIRE' ;"  # what PASAPAS does anyway
     result = ran(BLOCK + more + "PASAPAS T1 ;")
     (said,) = [w for w in result.session.warnings if w.code == "entries-without-effect"]
     told, _ = sentence(said, "en")
-    assert "'SUBSTEPPING' and 'NMAXSUBSTEPS' without effect" in told
+    assert "'K_TANGENT' and 'MAXISOUSPAS' without effect" in told
     assert "ACCELERATION" not in told
     assert "HYPOTHESE_DEFORMATIONS" not in told
     told, _ = sentence(said, "fr")
-    assert "'SUBSTEPPING' et 'NMAXSUBSTEPS' sans effet" in told
+    assert "'K_TANGENT' et 'MAXISOUSPAS' sans effet" in told
 
 
 def test_an_entry_without_effect_here_that_the_script_reads_itself_is_no_warning():

@@ -133,7 +133,10 @@ def test_initial_stress_is_balanced_by_the_first_load(first, tmp_path):
 def test_user_procedure_runs_after_each_time_and_may_stop(tmp_path):
     text = """
     DEBP PERSO1 T*TABLE ;
-      T . 'COMPTE' = (T . 'COMPTE') + 1 ;
+      T . 'COMPTE' = (T . 'COMPTE') + 1 ; W = T . 'WTABLE' ;
+      SI ((W . 'PAS' NEG (T . 'COMPTE')) OU (W . 'T_FINAL' NEG (T . 'ESTIMATION' . 'TEMPS'))) ;
+        ERRE 5 ;
+      FINSI ;
       SI ((T . 'COMPTE') EGA 3) ; T . 'ARRET' = VRAI ; FINSI ;
     FINP ;
     """

@@ -113,6 +113,9 @@ FILES = {
                   + "".join(f"{i / 100};{i % 7 - 3};{i % 5 - 2}\n" for i in range(121))},
         "operators.curves.record-at-other-step",
     ),
+    "a record in m/s2 times g": (
+        "E = 9.81 * (LIRE 'PEER' 'a.txt' 'SI') ;", READ, "operators.curves.gravity-again",
+    ),
     "a constant added to a record": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ; T = @SEISME (EVOL 'MANU' 'TEMP' (EXTR E 'ABSC') 'ACCE' "
         "(0.5 + (EXTR E 'ORDO'))) ;", {"a.csv": cut(0.1)}, "stdlib.seisme-drifts",
@@ -228,6 +231,10 @@ SENSIBLE_FILES = {
     "a record that begins at a fifth of its peak": (
         "E = LIRE 'SIGNAL' 'a.csv' 1. ;",
         {"a.csv": cut(0.2)},
+    ),
+    "a record of a peak of 1 m/s2, scaled to g": (
+        "E = 9.81 * (LIRE 'PEER' 'a.txt' 'SI') ;",
+        {"a.txt": READ["a.txt"].replace("2 3 4 5 6", "-1 1 -1 1 0")},
     ),
     "surfaces": (
         "S = LIRE 'STL' 'm.stl' ; OPTI DIME 3 ; S = LIRE 'STL' 'n.stl' ;",

@@ -111,6 +111,30 @@ def test_a_spring_and_a_dashpot_in_series_move_in_time_as_maxwell_says(cells, he
     assert exact[-1] > 0.08  # it stays there: nothing pulls it back
 
 
+@together(
+    "law, moves",
+    [
+        ("REUSS", [[0, 1, 0], [0, 0, -1], [0, 400, -400 / 12]]),
+        ("VOIGT", [[0, 1], [-400, -12]]),
+    ],
+)
+@together("damped", ["", "T1 . 'AMORTISSEMENT' = AMOR MO CA ;"])
+def test_pasapas_has_the_dashpot_of_a_law_once(law, moves, damped):
+    """Whether a matrix brings it or not: the exponential of the motion's matrix."""
+    result = ran(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; "
+        f"MO = MODE P 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' '{law}' (MOTS UX) ; "
+        "CA = MATE MO 'RAID' 400. 'VISC' 12. 'MASS' 1. ; T1 = TABL ; T1 . 'MODELE' = MO ; "
+        f"T1 . 'CARACTERISTIQUES' = CA ; T1 . 'DYNAMIQUE' = VRAI ; {damped} "
+        "T1 . 'VITESSES' = TABL ; T1 . 'VITESSES' . 0 = MANU 'CHPO' P 'UX' 1. ; "
+        "T1 . 'TEMPS_CALCULES' = PROG 0. 'PAS' 1.E-3 0.1 ; PASAPAS T1 ; "
+        "X = EXTR (T1 . 'DEPLACEMENTS' . 100) 'UX' P ;"
+    )
+    start = [0.0, 1.0, 0.0][: len(moves)]
+    exact = (expm(np.array(moves) * 0.1) @ start)[0]
+    assert result.session.root.find("X") == pytest.approx(exact, rel=1e-3)
+
+
 def test_modes_of_a_spring_and_a_dashpot_in_series_are_those_of_maxwell():
     found = finder(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; G = MANU 'POI1' P ; "

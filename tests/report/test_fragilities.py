@@ -385,7 +385,9 @@ def test_without_limits_nothing_of_an_earlier_command_stays(case):
     run(case, ["drift>1"])
     out, err = io.StringIO(), io.StringIO()
     sweep(
-        SweepOptions(case / "case.ssi", ["AG=0.6,1,1.6"], case / "motions", case / "out"), out, err
+        SweepOptions(case / "case.ssi", ["AG=0.6,1,1.6"], case / "motions", case / "out", jobs=1),
+        out,
+        err,
     )
     assert not list((case / "out").glob("fragility*"))
 

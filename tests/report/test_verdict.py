@@ -30,7 +30,7 @@ def test_the_report_has_them_with_their_limits_marked(verdict_run):
     page = (verdict_run / "report.html").read_text()
     part = re.search(r'<section id="verdict">(.*?)</section>', page, re.DOTALL)[1]
     verdict = json.loads((verdict_run / "summary.json").read_text())["statistics"]["verdicts"][0]
-    assert "Bilan de la semelle" in part
+    assert "bilan de la semelle" in part
     use = verdict["peaks"]["TAUX"]["value"]
     assert use > 1.0
     assert f'<b class="bad">{use:.5g}</b>' in part

@@ -1,6 +1,7 @@
 """Entries that a script puts into a table for a procedure: unknown ones, and wrong values."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from ssilang.cli.checking.kinds import ANY_WORD, kind_word
@@ -48,6 +49,7 @@ def doubtful_entries(script: tree.Script, session: Session, values: Values) -> I
                     given.setdefault(target.base.text, {})[index.text.rstrip()] = target
     for table, call in called.items():
         yield from () if table in procedures else _late(script, table, *call)
+    yield from _twice(script)
 
 
 def _late(
@@ -73,6 +75,36 @@ def _late(
         if own and isinstance(index, tree.Quoted) and table not in reads(code, index.text):
             told = {"procedure": declared.name, "where": f"'{index.text}'"}
             yield SsiError("entry-behind-call", target.span, **told)
+
+
+def _twice(script: tree.Script) -> Iterator[SsiError]:
+    """Entries that are set again while nothing has read their table since.
+
+    Tables that have another name too, or that procedures of the script may read, are left alone.
+    """
+    alone = [s.items[0] for s in statements_of(script.body) if s.targets and len(s.items) == 1]
+    others = {i.text for i in alone if isinstance(i, tree.Name)}
+    others |= _names_in(n for n in script.body if isinstance(n, tree.Definition))
+    fresh = list[tuple[str, str]]()
+    for node in script.body:
+        entry = None
+        if isinstance(node, tree.Statement):
+            target = (*node.targets, None)[0]
+            if isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
+                entry = target.base.text, " . ".join(i.span.text for i in target.indices)
+                known = all(isinstance(i, tree.Quoted) for i in target.indices)
+                node = replace(node, targets=target.indices)
+            fresh *= not reads_all(node)
+        fresh = [key for key in fresh if key[0] not in _names_in([node])]
+        if entry in fresh:
+            yield SsiError("entry-twice", node.span, where=entry[1])
+        fresh += [entry] if entry is not None and known and entry[0] not in others else []
+
+
+def _names_in(nodes: Iterable[tree.Node]) -> set[str]:
+    """Names that stand anywhere in statements."""
+    parts = (i for s in statements_of(nodes) for i in tree.leaves((*s.items, *s.targets)))
+    return {i.text for i in parts if isinstance(i, tree.Name)}
 
 
 def _copied(statement: tree.Statement, given: Given) -> dict[str, tree.Path]:

@@ -329,7 +329,8 @@ class Checker:
             return None
         evaluator = self.session.evaluator
         if not statement.assigns:
-            evaluator.refuse_leftovers([o for o in left if not o.result])
+            if error := evaluator.unread(left):
+                raise error
             return []
         if any(isinstance(i, tree.Symbol | tree.Quoted) for i in statement.targets):
             return None

@@ -122,6 +122,7 @@ ELEMENTS: dict[str, ElementKind] = {
         ElementKind("M1D3", "SEG3", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 3}),
         ElementKind("BARR", "SEG2", "bar", FRAME_MODES, _ROD),
         ElementKind("BAR3", "SEG3", "bar", FRAME_MODES, _ROD),
+        ElementKind("POI1", "POI1", "across", PLANE_MODES[2:], {"RIGIDITE": 1}, default=False),
         ElementKind("CERC", "POI1", "hoop", SECTION_MODES[-2:], {"RIGIDITE": 1}, default=False),
         ElementKind("POUT", "SEG2", "beam", FRAME_MODES, {"RIGIDITE": 2}, default=False),
         ElementKind(

@@ -8,7 +8,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements import zone_fields
-from ssilang.kernel.elements.beams.bar import Bar, Hoop
+from ssilang.kernel.elements.beams.bar import Across, Bar, Hoop
 from ssilang.kernel.elements.beams.beam import Beam, FibreBeam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_section import Fibre
 from ssilang.kernel.elements.beams.pipe import Pipe
@@ -38,6 +38,7 @@ FAMILIES: dict[str, ElementFamily] = {
     "one point": OnePoint(),
     "bar": Bar(),
     "hoop": Hoop(),
+    "across": Across(),
     "beam": Beam(),
     "timoshenko": Timoshenko(),
     "pipe": Pipe(),

@@ -8,7 +8,8 @@ the force is, on each unknown by itself,
 
 RAID k, VISC c, MASS (inertia of a point, AMOR per cent of the critical damping it then has) act
 on translations, on the shares ALFA BETA of modes and static shapes, and on the unknowns that the
-model names; where CPLE is given, CPLE, INER, AROT take their place on rotations.
+model names; where CPLE is given, CPLE, INER, AROT take their place on rotations. VISC of VOIGT and
+REUSS is part of the law: PASAPAS has it without AMORTISSEMENT.
 
 REUSS has matrices on a node of its own in each cell, where spring and dashpot meet: the spring
 lies between the first point and that node, the dashpot between it and the second point (or the
@@ -176,10 +177,8 @@ def in_series(zone: Zone, parameters: ZoneField, kind: str) -> tuple[FloatArray,
     outer = impedance_layout(zone, parameters)
     m, two = len(outer.unknowns), zone.cells.cell_type == "SEG2"
     ends = m // 2 if two else m
-    plain = "CPLE" in parameters  # rotations then have a stiffness alone
-    inner = [i for i in range(ends) if not (plain and outer.unknowns[i] in _ROTATIONS)]
-    local = np.concatenate([outer.local, np.full(len(inner), 2 if two else 1)])
-    names = (*outer.unknowns, *(outer.unknowns[i] for i in inner))
+    local = np.concatenate([outer.local, np.full(ends, 2 if two else 1)])
+    names = (*outer.unknowns, *outer.unknowns[:ends])
     known: dict[str, Any] = zone.options  # inner nodes are the same for each matrix
     if "INNER" not in known:
         known["INNER"] = zone.cells.nodes.add(zone.cells.coordinates.mean(axis=1))
@@ -187,16 +186,11 @@ def in_series(zone: Zone, parameters: ZoneField, kind: str) -> tuple[FloatArray,
     layout = Layout(zone.cells.nodes, raw, local, names)
     out = np.zeros((len(zone.cells), len(names), len(names)))
     elastic = kind == "RIGIDITE"
-    if elastic:
-        values = _values(zone, parameters, "RIGIDITE", required=True)[0]
-        out[:, :m, :m] = spread(zone, outer, (0 * values, _values(zone, parameters, kind)[1]))
-        if not plain:
-            out[:, :m, :m] = 0.0
-    else:
-        values = np.broadcast_to(parameters.at("VISC", "RIGIDITE")[:, 0], (len(zone.cells),))
-    for place, i in enumerate(inner):
+    viscous = parameters.at("VISC", "RIGIDITE")[:, 0]
+    springs = _values(zone, parameters, "RIGIDITE", required=True) if elastic else (viscous,) * 2
+    for i in range(ends):
         other = i if elastic else i + ends if two else None
-        one = m + place
+        one, values = m + i, springs[int(names[i] in _ROTATIONS)]
         out[:, one, one] += values
         if other is not None:
             out[:, other, other] += values
@@ -216,12 +210,13 @@ def dynamic_stiffness(
     law, layout = law_of_impedance(zone), impedance_layout(zone, parameters)
     pulsation = 2.0 * np.pi * frequency
     if law == "REUSS":
-        k = _values(zone, parameters, "RIGIDITE", required=True)[0]
         c = parameters.at("VISC", "RIGIDITE")[:, 0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            share = 1j * pulsation * c / (k + 1j * pulsation * c)
-        series = np.where(k + pulsation * c > 0.0, k * share, 0.0)
-        return spread_complex(zone, layout, series, parameters), layout
+        series = []
+        for k in _values(zone, parameters, "RIGIDITE", required=True):
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = 1j * pulsation * c / (k + 1j * pulsation * c)
+            series.append(np.where(k + pulsation * c > 0.0, k * share, 0.0))
+        return _complex(zone, layout, *series), layout
     if law == "COMPLEXE" and (curves := _curves(parameters)):
         moving = np.zeros(len(zone.cells), complex)
         for name, parts in curves.items():
@@ -238,6 +233,12 @@ def spread_complex(
     turning = moving
     if "CPLE" in parameters:
         turning = _values(zone, parameters, "RIGIDITE")[1].astype(complex)
+    return _complex(zone, layout, moving, turning)
+
+
+def _complex(
+    zone: Zone, layout: Layout, moving: ComplexArray, turning: ComplexArray
+) -> ComplexArray:
     real = spread(zone, layout, (moving.real, turning.real))
     return real + 1j * spread(zone, layout, (moving.imag, turning.imag))
 

@@ -158,6 +158,7 @@ class ZoneField:
         if values.dtype == object:
             first = values.flat[0]
             told = {"name": name, "found": first, "curve": isinstance(first, Curve | Cloud)}
+            told["word"] = first if isinstance(first, str) else ""
             raise MaterialError("kernel.elements.parameter-not-a-number", **told)
         return values.astype(float, copy=False), support
 

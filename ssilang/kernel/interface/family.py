@@ -16,12 +16,14 @@ from ssilang.kernel.elements.family import (
     ElementFamily,
     Layout,
     StrainOperator,
+    cell_block,
     element_matrices,
     node_major_layout,
 )
 from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
-from ssilang.kernel.fields.cell_field import CellField, Support
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.bed import twisting_stiffness, yields
 from ssilang.kernel.interface.elements import joint_element
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells, point_values
@@ -71,6 +73,17 @@ def rotational_stiffness(zone: Zone, given: CellField) -> ElementMatrices | None
         moduli[..., :d, :d] = 0.0
     values = family.stiffness_values(zone, moduli, parameters)
     return element_matrices(zone, family.layout(zone), values, "RIGIDITE", keep_zone=False)
+
+
+def jump_gradient(zone: Zone, displacement: NodeField, given: ZoneField) -> CellFieldBlock:
+    """Jumps in local axes by names of gradients: UX,X UY,X (UZ,X) of JOI1, normal first; US,N UN,N
+    or U1,N U2,N UN,N of others.
+    """
+    d = joint_element(zone).dimension
+    names = ("UX,X", "UY,X", "UZ,X")[:d]
+    if zone.element != "JOI1":
+        names = ("US,N", "UN,N") if d == 2 else ("U1,N", "U2,N", "UN,N")
+    return cell_block(zone, names, JointFamily().strain_values(zone, displacement, given))
 
 
 def component_order(zone: Zone) -> list[int]:

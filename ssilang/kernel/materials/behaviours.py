@@ -27,8 +27,8 @@ OTHER_FORMULATIONS = {
 _SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "hoop", "beam", "timoshenko",
-        "pipe", "joint", "fibre",
+        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "hoop", "across", "beam",
+        "timoshenko", "pipe", "joint", "fibre",
     ),
     "SECTION": ("timoshenko",),
     "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
@@ -52,7 +52,7 @@ PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 SECTION_FAMILIES = ("plate", "meridian", "beam", "timoshenko", "pipe")
 """Families whose sections yield as a whole; DKT also at points across the thickness."""
 PLASTIC_FAMILIES = (
-    "solid", "incompressible", "bar", "hoop", "fibre", "thick", *SECTION_FAMILIES
+    "solid", "incompressible", "bar", "hoop", "across", "fibre", "thick", *SECTION_FAMILIES
 )  # fmt: skip
 """Families of elements that have plastic laws."""
 
@@ -61,10 +61,10 @@ UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
 UNIAXIAL_FAMILIES = ("fibre", "bar")
 """Families of elements that have them."""
 
-CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "thick", "plate", "meridian")
+CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "across", "thick", "plate", "meridian")
 """Families of elements that creep, thin shells by the forces of their sections."""
 
-DAMAGE_FAMILIES = ("solid", "bar", "hoop")
+DAMAGE_FAMILIES = ("solid", "bar", "hoop", "across")
 """Families of elements that are damaged."""
 
 OWN_LAWS = {

@@ -99,6 +99,7 @@ _GEOMETRY: dict[str, Names] = {
     **dict.fromkeys(SOLID_FAMILIES, Names((), ("DIM3",))),
     "bar": Names(("SECT",)),
     "hoop": Names(("SECT",)),
+    "across": Names(("SECT",)),
     "fibre": Names(("ALPY", "ALPZ"), ("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
     "pipe": Names(

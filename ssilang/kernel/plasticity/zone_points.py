@@ -140,7 +140,9 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_fields.zone_field(zone, characteristics)
-    bar, thick = (ELEMENTS[zone.element].family in n for n in (("bar", "hoop"), ("thick",)))
+    bar, thick = (
+        ELEMENTS[zone.element].family in n for n in (("bar", "hoop", "across"), ("thick",))
+    )
     if not bar and zone.mode not in COMPONENTS:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     parts = [

@@ -13,11 +13,14 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.scientific import spatial
+from ssilang.kernel.elements.solids.kinematics import harmonic
 from ssilang.kernel.interface.elements import is_joint
-from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 from ssilang.kernel.mesh.nodes import NodeTable
 
+RINGS, MOVES = ("UR", "UT", "UZ"), {0: ("UZ",), 1: ("UR", "UT")}
+"""Unknowns of revolution, and by the harmonic those that its axis has; beyond, it is at rest."""
 NEAR = 1e-6
 """Distance below which two nodes are at the same place, as a part of the body's extent."""
 
@@ -117,6 +120,22 @@ def clamped_alone(matrix: Matrix) -> IntArray:
     held: IntArray = terms.nodes[terms.alone & (terms.sense == 0) & np.isin(terms.nodes, own)]
     borne = int(np.isin(np.concatenate([n.ravel() for n in springs]), own).sum())
     return held[: int(len(held) > PLANE and (held == held[0]).all() and borne >= PLANE)]
+
+
+def held_on_axis(matrix: Matrix) -> IntArray:
+    """Nodes (n,) of most of the axis, held along what moves there, free along what is at rest."""
+    cells = [b for b in matrix.blocks if b.zone and b.zone.mode is Mode.FOURIER]
+    if not cells:
+        return np.zeros(0, np.int64)
+    assert cells[0].zone is not None
+    own, terms = np.unique(np.concatenate([b.nodes.ravel() for b in cells])), terms_of(matrix)
+    radii = np.abs(matrix.table.coordinates[own, 0])
+    axis, moves = own[radii <= NEAR * radii.max()], MOVES.get(harmonic(cells[0].zone), ())
+    held = {u: np.isin(axis, terms.nodes[terms.alone & (terms.names == u)]) for u in RINGS}
+    along = np.any([axis < 0, *(held[u] for u in moves)], axis=0)
+    across = np.all([axis >= 0, *(held[u] for u in RINGS if u not in moves)], axis=0)
+    wrong: IntArray = axis[along & ~across]
+    return wrong if len(wrong) > max(1, len(axis) // 2) else wrong[:0]
 
 
 def held_nowhere(matrix: Matrix) -> set[str]:

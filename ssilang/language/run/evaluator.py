@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.language.cast3m import find_cast3m_word
 from ssilang.language.run import phrases
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
@@ -12,10 +13,11 @@ from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
 from ssilang.language.run.not_built import put_off
 from ssilang.language.run.session import LoopObserver, Session
+from ssilang.language.say.diagnostics import suggestion
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
-from ssilang.language.values import Mot, Objet, Procedure, Table, Texte, type_of
+from ssilang.language.values import ANNULE, Mot, Objet, Procedure, Table, Texte, type_of
 from ssilang.language.vocabulary.entries import is_declared_value
 from ssilang.messages.message import Sentence
 
@@ -25,6 +27,7 @@ DIRECTIVES = frozenset(
 """Operators that give nothing, so that none of them can be a part of a condition."""
 
 
+_GO_ON = frozenset({"IGNORE", "CONTROLE"})
 _NOTHING_TO_READ = frozenset({"wrong-argument", "missing-argument", "missing-keyword"})
 
 
@@ -151,24 +154,27 @@ class Evaluator(phrases.PhraseRunner):
     # ---- statements ------------------------------------------------------------------------
 
     def _tolerant(self, statement: tree.Statement) -> None:
-        """Run a statement; with OPTI ERRE IGNORE its errors are shown and the run goes on.
+        """Run a statement; under OPTI ERRE IGNORE, CONTROLE errors are shown and the run goes on.
 
         It goes on too behind an operator of Cast3M that is not built, until its result is read.
         """
         try:
             self._statement(statement)
         except SsiError as error:
-            known = {*self.session.frame.names(), *self.session.library.standard_names}
-            if later := put_off(statement, error, known):
-                self._warn_once(statement, "not-built-yet", error.span, **error.data)
-                for target in statement.targets:
-                    self.store(target, later)
+            if self.session.options.get("ERRE") in _GO_ON:
+                if error.span is None:
+                    error.span = statement.span
+                self.session.report(error)
+                for target in statement.targets:  # they hold nothing, whatever they held
+                    if isinstance(target, tree.Name):
+                        self.store(target, ANNULE)
                 return
-            if self.session.options.get("ERRE") != "IGNORE":
+            later = put_off(statement, error, self.known_names())
+            if later is None:
                 raise
-            if error.span is None:
-                error.span = statement.span
-            self.session.report(error)
+            self._warn_once(statement, "not-built-yet", error.span, **error.data)
+            for target in statement.targets:
+                self.store(target, later)
 
     def _begin(self, span: Span) -> None:
         """Note the place and count what is run, conditions and turns of loops included."""
@@ -230,7 +236,12 @@ class Evaluator(phrases.PhraseRunner):
     def _unnamed(self, statement: tree.Statement) -> list[Operand]:
         """Run a statement without names; the results that nobody takes are dropped."""
         left = self.phrase(statement.items, statement.span, one_name=True)
-        self.refuse_leftovers([o for o in left if not o.result])
+        if error := self.unread(left):
+            if not error.warns:
+                raise error
+            if statement not in self._warned:
+                self._warned.add(statement)
+                self.session.report(error)
         return left
 
     def values_of(self, statement: tree.Statement) -> list[Any]:
@@ -350,6 +361,22 @@ class Evaluator(phrases.PhraseRunner):
             self.object_of(target).attributes[target.name] = value
         else:
             raise SsiError("target", target.span)
+
+    def known_names(self) -> set[str]:
+        """Names that have a value, and those of procedures."""
+        return {*self.session.frame.names(), *self.session.library.standard_names}
+
+    def unread(self, left: Sequence[Operand]) -> SsiError | None:
+        """The error for what nothing reads in a statement without names.
+
+        It warns where the statement is one word or one value, which Cast3M drops (`STOP ;`), but
+        for a word that is misspelt or that Cast3M has.
+        """
+        error = leftover_error([o for o in left if not o.result], self.session.assignments)
+        if error is not None and len(left) == 1 and error.code in ("excess", "unknown-operator"):
+            word = str(left[0].value)
+            error.warns = not suggestion(error, self.known_names()) and not find_cast3m_word(word)
+        return error
 
     def refuse_leftovers(self, left: Sequence[Operand], taken: Sequence[Operand] = ()) -> None:
         """Raise the error for operands that nothing read, behind those taken, if there are any."""

@@ -66,6 +66,9 @@ class Runner(Protocol):
     def refuse_leftovers(self, left: Sequence[Any], taken: Sequence[Any] = ()) -> None:
         """Raise the error for operands that nothing read, if there are any."""
 
+    def unread(self, left: Sequence[Any]) -> Any:
+        """The error or warning for what nothing reads in a statement without names."""
+
     def reduced(self, operands: Sequence[Any], span: Span) -> list[Any]:
         """Values that a phrase of these operands leaves."""
 

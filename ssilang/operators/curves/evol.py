@@ -341,6 +341,12 @@ def _tell_rounding(
             _LOOKED_AT.setdefault(fields.track, set()).add(node)
         else:
             _tell_held_side(call, fields, name, node)
+            still = name in ways and held(problem)[problem.numbering.index_of(node, name)]
+            told_side = call.session.warned("operators.curves.held-side")
+            first = fields.track not in _LOOKED_AT and not told_side
+            if still and first and problem.loading.forces.any():
+                told = {"node": problem.numbering.table.told(node)}
+                call.warn("operators.curves.held-there", name=name, **told)
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
     known = node in _LOOKED_AT.get(fields.track, ())

@@ -2,6 +2,7 @@
 
 from ssilang.io.plots.palette import NAMES
 from ssilang.kernel.curves.algebra import combined, is_complex
+from ssilang.kernel.waves.shaken import GRAVITIES
 from ssilang.operators.curves.words import CURVE, read_colour
 from ssilang.operators.dispatch import CHAN, COPI, DIME, EXTR, MAXI, MINI, ORDO, union
 from ssilang.operators.numbers.arithmetic import _ARRAY, SIGNS, rule, rule_with_call
@@ -286,6 +287,24 @@ def _scaled(sign: str, curve: Curve, number: Any, left: bool) -> Curve:
     return replace(curve, parts=tuple(parts))
 
 
-for _kind in ("ENTIER", "FLOTTANT"):
-    rule(SIGNS, "EVOLUTIO", _kind)(lambda sign, a, b: _scaled(sign, a, float(b), False))
-    rule(SIGNS, _kind, "EVOLUTIO")(lambda sign, a, b: _scaled(sign, b, float(a), True))
+_NORMED = 0.01  # of a record whose largest value is one
+
+
+@rule_with_call("*", "EVOLUTIO", "FLOTTANT")
+def _times(call: Call, sign: str, curve: Curve, number: float) -> Curve:
+    """Told: a record in m/s2, but one of a peak of 1, times what makes m/s2 of g."""
+    known = [p for p in curve.parts if p.units[1] == "m/s2" and abs(number) in GRAVITIES]
+    for peak in (float(np.abs(p.ordinates).max(initial=0.0)) for p in known):
+        if abs(peak - 1.0) > _NORMED:
+            call.warn("operators.curves.gravity-again", curve, number=number, value=peak)
+    return _scaled(sign, curve, number, False)
+
+
+@rule_with_call("*", "FLOTTANT", "EVOLUTIO")
+def _times_left(call: Call, sign: str, number: float, curve: Curve) -> Curve:
+    return _times(call, sign, curve, number)
+
+
+for _signs, _kind in ((SIGNS, "ENTIER"), ("+ - / **", "FLOTTANT")):
+    rule(_signs, "EVOLUTIO", _kind)(lambda sign, a, b: _scaled(sign, a, float(b), False))
+    rule(_signs, _kind, "EVOLUTIO")(lambda sign, a, b: _scaled(sign, b, float(a), True))

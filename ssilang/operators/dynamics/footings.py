@@ -1,6 +1,6 @@
 """ZSEM: what the joints under a footing carry in time, behind the procedure @BILANSSI."""
 
-from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
 from ssilang.kernel.interface.family import ROTATIONS, displacement_names
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import (
@@ -11,10 +11,12 @@ from ssilang.kernel.interface.interface import (
     state_from_field,
 )
 from ssilang.kernel.interface.kinematics import JointCells
-from ssilang.kernel.interface.laws.columns import Parameter
+from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.parameter_table import joint_parameters
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.operators.prelude import *
+
+OFF = 1e-3  # of the largest pressure: no rounding
 
 
 @operator("ZSEM", family="dynamics")
@@ -49,6 +51,8 @@ def zsem(
     w = np.array([_jumps(interface, row) for row in u])
     stresses = [cast(CellField, tractions.get(i + 1)) for i in range(len(u))]
     t = np.array([point_values(interface, field, "traction") for field in stresses])
+    for code, told in _of_others(interface, stresses[0], w, t):
+        call.warn(code, **told)
     if footing.bed is not None:
         state = np.array([state_from_field(interface, x) for x in _variables(call, variables, u)])
         at = footing.bed.points
@@ -57,6 +61,25 @@ def zsem(
     shear = _shear(interface, footing, (w, t, u), characteristics, numbering)
     loads = footing.loads(w, t, u[:, footing.unknowns])
     return _results(interface, footing, numbering, shear, loads, u)
+
+
+def _of_others(
+    interface: Interface, field: CellField, w: FloatArray, t: FloatArray
+) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Joints that are a part of those the run has there, or have other parameters than it."""
+    cells = [j.zone.cells for j in interface.joints]
+    reached = np.concatenate([c.connectivity.ravel() for c in cells])
+    for block in field.blocks:
+        beside = np.isin(block.cells.connectivity, reached).any(axis=1)
+        own = np.any([cell_rows(c, block.cells) >= 0 for c in cells], axis=0)
+        if count := int((beside & ~own).sum()):
+            yield "operators.dynamics.footing-in-part", {"count": count, "own": int(own.sum())}
+            return
+    pressing = (t[..., -1] < 0.0) & (interface.codes == LawCode.SDM)
+    off = np.abs(t[..., -1] - interface.parameters[:, Parameter.KN] * w[..., -1])[pressing]
+    share = off.max(initial=0.0) / np.abs(t[..., -1][pressing]).max(initial=1e-300)
+    if share > OFF:
+        yield "operators.dynamics.footing-of-others", {"share": 100.0 * share}
 
 
 def _variables(call: Call, given: Table | None, u: FloatArray) -> list[CellField]:

@@ -64,6 +64,7 @@ class TableObserver:
 
     track: NodeHistories
     whole: bool = False
+    origins: Any = None  # of fields, and of these
     table: LazyRows = field(init=False)
 
     def __post_init__(self) -> None:
@@ -138,7 +139,11 @@ class TableObserver:
     def _recorded(self, row: int, word: str) -> object:
         if word in JOINTS:
             return self.track.cell_field(row, JOINTS[word])
-        return self.track.node_field(row, VECTORS[word])
+        made = self.track.node_field(row, VECTORS[word])
+        if self.origins is not None:
+            known, origin = self.origins
+            known[made] = origin
+        return made
 
     def _instant(self, row: int, word: str, make: Callable[[], Any]) -> InstantField | None:
         """As `_stand_in`, of recorded rows."""

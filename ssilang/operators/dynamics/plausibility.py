@@ -194,6 +194,13 @@ def _on_supports(start: Start) -> Told:
     for name in names:
         told = {"name": name, "other_side": other_side}
         yield "operators.dynamics.load-on-supports", told
+    problem, forces = start.problem, np.abs(start.problem.loading.forces)
+    bare = held(problem) & (problem.K.diagonal() == 0.0) & (problem.M.diagonal() == 0.0)
+    for k in np.flatnonzero(forces[bare].any(axis=0) & (problem.interface is not None)).tolist():
+        node, part = problem.numbering.told(forces[:, k] * bare), forces[bare, k].sum()
+        if start.names[k] not in names:
+            told = {"name": start.names[k], "node": node, "part": 100.0 * part / forces[:, k].sum()}
+            yield "operators.dynamics.force-on-ground", told
 
 
 def _held_on_the_other_side(problem: Problem, inputs: Inputs) -> IntArray:

@@ -1,6 +1,7 @@
 """ZBIL: what @BILANSSI found, for the summary and the report of a run."""
 
 from ssilang.io.recording import thinned_drawing
+from ssilang.kernel.stepping.problem.bodies import held
 from ssilang.kernel.waves.shaken import is_shaken
 from ssilang.messages.message import teller
 from ssilang.operators.files.outputs import run_output
@@ -66,11 +67,16 @@ def _doubts(given: Table, found: Table) -> Iterator[tuple[str, dict[str, Any]]]:
     recorded = results.stand_ins("ACCE") if isinstance(results, LazyRows) else None
     if recorded is None:  # load steps
         return
+    still = list[bool]()
     for number, floor, *_ in _each_floor(given, found):
-        name = str(floor.get("COMPOSANTE"))
+        name, point = str(floor.get("COMPOSANTE")), cast(Point, floor.get("POINT"))
         track = getattr(recorded[0], "track", None)
+        if track:
+            still.append(held(track.problem)[track.problem.numbering.index_of(point.node, name)])
         if not floor.has("ACCELERATION_BASE") and track and is_shaken(track.problem, name):
             yield "operators.dynamics.floor-relative", {"floor": number, "component": name}
+    if still and all(still):
+        yield "operators.dynamics.floors-held", {"count": len(still)}
     histories = cast(Table, found.get("HISTOIRES"))
     t, turn = (cast(ListReel, histories.get(n)).values for n in ("TEMPS", "ROTATION"))
     swing = float(np.ptp(turn[t >= t[-1] - LATE * (t[-1] - t[0])]))

@@ -14,6 +14,8 @@ from ssilang.kernel.elements.solids.gradients import (
 )
 from ssilang.kernel.elements.solids.solid import coordinates, zone_geometry
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.family import jump_gradient
 from ssilang.operators.dispatch import INTG
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *
@@ -175,8 +177,10 @@ def grad(
     names = tuple(field.components)
 
     def make(zone: Zone) -> CellFieldBlock:
+        seen = zone_field(zone, joined(given) if given else None)
+        if is_joint(zone):
+            return jump_gradient(zone, field, seen)
         if structural_gradients.is_structural(zone):
-            seen = zone_field(zone, joined(given) if given else None)
             values = structural_gradients.structural_gradient(zone, field, seen)
             return cell_block(zone, structural_gradients.structural_names(zone), values)
         if not is_solid(zone):

@@ -229,8 +229,13 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     check_settings(archive, name)
     records = archive.records[: labels.index(label) + 1] if label else archive.records
     decoder = Decoder(archive, ws.nodes)
+    frame, others = call.session.frame, list[str]()
     for held, value in decoder.named(records):
-        call.session.frame.assign(held, value)
+        before = frame.find(held)
+        others += [held] if isinstance(value, float) and before not in (None, value) else []
+        frame.assign(held, value)
+    if others:
+        call.warn("operators.files.other-numbers", name=name, names=others)
     if decoder.not_finite:
         call.warn("operators.files.not-finite-numbers", name=name, names=decoder.not_finite)
     if added := dict(archive.settings.get("INCO", {})):

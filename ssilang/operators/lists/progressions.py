@@ -363,7 +363,10 @@ def mots(call: Call) -> ListMots:
 
 
 @operator("SUIT", family="lists", full_name="SUITE")
-def suit(fields: tuple[Any, ...] = Many("CHPOINT", "LISTCHPO", en="fields, in order")) -> ListChpo:
+def suit(
+    fields: tuple[Any, ...] = Many("CHPOINT", "LISTCHPO", en="fields, in order"),
+    older: bool = Flag("CHPO", en="changes nothing: its word of before 2012"),
+) -> ListChpo:
     """Collect fields."""
     flat: list[Any] = []
     for field in fields:

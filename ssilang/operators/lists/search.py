@@ -134,11 +134,12 @@ _ORDER = (
     flag("absolute", "ABSO", en="by absolute values"),
     flag("fold", "NOCA", en="whatever the case"),
 )
+_DISTINCT_EN = "without doubles, within a tolerance"
 _DISTINCT = key(
     "distinct",
     "UNIQ",
     opt("tolerance", "FLOTTANT", range=NOT_NEGATIVE, default=0.0, behind=True),
-    en="without doubles, within a tolerance",
+    en=_DISTINCT_EN,
 )
 _COST = (
     select(
@@ -226,6 +227,7 @@ def _sort_table_by_cost(
 
 # an index may be spelt like a keyword: it is one where no other index stands
 @ORDO.form(_TABLE, lead("index", en=_INDEX_EN), *_ORDER, _DISTINCT)
+@ORDO.form(_TABLE, *_ORDER, flag("distinct", "UNIQ", en=_DISTINCT_EN), arg("index", en=_INDEX_EN))
 @ORDO.form(_TABLE, *_ORDER, _DISTINCT, arg("index", en=_INDEX_EN))
 def _sort_table(
     call: Call,
@@ -234,7 +236,7 @@ def _sort_table(
     order: str,
     absolute: bool,
     fold: bool,
-    distinct: float | None,
+    distinct: float | bool | None,
 ) -> Table:
     beside = not table.has(index) and isinstance(index, Sortable)
     if not table.has(index) and not beside:
@@ -243,10 +245,11 @@ def _sort_table(
     if not isinstance(first, Sortable):
         raise call.error("operators.lists.index-holds-no-list", index)
     places = sorting(first.values, order == "DECR", absolute, fold)
-    if distinct is not None:
+    if distinct is not None and distinct is not False:
         if beside or sum(isinstance(v, Sortable) for _, v in table.items()) > 1:
             raise call.error("operators.lists.one-list-without-doubles")
-        places = without_doubles(first.values, places, distinct, absolute, fold)
+        tolerance = 0.0 if distinct is True else distinct
+        places = without_doubles(first.values, places, tolerance, absolute, fold)
     return _in_order(table, places, len(first))
 
 

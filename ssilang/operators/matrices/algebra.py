@@ -71,6 +71,8 @@ def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> No
     made = product(matrix, field)
     if flaw_of(made) and not flaw_of(field):  # sparse products raise no flag
         call.warn("operators.numbers.past-reals", sign="*")
+    if matrix.kind.startswith("MASS"):
+        workspace(call.session).origins[made] = (), field
     return made
 
 

@@ -78,6 +78,7 @@ def warn_connections(
         "operators.matrices.lines-crossed": crossed_lines(matrix),
         "operators.matrices.ends-apart": doubled.ends_apart(matrix),
         "operators.matrices.joints-twice": repeated_joints(model, characteristics),
+        "operators.matrices.axis-held": doubled.held_on_axis(matrix),
     }
     if operator == "VIBR":
         sides = [r.nodes[r.row_start[:-1]][r.sense != 0] for r in matrix.relations]

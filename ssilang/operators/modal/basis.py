@@ -13,6 +13,9 @@ from ssilang.kernel.statics.linear import product, solve
 from ssilang.operators.dispatch import union
 from ssilang.operators.matrices.element import joined
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.solve import is_anywhere
+
+BEYOND = 1e-3  # of the largest force at a node: no rounding
 
 
 @dataclass(frozen=True)
@@ -135,7 +138,35 @@ def _forces(call: Call, force: object, shapes: list[Shape]) -> NodeField:
     known = {dual_of(name) for s in shapes for name in s.field.components}
     if known.isdisjoint(names := list(force.components)):
         call.warn("operators.modal.force-of-other-names", force, names=names, known=sorted(known))
+    elif is_anywhere(force) and not any(_moved(s.field, force) for s in shapes):
+        call.warn("operators.modal.force-on-supports", force)
+    _tell_beyond(call, force, shapes[0].field)
     return _at_marks(force.table, shapes, [work(force, s.field) for s in shapes], dual=True)
+
+
+def _moved(shape: NodeField, force: NodeField) -> bool:
+    """Whether a shape moves anything that a force acts on."""
+    laden = {n: p.nodes[p.values != 0.0] for n, p in force.components.items()}
+    known = [n for n in shape.components if dual_of(n) in laden]
+    return any(shape.values_at(n, laden[dual_of(n)]).any() for n in known)
+
+
+def _tell_beyond(call: Call, force: NodeField, shape: NodeField) -> None:
+    """Warn of inertia forces of masses that the modes were found without."""
+    known, none = workspace(call.session).origins, ((), None)
+    (_, mass), (_, field) = known.get(shape, none), known.get(force, none)
+    if mass is None or field is None:
+        return
+    own = product(mass, field)
+    for name in {"FX", "FY", "FZ"} & {*force.components}:
+        part = force.components[name]
+        pull, usual = np.abs(part.values), np.abs(own.values_at(name, part.nodes))
+        scale = float(np.median(pull[usual > 0.0] / usual[usual > 0.0])) if usual.any() else 1.0
+        beyond, off = pull - scale * usual, BEYOND * pull.max(initial=0.0)
+        if beyond.min(initial=0.0) > -off and off < beyond.max(initial=0.0):
+            told = {"node": force.table.told(int(part.nodes[beyond.argmax()]))}
+            told |= {"driven": pull.sum() / scale, "mass": usual.sum()}
+            call.warn("operators.modal.driven-beyond", **told)
 
 
 @_pjba.form()

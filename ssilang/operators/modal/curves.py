@@ -76,7 +76,8 @@ def _recombined_results(call: Call, colours: list[int]) -> Curve:
     shapes = read_basis(call)
     load = call.optional("CHARGEME")
     quantity = call.keyword(("DEPL", "VITE", "ACCE")) or "DEPL"
-    fields, times = modal_history(call, results, quantity)
+    at = call.given(evol.TIMES)
+    fields, times = _about(call, at, *modal_history(call, results, quantity))
     weights = contributions(fields, shapes)
     known = [s.field for s in shapes]
     if load is not None and quantity == "DEPL":
@@ -86,9 +87,8 @@ def _recombined_results(call: Call, colours: list[int]) -> Curve:
         weights = np.column_stack([weights, *(p.at(times) for p in pseudo)])
         known += [p.field for p in pseudo]
     places = _places_asked(call, known)
-    at = call.given(evol.TIMES)
     if at is not None:
-        weights, times = _at(call, at, times, weights), np.asarray(at.values)
+        weights, times = _at(at, times, weights), np.asarray(at.values)
     return _curves(call, times, weights, known, places, colours)
 
 
@@ -107,13 +107,24 @@ def _places_asked(call: Call, fields: list[NodeField]) -> list[tuple[str, int]]:
     return [(name, node) for name in names for node in evol.nodes_named(support.value)]
 
 
-def _at(call: Call, asked: ListReel, times: FloatArray, weights: FloatArray) -> FloatArray:
-    """Weights at asked instants, linear between the saved ones."""
+def _about(
+    call: Call, asked: ListReel | None, fields: Sequence[Any], times: FloatArray
+) -> tuple[Sequence[Any], FloatArray]:
+    """Fields and times on both sides of asked instants; all where none is asked for."""
+    if asked is None or not len(asked):
+        return fields, times
     wanted = asked.values
     span = 1e-9 * max(float(times[-1] - times[0]), 1e-300)
-    if len(wanted) and not (times[0] - span <= wanted.min() and wanted.max() <= times[-1] + span):
+    if not (times[0] - span <= wanted.min() and wanted.max() <= times[-1] + span):
         raise call.error("operators.modal.no-such-time", asked, times=times[0], times_2=times[-1])
-    return np.stack([np.interp(wanted, times, w) for w in weights.T], axis=1)
+    after = np.searchsorted(times, wanted)
+    kept = np.unique(np.clip([after - 1, after], 0, len(times) - 1))
+    return [fields[i] for i in kept], times[kept]
+
+
+def _at(asked: ListReel, times: FloatArray, weights: FloatArray) -> FloatArray:
+    """Weights at asked instants, linear between the saved ones."""
+    return np.stack([np.interp(asked.values, times, w) for w in weights.T], axis=1)
 
 
 _SOLU = {"DEPL": "DEPLACEMENT", "VITE": "VITESSE", "ACCE": "ACCELERATION"}
@@ -126,7 +137,8 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
     word = call.keyword(words, length=9)
     if word is None:
         raise call.error("operators.modal.which-contributions", words=[f"'{w}'" for w in words])
-    fields, times = modal_history(call, results, _SOLU.get(word, word))
+    at = call.given(evol.TIMES)
+    fields, times = _about(call, at, *modal_history(call, results, _SOLU.get(word, word)))
     other = call.read("TABLE")
     if other is not None:
         shapes = shapes_of(call, other.value)
@@ -136,9 +148,8 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
         places = _places_asked(call, list(fields[:1]))
     names = [c for c, _ in places]
     weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
-    at = call.given(evol.TIMES)
     if at is not None:
-        weights, times = _at(call, at, times, weights), np.asarray(at.values)
+        weights, times = _at(at, times, weights), np.asarray(at.values)
     parts = [
         CurvePart(times, weights[:, i], "TEMP", c, c, colours[i % len(colours)])
         for i, c in enumerate(names)

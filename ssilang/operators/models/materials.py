@@ -35,6 +35,7 @@ SHAPES = ("DEFO", "RIDE", "MADE")
 """Parameters of models MODAL and STATIQUE that are fields at points."""
 
 
+_OUTSIDE = 0.1  # of the width of a section: a plate on a face has its middle a little outside
 _AXES = (
     arg("first", "POINT", en="first axis, or centre"),
     many("others", "POINT", en="further vectors or points"),
@@ -239,11 +240,17 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if zone.formulation == "LIAISON" and not isinstance(value, float | CellField):
         return _one_object(value, n)
     if isinstance(value, Mesh | Table | str):
-        raise _no_number(call, name, value)
+        refused = _no_number(call, name, value)
+        if not refused.data["word"]:
+            raise refused
+        call.warn(refused.code, value, **refused.data)  # whoever reads it is refused
+        return _one_object(value, n)
     if name in ("MODS", "MATS"):
         # Refuse what does not describe a section.
         if name == "MODS" and not isinstance(value, Model):
             raise call.error("operators.models.section-model-wrong", value)
+        if name == "MODS":
+            _tell_outside(call, value)
         if name == "MATS" and not isinstance(value, CellField):
             raise call.error("operators.models.section-material-wrong", value)
         return _one_object(value, n)
@@ -267,6 +274,18 @@ def _values(call: Call, zone: Zone, name: str, value: Any) -> Value | None:
     if name == "VECT":
         raise call.error("operators.models.vect-is-a-vector", value)
     return np.full((n, 1), float(value)), "GRAVITE"
+
+
+def _tell_outside(call: Call, section: Model) -> None:
+    """Warn of points of a section far outside the box of its faces."""
+    places = [(z.element, z.cells.coordinates.reshape(-1, 3)) for z in section.zones]
+    faces = [x for element, x in places if element != "POJS"]
+    for x in (x for element, x in places if element == "POJS" and faces):
+        low, high = (f(np.concatenate(faces), axis=0) for f in (np.min, np.max))
+        off = (np.maximum(low - x, x - high)[:, :2] / (high - low)[:2]).max(axis=1)
+        if (worst := off.max()) > _OUTSIDE:
+            y, z, _ = x[off.argmax()]
+            call.warn("operators.models.fibre-outside", section, y=y, z=z, share=100.0 * worst)
 
 
 def _no_number(call: Call, name: str, value: Any) -> SsiError:

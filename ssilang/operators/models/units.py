@@ -115,7 +115,7 @@ def _odd(
         if solid and high > (_STOUT * _size(zone)) ** 2 * float(base.max()):
             usual = Range(usual.low, _SOLID.high * 10.0)
         base = base ** (1 + other.endswith("**2"))
-        ratios = (float(ratio) for ratio in (low / np.max(base), high / np.min(base)))
+        ratios = (abs(float(ratio)) for ratio in (low / np.max(base), high / np.min(base)))
         if (ratio := next((r for r in ratios if r not in usual), None)) is not None:
             told = {"other": other, "range": usual.text(f"{name}/{other}")}
             yield "operators.models.unusual-ratio", {"value": high, "ratio": ratio, **told}

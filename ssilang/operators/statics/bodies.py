@@ -32,7 +32,8 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
     zones = plastic_zones(model)
     if not zones:
         return None
-    material: CellField = entries.needed("CARACTERISTIQUES")
+    given_material: CellField = entries.needed("CARACTERISTIQUES")
+    material = _in_parts(entries, zones, given_material)
     if start is None or start.reached is None:
         _warn_of_two_models(entries, zones)
 
@@ -48,7 +49,7 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         if given is not None:
             before = getattr(start, "before", None) or entries
             old, strained = before.get("CARACTERISTIQUES"), bulk
-            if old is not material:
+            if old is not given_material:
                 strained = bulk_of(zones, old, problem.numbering)
                 free = free_strains(before.get("CHARGEMENT"), zones, old)
                 strained = replace(strained, free=free)
@@ -60,6 +61,20 @@ def plastic_bodies(entries: Entries, start: Any = None) -> Bodies | None:
         return bulk, replace(bulk, free={}).respond(blank, problem.u, first).state
 
     return make
+
+
+def _in_parts(entries: Entries, zones: Sequence[Zone], material: CellField) -> CellField:
+    """Characteristics, with what SUBSTEPPING says of laws that are integrated in parts."""
+    if not entries.get("SUBSTEPPING"):
+        return material
+    said = {"NSUB": entries.get("NMAXSUBSTEPS"), "NITE": entries.get("NITERINTER_MAX")}
+
+    def block(zone: Zone) -> CellFieldBlock:
+        values = {name: np.full((len(zone.cells), 1), float(value)) for name, value in said.items()}
+        return CellFieldBlock(zone.cells, values, "GRAVITE", zone.element, zone.constituent)
+
+    blocks = tuple(block(zone) for zone in zones if "RH_COULOMB" in zone.behaviour)
+    return CellField((*material.blocks, *blocks), material.title)
 
 
 def _warn_of_two_models(entries: Entries, zones: tuple[Zone, ...]) -> None:

@@ -1,7 +1,8 @@
 """ZPAS: the load steps behind the procedure PASAPAS."""
 
-from ssilang.kernel.elements.families import mass, stiffness
+from ssilang.kernel.elements.families import mass, stiffness, viscosity
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
+from ssilang.kernel.elements.springs import is_impedance, law_of_impedance
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
@@ -407,6 +408,9 @@ def _inputs(
     if dynamic and material is not None:
         heavy += [mass(z, material) for z in (*yielding, *finite)]
     sides = sides_of(model, material, stresses.offsets)
+    zones = () if model is None else model.zones
+    if sides.matrix is None and any(z.formulation == "CONTACT" for z in zones):
+        entries.warn("operators.statics.sides-apart")
     more = [] if sides.gaps is None else [LoadPart("MECA", sides.gaps)]
     more += driven_parts(entries)
     if more:
@@ -418,6 +422,8 @@ def _inputs(
         masses = joined_matrix(entries, heavy, (entries.get("MASSE_CONSTANTE"),), "MASSE")
     stiffnesses = joined_matrix(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE")
     damping, velocity = entries.get("AMORTISSEMENT"), start.of("VITESSES")
+    if dynamic and (dashpots := _dashpots_of_laws(solids, damping)):
+        damping = joined_matrix(entries, dashpots, (damping,), "AMORTISSEMENT")
     inputs = Inputs(
         stiffnesses, times, masses, damping if dynamic else None, load, displacement,
         velocity if dynamic else None, model, material, scheme_of(entries),
@@ -425,6 +431,23 @@ def _inputs(
         solver_of(entries.call.session),
     )  # fmt: skip
     return inputs, stresses
+
+
+def _dashpots_of_laws(
+    zones: list[tuple[Zone, CellField]], damping: Matrix | None
+) -> list[ElementMatrices]:
+    """Dashpots of impedances VOIGT and REUSS, but those that the damping already holds."""
+    held = [(b.raw_nodes, b.unknowns) for b in damping.blocks] if damping is not None else []
+    made = [
+        viscosity(z, m)
+        for z, m in zones
+        if is_impedance(z) and law_of_impedance(z) in ("VOIGT", "REUSS")
+    ]
+    return [
+        block
+        for block in made
+        if not any(block.unknowns == u and np.array_equal(block.raw_nodes, n) for n, u in held)
+    ]
 
 
 def _linear_zones(entries: Entries) -> list[tuple[Zone, CellField]]:

@@ -12,6 +12,7 @@ from ssilang.operators.prelude import *
 from ssilang.operators.session.user_procedures import call_user
 from ssilang.operators.statics.bodies import Bodies
 from ssilang.operators.statics.loads_in_time import part_at
+from ssilang.operators.statics.pasapas_steering import tell_step
 from ssilang.operators.tables.entries import Entries
 
 
@@ -31,6 +32,7 @@ class LoadByProcedure:
         field = vector_to_field(u, numbering)
         kept = table.get("ESTIMATION") if table.has("ESTIMATION") else None
         table.set(Mot("ESTIMATION"), Table.of({"TEMPS": time, "DEPLACEMENTS": field}))
+        tell_step(table, time)
         try:
             with _moved(field, self.moves):
                 results = call_user(self.entries.call, "CHARMECA", table, time)

@@ -69,6 +69,16 @@ def tell_parts(inner: Table) -> None:
         inner.set(Mot("FOR"), inner.get("FOR0"))
 
 
+def tell_step(table: Table, time: float) -> None:
+    """What WTABLE holds of the step that ends at a time: its number, that time."""
+    inner = table.inner("WTABLE")
+    asked = inner.get("TEMPS_CALCULES")
+    calculated = asked.values[asked.values > 0.0] if isinstance(asked, ListReel) else np.empty(0)
+    step = int((calculated <= time + 1e-9 * abs(time)).sum())
+    for word, value in (("PAS", step), ("T_FINAL", time), ("CONV", True)):
+        inner.set(Mot(word), value)
+
+
 class Steering:
     """Calls REEV_MEC and PERSO1 after each computed time, with the state in ESTIMATION.
 
@@ -101,6 +111,7 @@ class Steering:
         """
         state = Table.of(self.results.values(snapshot))
         self.table.set(Mot("ESTIMATION"), state)
+        tell_step(self.table, snapshot.time)
         before = [self.inner.get(word) for word in CHANGEABLE]
         if self.prepared:
             self.table.set(Mot("TT"), state)

@@ -5,6 +5,8 @@ import math
 import numpy as np
 
 from ssilang.kernel.base.errors import SingularMatrixError
+from ssilang.kernel.elements import families
+from ssilang.kernel.materials.model import same_elements
 from ssilang.kernel.matrices.assembly import imposed_outside
 from ssilang.kernel.statics.linear import SolveOptions, linear_system, reactions, solve
 from ssilang.kernel.statics.stability import free_motion_fields, negative_eigenvalues
@@ -13,6 +15,7 @@ from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
 from ssilang.operators.workspace import solver_of
 
+_FIRST = 4  # cells whose matrices are compared
 FAR, NOT_SMALL = 10.0, 0.2
 """Sizes of what is loaded: displacements of more are a slip of units, or a body that is loose."""
 _MATRIX = arg("matrix", "RIGIDITE", en="matrix")
@@ -90,6 +93,7 @@ def _reso(
         down = load.components.get("FZ") if down is None else down  # of revolution
         if down is not None:
             warn_of_weight(call, matrix, (), matrix.table.resolve(down.nodes), -down.values)
+        workspace(call.session).origins[solution] = matrix.blocks, None
         if is_anywhere(load) and not is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
         judged = workspace(call.session).units is not None
@@ -98,6 +102,21 @@ def _reso(
                 call.warn("operators.statics.moves-far", **told)
     _warn_condition(call, matrix, options)
     return solutions
+
+
+def tell_other_stiffness(call: Call, u: NodeField, model: Model, material: CellField) -> None:
+    """Warn where parameters make other matrices of the first cells than those u was found with."""
+    found, _ = workspace(call.session).origins.get(u, ((), None))
+    for zone in model.zones if found else ():
+        given = [b for b in found if same_elements(b.zone, zone)]
+        if len(given) != 1 or {"PLASTIQUE", "ENDOMMAGEMENT"} & {*zone.behaviour}:
+            continue
+        cells = replace(zone.cells, raw=zone.cells.raw[:_FIRST], _resolved=[])
+        part = replace(zone, cells=cells)
+        known = replace(given[0], zone=part, values=given[0].values[:_FIRST])
+        if off := families.unlike([known], part, material):
+            told = {"node": zone.cells.nodes.told(int(zone.cells.raw[0, 0])), "off": off}
+            call.warn("operators.statics.stress-of-others", **told)
 
 
 def warn_of_weight(
@@ -200,9 +219,12 @@ def solved_links(call: Call, matrix: Matrix, table: Table, **words: Any) -> Tabl
 
 @operator("REAC", family="solve", full_name="REACTION", gives=Like("solution"))
 def _reac(
+    call: Call,
     matrix: Matrix = _MATRIX,
     solution: NodeField | Table = Arg("CHPOINT", "TABLE", en="solution, or table of shapes"),
 ) -> NodeField | Table:
+    if not matrix.relations:
+        call.warn("operators.statics.no-conditions", matrix)
     if isinstance(solution, NodeField):
         return reactions(matrix, solution)
     for entry, shape, index in _shapes(solution):

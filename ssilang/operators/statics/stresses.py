@@ -10,6 +10,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.language.vocabulary import meanings
 from ssilang.operators.matrices.element import NO_ERROR, joined, numbered, present
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.solve import tell_other_stiffness
 from ssilang.operators.statics.temperatures import EXPANDS, without
 
 PARAMETERS = ("CARACTERISTIQUES", "MATRICE DE HOOKE")
@@ -103,7 +104,10 @@ def sigm(call: Call, model: Model, fields: Fields, silent: bool, order: str) -> 
     """Stresses."""
     u, material = displacement_of(call, fields, model), joined_cells(call, fields)
     compute = green_stress if order == "QUAD" else families.stress
-    return on_zones(present(call, model), "CONTRAINTES", lambda z: compute(z, material, u))
+    zones = present(call, model)
+    if order == "LINE":
+        tell_other_stiffness(call, u, zones, material)
+    return on_zones(zones, "CONTRAINTES", lambda z: compute(z, material, u))
 
 
 @operator(

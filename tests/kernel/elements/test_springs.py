@@ -107,11 +107,11 @@ def test_in_series_matrices_and_their_complex_stiffness_are_maxwells(points, rot
     inner = whole[:, m:, m:]
     condensed = whole[:, :m, :m] - whole[:, :m, m:] @ np.linalg.solve(inner, whole[:, m:, :m])
     np.testing.assert_allclose(made, condensed, rtol=1e-12, atol=1e-6)
-    series = K * 1j * w * C / (K + 1j * w * C)
+    series, turning = (k * 1j * w * C / (k + 1j * w * C) for k in (K, KR if rotations else K))
     u = np.random.default_rng(2).standard_normal(m)
     np.testing.assert_allclose(
         np.einsum("cij,j->ci", made, u).real,
-        expected(layout.unknowns, points, u, series.real, KR if rotations else series.real),
+        expected(layout.unknowns, points, u, series.real, turning.real),
         rtol=1e-10,
     )
     assert not counts_damping(zone, zone_field(zone, field))

@@ -219,7 +219,7 @@ def test_ground_of_great_strength_is_the_elastic_macro_element(name, spots):
 STEP = st.tuples(st.floats(-0.02, 0.02), st.floats(-0.03, 0.005), st.floats(-0.01, 0.01))
 FEET = {name: made(name, COHE=C) for name in SHAPES}
 FEET |= {f"hard spots, {name}": made(name, COHE=C, PDUR=0.3) for name in ("strip", "rectangle")}
-FINE = 100
+FINE = 60
 ASIDE = (1.2345e-6, -3.4567e-6, 2.3456e-7)  # round numbers stand where the ground begins to yield
 
 

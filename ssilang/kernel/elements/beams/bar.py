@@ -1,4 +1,6 @@
-"""Bars, lines that resist only lengthening, and hoops, points that stand for rings (CERC)."""
+"""Bars, lines that resist only lengthening, and points that stand for rings (CERC)
+or, in generalised plane strain, for bars across the plane (POI1).
+"""
 
 import numpy as np
 
@@ -9,7 +11,7 @@ from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.shapes.geometry import line_geometry
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
-from ssilang.kernel.elements.solids.solid import circumference
+from ssilang.kernel.elements.solids.solid import circumference, section_strain, with_section
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -123,3 +125,29 @@ class Hoop(Bar):
         slopes = _slopes_around(zone)
         factors = circumference(zone) * stress[:, 0] / _radii(zone)
         return factors[..., None] * (slopes.T @ slopes)
+
+
+class Across(Bar):
+    """Normal force EFFX = YOUN SECT EPSS of bars across the plane, EPSS the section's EPZZ."""
+
+    def layout(self, zone: Zone) -> family.Layout:
+        """What the section's node has, its displacement and rotations."""
+        return with_section(zone, family.node_major_layout(zone, ()))
+
+    def strain_operator(
+        self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
+    ) -> family.StrainOperator:
+        """The section's strain at the point, for a length of 1."""
+        x, y = np.moveaxis(zone.cells.coordinates[cells], 2, 0)[:2]
+        strain = section_strain(zone, x, y)
+        return family.StrainOperator(strain[:, None], np.ones(strain.shape[:2]))
+
+    def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
+        """RHO SECT in the plane, for a length of 1."""
+        density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
+        scalar = np.broadcast_to(density[..., None], (len(zone.cells), 1, 1))
+        return spread(scalar, 2), family.node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+
+    def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
+        """None: the bar stays straight."""
+        return np.zeros((len(zone.cells), 3, 3))

@@ -12,7 +12,7 @@ from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import Layout, StrainOperator, TurningFamily
 from ssilang.kernel.elements.shells.shell_section import offset, section_moduli
 from ssilang.kernel.elements.solids.kinematics import harmonic
-from ssilang.kernel.elements.solids.solid import circumference
+from ssilang.kernel.elements.solids.solid import circumference, section_strain, with_section
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
@@ -43,7 +43,7 @@ class _Meridian:
         self.n = np.stack([-self.t[:, 1], self.t[:, 0]], axis=1)
         self.xi = (1 + rule.points[:, 0]) / 2
         self.weights = self.length[:, None] * rule.weights / 2
-        self.r = x[:, :1, 0] + self.xi * side[:, :1]
+        self.r, self.y = (x[:, :1, k] + self.xi * side[:, k : k + 1] for k in (0, 1))
         self.rows = 4 if zone.mode is Mode.FOURIER else 3
         n, p, m = len(side), len(self.xi), 2 * self.rows
         self.shape = (n, p, m)
@@ -88,7 +88,11 @@ class _Meridian:
 
 
 class MeridianShell(TurningFamily):
-    """COQ2."""
+    """COQ2; in generalised plane strain it follows the section's motion."""
+
+    def layout(self, zone: Zone) -> Layout:
+        """Translations then rotations, node by node, then the section's."""
+        return with_section(zone, super().layout(zone))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Membrane strains and curvatures."""
@@ -134,6 +138,10 @@ class MeridianShell(TurningFamily):
         B[:, 0], B[:, 3] = m.du, -m.ddw
         if zone.mode in REVOLUTION:
             self._around(B, m, harmonic(zone))
+        if zone.mode is Mode.GENERALISED_PLANE_STRAIN:
+            B = np.pad(B, ((0, 0), (0, 0), (0, 0), (0, 3)))
+            B[:, 1, :, rows:] = section_strain(zone, m.r, m.y)
+            B[:, 4, :, rows + 1 :] = (m.n[:, ::-1] * (1.0, -1.0))[:, None]
         return StrainOperator(B[:, list(_kept(zone))], self._measure(zone, m, parameters, cells))
 
     @staticmethod
@@ -168,7 +176,7 @@ class MeridianShell(TurningFamily):
         density = parameters.at("RHO", "MASSE") * parameters.at("EPAI", "MASSE")
         w = self._measure(zone, m, parameters, whole) * density
         values = sum(np.einsum("cp,cpi,cpj->cij", w, N, N, optimize=True) for N in (m.u, m.w, m.v))
-        return np.asarray(values), self.layout(zone)
+        return np.asarray(values), super().layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the membrane forces on the rotations of the normal."""
@@ -181,7 +189,8 @@ class MeridianShell(TurningFamily):
         if zone.mode in REVOLUTION:
             turn = m.slope_around(harmonic(zone))
             values += np.einsum("cp,cpi,cpj->cij", w * stress[:, 1], turn, turn, optimize=True)
-        return values
+        beyond = len(self.layout(zone).unknowns) - values.shape[-1]  # the section's motion
+        return np.pad(values, ((0, 0), (0, beyond), (0, beyond)))
 
 
 def meridian_forces(zone: Zone, pushed: FloatArray, parameters: ZoneField) -> NodeField:
@@ -202,4 +211,4 @@ def meridian_forces(zone: Zone, pushed: FloatArray, parameters: ZoneField) -> No
     if zone.mode is Mode.PLANE_STRESS:
         width = np.asarray(parameters.at("DIM3", "GRAVITE", 1.0))
         work *= width.mean(axis=1, keepdims=True)
-    return MeridianShell().layout(zone).scatter(work)
+    return TurningFamily.layout(MeridianShell(), zone).scatter(work)

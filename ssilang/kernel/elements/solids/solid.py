@@ -91,19 +91,29 @@ def _thickened(
     return volumes
 
 
+def with_section(zone: Zone, own: family.Layout) -> family.Layout:
+    """A layout; in generalised plane strain the rows of the section's node come last."""
+    if zone.mode is not Mode.GENERALISED_PLANE_STRAIN:
+        return own
+    n, k = own.raw_nodes.shape
+    section = np.full((n, 1), section_point(zone).number, dtype=np.int64)
+    nodes: IntArray = np.hstack([own.raw_nodes, section])
+    local = np.concatenate([own.local, [k, k, k]])
+    return family.Layout(own.table, nodes, local, (*own.unknowns, *SECTION_UNKNOWNS))
+
+
+def section_strain(zone: Zone, x: FloatArray, y: FloatArray) -> FloatArray:
+    """EPZZ = UZ + (y - y0) RX - (x - x0) RY at places, the section's node being at (x0, y0)."""
+    origin = section_point(zone).coordinates
+    return np.stack([np.ones_like(x), y - origin[1], origin[0] - x], axis=-1)
+
+
 class Solid(family.ElementFamily):
     """Displacement elements, integrated numerically."""
 
     def layout(self, zone: Zone) -> family.Layout:
         """Node by node; in generalised plane strain the section's node comes last."""
-        own = family.node_major_layout(zone, kinematics(zone).unknowns)
-        if zone.mode is not Mode.GENERALISED_PLANE_STRAIN:
-            return own
-        n, k = own.raw_nodes.shape
-        section = np.full((n, 1), section_point(zone).number, dtype=np.int64)
-        nodes: IntArray = np.hstack([own.raw_nodes, section])
-        local = np.concatenate([own.local, [k, k, k]])
-        return family.Layout(own.table, nodes, local, (*own.unknowns, *SECTION_UNKNOWNS))
+        return with_section(zone, family.node_major_layout(zone, kinematics(zone).unknowns))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPXX ... or EPRR ..."""
@@ -225,13 +235,8 @@ def strain_matrix(zone: Zone, geometry: CellGeometry, cells: slice) -> FloatArra
         if factor and source is not None:
             matrix[:, row, :, unknown : k * nu : nu] += factor * source
     if extra:
-        # EPZZ = UZ + (y - y0) RX - (x - x0) RY, the section's node being at (x0, y0)
-        columns = matrix[..., k * nu :]
-        origin = section_point(zone).coordinates
         x, y = np.moveaxis(coordinates(zone, cells), 2, 0) @ geometry.shapes.T
-        columns[:, 2, :, 0] = 1.0
-        columns[:, 2, :, 1] = y - origin[1]
-        columns[:, 2, :, 2] = origin[0] - x
+        matrix[:, 2, :, k * nu :] = section_strain(zone, x, y)
     return matrix
 
 

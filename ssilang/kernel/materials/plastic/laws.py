@@ -106,6 +106,12 @@ def _iwan(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
     )
 
 
+def _in_parts(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
+    if np.all(parameters.values.get("NSUB", 1.0) <= 1):
+        return law
+    return replace(law, variables=("EPSE", "NSUB"), respond=rounded_coulomb.respond_in_parts)
+
+
 def _of_its_shape(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
@@ -141,7 +147,13 @@ PLASTIC_LAWS: dict[str, PlasticLaw] = {
         check=cone_laws.check_drucker_prager,
         symmetric=False,
     ),
-    "RH_COULOMB": PlasticLaw(rounded_coulomb.respond, ("COHE", "PHI"), check=rounded_coulomb.check),
+    "RH_COULOMB": PlasticLaw(
+        rounded_coulomb.respond,
+        ("COHE", "PHI"),
+        check=rounded_coulomb.check,
+        defaults={"NSUB": 1.0, "NITE": 15.0},
+        shaped=_in_parts,
+    ),
     "IWAN": PlasticLaw(
         _of_its_shape, (iwan.CURVE,), curves=(iwan.CURVE,), check=iwan.check, shaped=_iwan
     ),

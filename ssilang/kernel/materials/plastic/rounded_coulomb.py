@@ -6,6 +6,10 @@ k is Coulomb's section up to 25 degrees of Lode's angle and a sine of three time
 beyond, with continuous slope (Abbo and Sloan, Computers and Structures 54, 1995). The tip is a
 hyperbola. The surface being smooth, the return is the closest point by Newton on stress and
 multiplier together, and its tangent is exact.
+
+A step may be integrated in parts (NSUB), halved where Newton's method does not converge soon
+(Perez-Foguet, Rodriguez-Ferran and Huerta, Computer Methods in Applied Mechanics and Engineering
+190, 2001); the tangent is that of all parts together.
 """
 
 from dataclasses import dataclass, replace
@@ -40,19 +44,70 @@ def respond(
     parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
 ) -> Response:
     """Parameters COHE and PHI (radians); variable EPSE."""
-    moduli = parameters.moduli
-    trial = stress + np.einsum("mij,mj->mi", moduli, strain)
-    found, tangent, p = trial.copy(), moduli.copy(), variables[:, 0].copy()
+    trial = stress + np.einsum("mij,mj->mi", parameters.moduli, strain)
+    found, p, tangent, _ = _returned(parameters, trial, variables[:, 0])
+    return Response(found, p[:, None], tangent)
+
+
+def _returned(
+    parameters: PointParameters, trial: FloatArray, p: FloatArray, most: int = 0
+) -> tuple[FloatArray, FloatArray, FloatArray, IntArray]:
+    """Stresses, EPSE, tangents, turns of Newton's method (0: elastic).
+
+    With `most` turns at most those are -1 where these do not do.
+    """
+    found, tangent, p = trial.copy(), parameters.moduli, p.copy()
+    turns = np.zeros(len(p), dtype=np.int64)
     size = np.abs(trial).max(axis=1) + parameters["COHE"]
     rows = np.flatnonzero(_surface(parameters, trial)[0] > 1e-13 * size)
     if len(rows):
         some = parameters.at(rows)
         compliance = some.compliance
-        found[rows], tangent[rows] = _closest_point(_Return(some, compliance, trial[rows]))
+        points = _Return(some, compliance, trial[rows])
+        if most:
+            unknown = np.pad(points.trial, ((0, 0), (0, 1)))
+            jacobian, lost, took = points.newton(unknown, most)
+            found[rows], tangent[rows] = unknown[:, :6], np.linalg.inv(jacobian)[:, :6, :6]
+            turns[rows] = np.where(lost, -1, took)
+        else:
+            found[rows], tangent[rows] = _closest_point(points)
         plastic = np.einsum("mij,mj->mi", compliance, trial[rows] - found[rows])
         square = (plastic[:, :3] ** 2).sum(axis=1) + 0.5 * (plastic[:, 3:] ** 2).sum(axis=1)
         p[rows] += np.sqrt(2 / 3 * square)
-    return Response(found, p[:, None], tangent)
+    return found, p, tangent, turns
+
+
+def respond_in_parts(
+    parameters: PointParameters, stress: FloatArray, strain: FloatArray, variables: FloatArray
+) -> Response:
+    """The response over parts of the step, the first as long as the last of the step before.
+
+    A part whose return takes NITE turns and more is halved, down to a step's NSUB-th; one that
+    takes few leads to longer ones in the next step. Variables EPSE and NSUB (length of a part).
+    """
+    many, most, stress = np.rint(parameters["NSUB"]), int(parameters["NITE"].max()), stress.copy()
+    trial = np.einsum("mij,mj->mi", parameters.moduli, strain)
+    elastic, compliance = parameters.moduli, parameters.compliance
+    p, tangent = variables[:, 0].copy(), np.zeros_like(elastic)
+    length = np.where(variables[:, 1] > 0, variables[:, 1], many)
+    at, parts, turns = np.zeros((3, len(stress)))
+    while len(rows := np.flatnonzero(at < many)):
+        shortest = bool((length[rows] <= 1).any())  # those, first, whatever turns they take
+        rows = rows[length[rows] <= 1] if shortest else rows
+        share = (length / many)[rows, None]
+        tried, turns_given = stress[rows] + share * trial[rows], 0 if shortest else max(most - 1, 1)
+        new, q, part, took = _returned(parameters.at(rows), tried, p[rows], turns_given)
+        done = took >= 0
+        length[rows[~done]] //= 2
+        rows, share = rows[done], share[done, None]
+        tangent[rows] = part[done] @ compliance[rows] @ (tangent[rows] + share * elastic[rows])
+        stress[rows], p[rows] = new[done], q[done]
+        at[rows] += length[rows]
+        parts[rows] += 1
+        turns[rows] += most if shortest else took[done] + (took[done] > 0)
+    easy = (turns < 4 * parts) & (parts > 1)
+    longer = np.minimum(np.rint(length * (5 - turns / parts)), many)
+    return Response(stress, np.stack([p, np.where(easy, longer, length)], axis=1), tangent)
 
 
 def criterion(parameters: PointParameters, stress: FloatArray) -> FloatArray:
@@ -95,19 +150,23 @@ class _Return:
         scale = np.maximum(np.cos(self.parameters["PHI"]), 0.01 * self.far())
         return rest, jacobian, np.maximum(strain, np.abs(f)) / (scale * self.parameters["COHE"])
 
-    def newton(self, unknown: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Changes stress and multiplier `unknown`; Jacobian, which points have not converged."""
+    def newton(
+        self, unknown: FloatArray, most: int = TURNS
+    ) -> tuple[FloatArray, BoolArray, IntArray]:
+        """Changes stress and multiplier `unknown`; Jacobian, which points are lost, turns."""
         rest, jacobian, norm = self.equations(unknown)
         norm[self.far() > FAR] = np.nan
-        for _ in range(TURNS):
+        turns = np.zeros(len(norm), dtype=np.int64)
+        for _ in range(most):
             rows = np.flatnonzero(norm > SMALL)
             if not len(rows):
                 break
+            turns[rows] += 1
             step = np.linalg.solve(jacobian[rows], -rest[rows, :, None])[..., 0].astype(float)
             unknown[rows], rest[rows], jacobian[rows], norm[rows] = self.at(rows).searched(
                 unknown[rows], step, norm[rows]
             )
-        return jacobian, ~(norm <= SMALL)
+        return jacobian, ~(norm <= SMALL), turns
 
     def searched(
         self, unknown: FloatArray, step: FloatArray, norm: FloatArray
@@ -127,14 +186,14 @@ class _Return:
 def _closest_point(points: _Return) -> tuple[FloatArray, FloatArray]:
     """Stresses (m, 6), NaN where none is found, and tangents (m, 6, 6)."""
     unknown = np.pad(points.trial, ((0, 0), (0, 1)))
-    jacobian, lost = points.newton(unknown)
+    jacobian, lost, _ = points.newton(unknown)
     rows = np.flatnonzero(lost & (points.far() <= FAR))
     if len(rows):  # far beyond a sharp tip: along ever sharper ones
         some = points.at(rows)
         found = np.pad(some.trial, ((0, 0), (0, 1)))
         for halvings in range(int(np.log2(some.far().max() / TIP)), -1, -1):
             tipped = replace(some, tip=TIP * 2.0**halvings)
-            jacobian[rows], lost[rows] = tipped.newton(found)
+            jacobian[rows], lost[rows], _ = tipped.newton(found)
         unknown[rows] = found
     unknown[lost], jacobian[lost] = np.nan, np.eye(7)
     return unknown[:, :6], np.linalg.inv(jacobian)[:, :6, :6].astype(float)

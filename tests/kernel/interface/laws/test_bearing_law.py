@@ -92,7 +92,7 @@ def test_beta_is_that_of_wen_s_term_in_the_absolute_velocity(beta, eta):
             return (way - beta * abs(way) * z * size ** (eta - 1) - gamma * way * size**eta) / UY
 
         z = solve_ivp(rate, (0, 1), [z], rtol=1e-10, atol=1e-12).y[0, -1]
-    path = plane(through(corners, 20_000))
+    path = plane(through(corners, 8_000))
     t, _ = along(LawCode.LEAD, table_of(**{**LEAD, "BETA": beta, "ETA": eta}), path)
     assert (t[-1, 0] - KPOS * corners[-1]) / QD == pytest.approx(z, abs=5e-4)
 

@@ -85,7 +85,7 @@ def test_the_same_jump_again_changes_nothing(name, d):
     """Whatever a large step did, on cones, caps and their edges at once: its end is admissible."""
     rng = np.random.default_rng(5)
     point = Point(name, d)
-    for w in rng.uniform(-1.0, 1.0, (300, d)) * [*(1e-3, 8e-4)[: d - 1], 3e-4]:
+    for w in rng.uniform(-1.0, 1.0, (150, d)) * [*(1e-3, 8e-4)[: d - 1], 3e-4]:
         t, energies = point.to(w)
         state = point.state
         again, same = point.to(w)

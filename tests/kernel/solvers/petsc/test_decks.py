@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from petsc_there import COMMAND, environment, lacking, ranks
+from petsc_there import COMMAND, environment, ranks
 
 from ssilang.cli.run import RunOptions, run_source
 from ssilang.language.text.source import Source
@@ -51,7 +51,7 @@ L1 = EXTR EV1 'ORDO' ;
 EV2 = (EVOL 'TEMP' TAB2 'DEPL' 'UY' (MAI . 'BORD_GAUCHE')) ;
 L2 = EXTR EV2 'ORDO' ;
 """
-there = pytest.mark.skipif(bool(lacking()), reason=lacking() or "it is there")
+there = pytest.mark.usefixtures("petsc_is_there")
 
 
 @pytest.fixture(autouse=True)

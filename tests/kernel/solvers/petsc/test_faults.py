@@ -17,7 +17,7 @@ from types import SimpleNamespace
 import numpy as np
 import petsc_there
 import pytest
-from petsc_there import COMMAND, environment, lacking, ranks
+from petsc_there import COMMAND, environment, ranks
 from together import together
 
 from ssilang.kernel.base.errors import KernelError
@@ -244,7 +244,7 @@ def test_ranks_share_the_memory_of_their_machine(monkeypatch):
 # --- the real server
 
 
-there = pytest.mark.skipif(bool(lacking()), reason=lacking() or "it is there")
+there = pytest.mark.usefixtures("petsc_is_there")
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import shutil
 
 import numpy as np
 import pytest
-from petsc_there import COMMAND, environment, lacking
+from petsc_there import COMMAND, environment
 
 from ssilang.kernel.base import memory
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
@@ -15,7 +15,7 @@ from ssilang.kernel.solvers.cholesky.inverse import invert
 from ssilang.kernel.solvers.factor import Ordering, Solver
 from ssilang.kernel.solvers.petsc.client import COLUMNS, PetscServer
 
-pytestmark = pytest.mark.skipif(bool(lacking()), reason=lacking() or "it is there")
+pytestmark = pytest.mark.usefixtures("petsc_is_there")
 
 
 @pytest.fixture(scope="module", autouse=True)
