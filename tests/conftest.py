@@ -141,7 +141,6 @@ def pytest_collection(session: pytest.Session) -> None:
 
 def pytest_collection_finish() -> None:
     """What is there now stays to the end: no search for garbage looks at it again."""
-    gc.collect()
     gc.freeze()
     gc.collect()  # searches through all come when so much is new as was found here
     # a run asks whether something is frozen, and the answer counts all that is

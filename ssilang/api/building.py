@@ -89,13 +89,7 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """What lies between two parts; `zone` is the kernel's.
-
-    Attributes
-    ----------
-    zone : Zone
-    upper, lower : Part
-    """
+    """What lies between two parts; `zone` is the kernel's."""
 
     zone: Zone
     upper: Part
@@ -378,7 +372,6 @@ class Motion:
 
     Attributes
     ----------
-    builder : Builder
     track : NodeHistories
         What the kernel kept: all nodes and joints at all steps.
     account : History

@@ -82,8 +82,6 @@ class Check:
 
     Attributes
     ----------
-    name : str
-    value : float
     expected, tolerance : float or None
         None where nothing was expected.
     ok : bool or None

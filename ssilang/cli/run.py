@@ -59,7 +59,6 @@ class RunResult:
         0 fine, 1 the script failed.
     output : str
         What MESS and LIST printed, when the run was told to keep it.
-    errors : list of SsiError
     message : str
         The rendered errors.
     session : Session

@@ -77,8 +77,6 @@ class Checkpoints:
 
     Parameters
     ----------
-    folder : Path
-    deck : Deck
     resume : bool
         Whether the run goes on from what stands there; without it the first checkpoint of the run
         replaces all of them.

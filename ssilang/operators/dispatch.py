@@ -103,7 +103,7 @@ def _unite(call: Call) -> Any:
     words = _words_of_union(call)
     left = call.read("*")
     if left is not None and not call.operands and type_of(left.value) == "TABLE":
-        return _unite_table(call, left.value)
+        return unite_all(call, left.value, [v for i, v in left.value.items() if type(i) is int])
     if left is not None and not call.operands and isinstance(left.value, ListObje):
         return unite_all(call, left.value, list(left.value.values))
     right = call.read("*") if left is not None else None
@@ -116,10 +116,6 @@ def _unite(call: Call) -> Any:
     if isinstance(left.value, bool) and isinstance(right.value, bool):
         return all([left.value, right.value, *call.all("LOGIQUE")])
     return united(call, left.value, right.value, left.span.to(right.span), words)
-
-
-def _unite_table(call: Call, table: Any) -> Any:
-    return unite_all(call, table, [v for index, v in table.items() if type(index) is int])
 
 
 def unite_all(call: Call, holder: Any, values: list[Any]) -> Any:

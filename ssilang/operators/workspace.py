@@ -37,7 +37,6 @@ class Workspace:
 
     Attributes
     ----------
-    nodes : NodeTable
     dimension : int
         OPTI DIME; 0 until it is set.
     mode : Mode

@@ -16,6 +16,7 @@ from ssilang.language.run.session import Session
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SsiError
 from ssilang.language.values import ListReel, type_of
+from ssilang.language.vocabulary import words
 from ssilang.language.vocabulary.entries import declared_names, read_declaration
 from ssilang.language.vocabulary.entry_checks import checked
 from ssilang.language.vocabulary.terms import ANY_NUMBER, UNSAID, Range, read_range
@@ -65,6 +66,9 @@ def test_every_number_says_what_makes_sense():
         f"{name} {a.name}" for (name, _), a in operands().items() if a.range == a.usual == UNSAID
     ]
     assert not told
+    numbers = [w for w in words("parameter") if w.unit is not None and w.kind != "unused"]
+    assert len(numbers) > 180
+    assert not [w.name for w in numbers if w.range == w.usual == UNSAID]
 
 
 def test_every_entry_with_a_range_refuses_what_is_outside_of_it():

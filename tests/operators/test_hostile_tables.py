@@ -55,9 +55,11 @@ def test_the_sound_decks_run(name, tmp_path):
         ("CONTINU", "T1 . 'NB_ITERATION'", "ZNAN", ["not finite"]),  # hung
         ("DYNC", "TN . 'ITERMOY'", "ZNAN", ["number"]),  # hung
         # empty objects
-        ("CONTINU", "T1 . 'FREQUENCE'", "(VIDE 'EVOLUTIO')", ["no curve"]),
-        ("SPPLANC", "T1 . 'EXCIT' . 'DSP'", "(VIDE 'EVOLUTIO')", ["no curve"]),
+        ("CONTINU", "T1 . 'FREQUENCE'", "(VIDE 'EVOLUTIO')", ["is empty"]),
+        ("SPPLANC", "T1 . 'EXCIT' . 'DSP'", "(VIDE 'EVOLUTIO')", ["is empty"]),
+        ("CONTINU of loads", "T1 . 'MODELE'", "(VIDE 'MMODEL')", ["is empty"]),
         ("HBM", "T1 . 'RESULTATS' . 1 . 'COMPOSANTES'", "(MOTS)", ["names no component"]),
+        ("CONTINU of loads", "T1 . 'CARACTERISTIQUES'", "ZCH", ["must be MCHAML"]),
         # out of range
         ("DYNAMIC", "T1 . 'PAS_SAUVES'", "0", ["PAS_SAUVES >= 1"]),
         ("DYNAMIC with a joint", "T1 . 'RHO_INF'", "-1.", ["0 <= RHO_INF <= 1"]),
@@ -95,6 +97,8 @@ def test_an_entry_that_cannot_be_used_is_named(name, path, value, says, tmp_path
         ("PASAPAS piloted", "T1 . 'ZONE_DE_PILOTAGE'", "(VIDE 'MAILLAGE')"),
         ("DYNC", "TL . 'LIAISON_A' . 1 . 'EXPOSANT'", "1.E-30"),
         ("CONTINU", "T1 . 'MASSE_CONSTANTE'", "(VIDE 'RIGIDITE')"),
+        ("HBM", "T1 . 'BLOCAGES_MECANIQUES'", "ZRI"),
+        ("HBM", "T1 . 'BLOCAGES_MECANIQUES'", "(BLOQ 'UX' P1)"),
     ],
 )
 def test_objects_without_content_end_in_words(name, path, value, tmp_path):

@@ -135,6 +135,18 @@ def test_pasapas_has_the_dashpot_of_a_law_once(law, moves, damped):
     assert result.session.root.find("X") == pytest.approx(exact, rel=1e-3)
 
 
+def test_load_steps_tell_dashpots_that_have_no_rates():
+    result = ran(
+        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; T1 = TABL ; "
+        "MO = MODE P 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'VOIGT' (MOTS UX) ; T1 . 'MODELE' = MO ; "
+        "T1 . 'CARACTERISTIQUES' = MATE MO 'RAID' 400. 'VISC' 12. ; "
+        "T1 . 'TEMPS_CALCULES' = PROG 0. 1. ; E = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ; "
+        "T1 . 'CHARGEMENT' = CHAR 'MECA' (FORC FX 4. P) E ; PASAPAS T1 ; "
+    )
+    codes = [w.code for w in result.session.warnings]
+    assert "operators.statics.dashpots-at-rest" in codes
+
+
 def test_modes_of_a_spring_and_a_dashpot_in_series_are_those_of_maxwell():
     found = finder(
         "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; G = MANU 'POI1' P ; "

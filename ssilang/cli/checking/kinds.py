@@ -89,7 +89,6 @@ class Scope:
 
     Attributes
     ----------
-    values : dict
     open : bool
         Other names may exist: a file was read, a name was computed, or a caller has them.
     dimension : int or None

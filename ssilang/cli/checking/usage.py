@@ -213,11 +213,9 @@ def bare_names(items: Sequence[tree.Item]) -> Iterator[tree.Name]:
         elif isinstance(item, tree.Paren):
             yield from bare_names(item.items)
         elif isinstance(item, tree.Path):
-            yield from bare_names([item.base, *(i for i in item.indices if _is_paren(i))])
-
-
-def _is_paren(item: tree.Item) -> bool:
-    return isinstance(item, tree.Paren)
+            yield from bare_names(
+                [item.base, *(i for i in item.indices if isinstance(i, tree.Paren))]
+            )
 
 
 def statements_of(nodes: Iterable[tree.Node]) -> Iterator[tree.Statement]:

@@ -132,7 +132,6 @@ class Repl:
 
     Parameters
     ----------
-    session : Session
     ask : function
         Shows a prompt, returns a line; raises EOFError at the end of the input.
     out : text stream

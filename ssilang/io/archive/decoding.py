@@ -29,7 +29,6 @@ class Decoder:
 
     Parameters
     ----------
-    archive : Archive
     nodes : NodeTable
         Of the session.
     """

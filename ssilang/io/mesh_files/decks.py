@@ -37,7 +37,6 @@ def abaqus_lines(mesh: Mesh, plane: str = "") -> list[str]:
 
     Parameters
     ----------
-    mesh : Mesh
     plane : 'CPE', 'CPS' or 'CAX', optional
         What surfaces are in two dimensions: plane strain or stress, or of revolution.
 

@@ -110,12 +110,7 @@ def head(figure: "Figure", title: str) -> None:
 
 
 class Pictures:
-    """The pictures of one run, numbered in order: 0001_name.png ...
-
-    Parameters
-    ----------
-    directory : Path
-    """
+    """The pictures of one run, numbered in order: 0001_name.png ..."""
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory

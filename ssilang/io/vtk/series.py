@@ -163,7 +163,6 @@ class SeriesWriter(Series):
     ----------
     base, constants
         See `Series`.
-    encoding : Encoding
     resume : bool
         Go on after the last step of the .pvd that is there.
     listed : bool

@@ -37,7 +37,16 @@ class Names:
         return 2 * self.harmonics + 1
 
     def coefficient(self, unknown: str, place: int, dual: bool = False) -> str:
-        """Name of a coefficient; place 0 is the mean, 2 k - 1 cos k, 2 k sin k."""
+        """Name of a coefficient; place 0 is the mean, 2 k - 1 cos k, 2 k sin k.
+
+        Raises
+        ------
+        KernelError
+            For an unknown that no matrix has.
+        """
+        if unknown not in self.unknowns:
+            told = {"unknown": unknown, "unknowns": self.unknowns}
+            raise KernelError("kernel.continuation.support-of-no-unknown", **told)
         own = self.unknowns.index(unknown) + 1
         letters = "FG" if dual else "UV"
         sine = place > 0 and place % 2 == 0

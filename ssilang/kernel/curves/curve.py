@@ -78,12 +78,13 @@ class LoadPart:
         Cast3M's name: 'MECA' (forces), 'DIMP' (imposed displacements), 'T', 'Q', ...
     space : NodeField or CellField, or None
         Multiplied by `time` (None with `steps`).
-    time : Curve or None
     steps : tuple of (float, field)
         A field at given times, linear between.
     beside : tuple of NodeField
         Of the forces of a free field: masses and dampers on the diagonal (of UX, ...) that they
         were found with, the dampers where the free field moves them.
+    free : bool
+        Whether it is said not to follow the matter ('LIBRE').
     """
 
     name: str
@@ -91,6 +92,7 @@ class LoadPart:
     time: Curve | None = None
     steps: tuple[tuple[float, NodeField | CellField], ...] = ()
     beside: tuple[NodeField, ...] = ()
+    free: bool = False
 
 
 @dataclass(frozen=True, eq=False)

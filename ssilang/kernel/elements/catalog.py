@@ -37,7 +37,6 @@ class ElementKind:
     ----------
     name : str
         Cast3M's name.
-    cell_type : str
     family : str
         Key of the family table: 'solid', 'bar', 'beam', 'timoshenko', ...
     modes : tuple of Mode

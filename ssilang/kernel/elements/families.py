@@ -88,7 +88,6 @@ def stiffness(zone: Zone, material: CellField) -> ElementMatrices:
 
     Parameters
     ----------
-    zone : Zone
     material : CellField
         Parameters (YOUN, NU ...) or Hooke matrices (MAHO), with the geometric ones (SECT ...).
 

@@ -231,7 +231,7 @@ def cell_block(
 ) -> CellFieldBlock:
     """A block of a field in cells from values (n_cells, n_components, n_points)."""
     components = {name: np.ascontiguousarray(values[:, i]) for i, name in enumerate(names)}
-    return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+    return zone.block(components, support)
 
 
 class TurningFamily(ElementFamily):

@@ -18,11 +18,9 @@ class CellFieldBlock:
 
     Parameters
     ----------
-    cells : CellBlock
     components : mapping of str to array (n_cells, n_points)
         `n_points` is 1 for a value constant in the cell. Floats, or objects (curves, points) for
         parameters that depend on a field or give a direction.
-    support : Support
     element : str
         Name of the finite element whose integration points carry the values ('' at nodes).
     constituent : str

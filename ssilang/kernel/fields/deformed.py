@@ -30,7 +30,6 @@ class ArrowPart:
         Nodes they stand at, so that they follow a deformed shape; None if they do not.
     scale : float or None
         Length drawn per unit; negative: the tip is at the origin. None: chosen by the picture.
-    colour : int
     name : str
         What they show, such as 'FX FY'.
     heads : bool

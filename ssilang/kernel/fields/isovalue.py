@@ -41,7 +41,6 @@ def isovalue(field: CellField, value: float, side: int = 0) -> Mesh:
     field : CellField
         One component, at nodes, linear in POI1, SEG2, TRI3, TET4; QUA4 and volumes are first
         cut into simplices (the field is then taken as continuous).
-    value : float
     side : int
         0: where the field equals the value; 1: where it is larger or equal; -1: smaller or equal.
 

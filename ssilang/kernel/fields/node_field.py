@@ -53,7 +53,6 @@ class NodeField:
 
     Parameters
     ----------
-    table : NodeTable
     components : mapping of str to NodeValues
         In order of first appearance; names have at most 8 characters (UX, UY, UZ, RX, RY, RZ,
         UR, FX, FY, LX, FLX, SCAL ...).

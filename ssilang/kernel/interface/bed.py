@@ -98,7 +98,6 @@ def bed_of(code: LawCode, table: FloatArray, dimension: int, owner: int, first: 
 
     Parameters
     ----------
-    code : LawCode
     table : array (N_PARAMETERS,)
         Its parameters as given, KN and KS1 those of the whole footing.
 

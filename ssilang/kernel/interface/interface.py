@@ -17,7 +17,7 @@ from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.elements.families import inelastic
 from ssilang.kernel.elements.zone_fields import zone_field
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.bed import (
     OF_WHOLE,
     Bed,
@@ -124,6 +124,11 @@ class Interface:
         for bed in self.beds:
             found[..., bed.owner, :] += bed.taken(t[..., bed.points, :])
         return found
+
+    def jumps(self, u: FloatArray) -> FloatArray:
+        """Local jumps (n_points, d) by displacements (n,)."""
+        of_pairs = (self.J @ u).reshape(-1, self.dimension)[self.pairs]
+        return np.einsum("pia,pa->pi", self.B, of_pairs.reshape(len(self.B), self.B.shape[2]))
 
     def initial_state(self) -> FloatArray:
         """State of joints never loaded, shape (n_points, N_STATE)."""
@@ -423,7 +428,7 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
         components = {
             names[i]: np.ascontiguousarray(local[..., i]) for i in component_order(j.zone)
         }
-        blocks.append(_block(j, components))
+        blocks.append(j.zone.block(components))
     return CellField(tuple(blocks), _TITLES[kind])
 
 
@@ -487,7 +492,7 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
         beds = {b.owner - first: b for b in interface.beds if first <= b.owner < start}
         if beds:
             fields |= zone_variables(beds, n, (w, t, state))
-        blocks.append(_block(j, fields))
+        blocks.append(j.zone.block(fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
 
 
@@ -565,8 +570,3 @@ def state_from_field(interface: Interface, field: CellField) -> FloatArray:
         j, cell = interface.cell_of(bed)
         places_from(zone_field(j.zone, field), cell, found[bed.points])
     return found
-
-
-def _block(joints: JointCells, components: dict[str, FloatArray]) -> CellFieldBlock:
-    zone = joints.zone
-    return CellFieldBlock(zone.cells, components, "STRESSES", zone.element, zone.constituent)

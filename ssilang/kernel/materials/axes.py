@@ -22,7 +22,6 @@ class Directions:
     ----------
     first, second : array (3,); second is None where one vector is enough
         Vectors, or with `radial` points: the centre, or two points of the axis.
-    radial : bool
     angle : float
         Turn about the third axis, degrees.
     outside : array (3,), optional

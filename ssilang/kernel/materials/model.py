@@ -1,8 +1,13 @@
 """Models: which element and which law stand on which cells (MMODEL)."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Any
 
+from numpy.typing import NDArray
+
+from ssilang.kernel.fields.cell_field import CellFieldBlock, Support
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh, same_cells
 
 
@@ -29,7 +34,6 @@ class Zone:
 
     Parameters
     ----------
-    cells : CellBlock
     formulation : str
         'MECANIQUE' here; other formulations are refused when the model is made.
     behaviour : tuple of str
@@ -38,7 +42,6 @@ class Zone:
         Finite element: 'QUA4', 'BARR', 'POUT', 'TIMO', 'JOI1', 'JOI2' ...
     mode : Mode
         Hypothesis in force when the model was made.
-    constituent : str
     """
 
     cells: CellBlock
@@ -48,6 +51,12 @@ class Zone:
     mode: Mode
     constituent: str = ""
     options: dict[str, object] = field(default_factory=dict)
+
+    def block(
+        self, components: Mapping[str, NDArray[Any]], support: Support = "STRESSES"
+    ) -> CellFieldBlock:
+        """Values of a field on the zone."""
+        return CellFieldBlock(self.cells, components, support, self.element, self.constituent)
 
 
 def same_elements(a: Zone | None, b: Zone) -> bool:
@@ -61,7 +70,6 @@ class Model:
 
     Parameters
     ----------
-    zones : tuple of Zone
     ties : tuple of CellBlock
         SURE cells of a mesh refined by parts: nodes that hang on coarser cells (read by RELA).
     """

@@ -39,7 +39,6 @@ class Numbering:
 
     Parameters
     ----------
-    table : NodeTable
     unknowns, duals : tuple of str, length n_names
         Primal names ('UX', 'RZ' ...) and their duals ('FX', 'MZ' ...).
     nodes : array (n,)

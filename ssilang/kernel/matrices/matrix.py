@@ -30,11 +30,13 @@ class ElementMatrices:
     zone : Zone or None
         Model zone it was made from (None: made by hand); lets a law that replaces the linear
         stiffness of its zone take these blocks out.
-    symmetric : bool
     viscous : bool
         Whether its material has a viscosity, which a matrix of damping is made of.
     dense : bool
         Whether its material has a density, which a mass is made of.
+    part : tuple of two tuples of str, or None
+        Of a part of a matrix: the unknowns and equations that it has, its other columns and rows
+        being zero.
     """
 
     table: NodeTable
@@ -48,6 +50,7 @@ class ElementMatrices:
     symmetric: bool = True
     viscous: bool = False
     dense: bool = False
+    part: tuple[tuple[str, ...], tuple[str, ...]] | None = None
 
     @property
     def nodes(self) -> IntArray:

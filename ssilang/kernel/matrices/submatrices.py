@@ -115,6 +115,7 @@ def named_part(matrix: Matrix, primal: set[str], dual: set[str]) -> Matrix:
                 duals=tuple(d for d, k in zip(block.duals, used, strict=True) if k),
                 values=block.values[:, used][:, :, used] * mask,
                 symmetric=block.symmetric and bool((rows == columns).all()),
+                part=(tuple(sorted(primal)), tuple(sorted(dual))),
             )
         )
     relations = matrix.relations if {"LX"} & primal or {"FLX"} & dual else ()
@@ -165,6 +166,9 @@ def unknown_names(matrix: Matrix, dual: bool = False) -> list[str]:
     """Names of the unknowns (or equations), 'LX' ('FLX') last if there are relations."""
     numbering = numbering_of(matrix)
     names = list(numbering.duals if dual else numbering.unknowns)
+    parts = [b.part[dual] for b in matrix.blocks if b.part]
+    if len(parts) == len(matrix.blocks) and not matrix.relations:
+        names = [n for n in names if any(n in part for part in parts)]
     if matrix.relations:
         names.append("FLX" if dual else "LX")
     return names
@@ -181,6 +185,7 @@ def renamed(
             duals=tuple(dual.get(d, d) for d in b.duals),
             symmetric=symmetric,
             zone=None,
+            part=None,
         )
         for b in matrix.blocks
     )

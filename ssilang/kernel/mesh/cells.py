@@ -18,7 +18,6 @@ class CellType:
         Gibiane's name, such as 'QUA4'.
     dimension : int
         Of the cell itself: 0 point, 1 line, 2 surface, 3 volume; joints have that of their faces.
-    n_nodes : int
     degree : int
         1 linear, 2 quadratic.
     corners : tuple of int

@@ -1,6 +1,6 @@
 """Meshes as sets of cells: union, intersection, symmetric difference, duplicates."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import BoolArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh, Point
+from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
@@ -64,11 +64,6 @@ def _continues(line: CellBlock, next_line: CellBlock) -> bool:
         return False
     a, b = line.connectivity, next_line.connectivity
     return bool(a[-1, -1] == b[0, 0] and b[-1, -1] != a[0, 0])
-
-
-def points_mesh(points: Iterable[Point], nodes: NodeTable) -> Mesh:
-    """A mesh of POI1 from points, in order, repeats kept."""
-    return poi1(nodes, np.array([p.node for p in points], dtype=np.int64))
 
 
 def poi1(nodes: NodeTable, ids: IntArray, colour: int = 0) -> Mesh:

@@ -35,7 +35,19 @@ class Point:
     @property
     def node(self) -> int:
         """Node number (0-based) after merges."""
-        return int(self.nodes.resolve(np.asarray([self.number]))[0])
+        return int(self.node_ids[0])
+
+    @property
+    def node_ids(self) -> IntArray:
+        """The same as an array (1,)."""
+        return self.nodes.resolve(np.asarray([self.number]))
+
+    sorted_node_ids = node_ids
+
+    @property
+    def mesh(self) -> "Mesh":
+        """A mesh of one POI1."""
+        return Mesh.of(self.nodes, "POI1", self.node_ids)
 
     @property
     def coordinates(self) -> FloatArray:
@@ -123,7 +135,6 @@ class Mesh:
 
     Parameters
     ----------
-    nodes : NodeTable
     blocks : tuple of CellBlock
         An elementary mesh has one block; ET concatenates blocks of the same type.
     sides : tuple of Mesh

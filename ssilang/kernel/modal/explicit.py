@@ -19,7 +19,7 @@ from ssilang.kernel.modal.explicit_loops import (
     de_vogelaere,
     newmark,
 )
-from ssilang.kernel.modal.link_laws import RECORDS, STATES, LinkArrays
+from ssilang.kernel.modal.link_laws import NX, NZ, PLANE, RECORDS, STATES, STIFF, LinkArrays
 
 SCHEMES = ("DE_VOGELAERE", "DIFFERENCES_CENTREES", "ACCELERATION_MOYENNE", "FOX_GOODWIN")
 BETA = {"DIFFERENCES_CENTREES": 0.0, "ACCELERATION_MOYENNE": 0.25, "FOX_GOODWIN": 1.0 / 12.0}
@@ -91,7 +91,8 @@ def integrate_modes(problem: ModalProblem, start: ModalState, steps: ModalSteps)
         raise KernelError("kernel.modal.step-numbers-steps-must")
     if not np.isfinite(M).all() or np.linalg.matrix_rank(M) < len(M):
         raise KernelError("kernel.modal.mass-modes-singular")
-    _check_step(M, K, h, scheme)
+    if h > (limit := largest_step(M, K, scheme)):
+        raise KernelError("kernel.modal.step-too-long-most", h=h, scheme=scheme, limit=limit)
     n = len(M)
     saved = count // every + 1
     values = np.zeros((saved, len(VARIABLES), n))
@@ -124,15 +125,18 @@ def _inverse(A: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.inv(A), dtype=np.float64)
 
 
-def _check_step(M: FloatArray, K: FloatArray, h: float, scheme: str) -> None:
-    """The explicit and conditionally stable schemes have a largest step."""
+def largest_step(M: FloatArray, K: FloatArray, scheme: str) -> float:
+    """The largest step of an explicit or conditionally stable scheme, infinite for others."""
     limit = {"DE_VOGELAERE": 2.0 * np.sqrt(2.0), "DIFFERENCES_CENTREES": 2.0,
-             "FOX_GOODWIN": np.sqrt(6.0)}.get(scheme)  # fmt: skip
-    if limit is None:
-        return
-    squares = np.linalg.eigvals(np.linalg.solve(M, K)).real
-    largest = float(np.sqrt(max(squares.max(initial=0.0), 0.0)))
-    if h * largest > limit:
-        raise KernelError(
-            "kernel.modal.step-too-long-most", h=h, scheme=scheme, limit=limit / largest
-        )
+             "FOX_GOODWIN": np.sqrt(6.0)}.get(scheme, np.inf)  # fmt: skip
+    fastest = float(np.linalg.eigvals(np.linalg.solve(M, K)).real.max(initial=0.0))
+    return float(limit / np.sqrt(fastest)) if fastest > 0.0 else np.inf
+
+
+def stiffness_of_links(links: LinkArrays) -> FloatArray:
+    """Stiffness (n, n) of the springs of stops at planes, all closed."""
+    numbers = links.numbers[links.kinds == PLANE]
+    normals = numbers[:, NX : NZ + 1]
+    receives, sees = (a[links.kinds == PLANE] for a in (links.receives, links.sees))
+    rows = "l,la,lai,lb,lbj->ij", numbers[:, STIFF], normals, receives, normals, sees
+    return np.asarray(np.einsum(*rows))

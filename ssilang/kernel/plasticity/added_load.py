@@ -50,8 +50,6 @@ class LoadedBulk(Bulk):
 
     Attributes
     ----------
-    bodies : Bulk
-    law : callable
     shifts : array (n,)
         Small difference of each unknown.
     instant : float

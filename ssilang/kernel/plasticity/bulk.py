@@ -50,7 +50,6 @@ class Answer:
         Internal forces at the end of the step.
     make_tangent : callable
         Makes `tangent`, csr (n, n), if it is asked for.
-    state : State
     work : float
         Work of the stresses over the step (average of both ends).
     rate : array (n,) or None
@@ -100,7 +99,6 @@ class Bulk:
 
     Attributes
     ----------
-    zones : tuple of PlasticPoints
     places : tuple of array (n_cells, n_rows)
         Unknown of each row of each element vector.
     size : int

@@ -31,8 +31,6 @@ class FibreGroup:
 
     Attributes
     ----------
-    part : SectionZone
-    law : PlasticLaw
     parameters : PointParameters
         At the fibres of one section.
     shear : array (n_fibres, 2)
@@ -204,7 +202,7 @@ class FibrePoints(PlasticPoints):
             made = section_fields(_groups(self), stress[c], inner[c])
             fields[STRESS_FIELD][c, 0], fields[VARIABLE_FIELD][c, 0] = made
         zone = self.zone
-        return CellFieldBlock(zone.cells, fields, "STRESSES", zone.element, zone.constituent)
+        return zone.block(fields)
 
     def plastic_block(self, state: PointState) -> CellFieldBlock | None:
         """None: the strains that stay are those of the fibres."""

@@ -26,7 +26,6 @@ class BentSection:
         MOMY and MOMZ.
     strains : array (n,)
         EPS, the strain of the line.
-    groups : tuple of FibreGroup
     ends : list of Along
         What the fibres have at each value.
     """

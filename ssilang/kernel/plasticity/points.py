@@ -51,7 +51,6 @@ class PointState:
     stress, plastic, free : array (m, 6)
         Stress, plastic strain, strain without stress (expansion) already taken up.
     variables : array (m, k)
-    time : float
     """
 
     stress: FloatArray

@@ -37,7 +37,6 @@ class HarmonicInputs:
     ----------
     stiffness : Matrix
         With the conditions; unilateral ones are refused.
-    mass, damping : Matrix or None
     load : Load or None
         Fields times functions of the frequency; FLX imposes values of the conditions.
     springs : tuple of (Zone, ZoneField)

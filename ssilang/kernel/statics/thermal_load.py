@@ -37,9 +37,7 @@ class ThermalStress:
         """`given` less this stress at a time."""
         factor = float(np.interp(time, *self.curve))
         components = {k: v - factor * self.block.components[k] for k, v in given.components.items()}
-        return CellFieldBlock(
-            given.cells, components, given.support, given.element, given.constituent
-        )
+        return replace(given, components=components)
 
 
 def check_strains(load: Load | None, zones: tuple[Zone, ...], moving: bool) -> None:
@@ -133,7 +131,7 @@ def _between_sides(
     joints = joint_cells(zone, zone_field(zone, material))
     sides = field.values_at("T", joints.upper) + field.values_at("T", joints.lower)
     mean = sides / 2 @ joints.shape.T
-    block = CellFieldBlock(zone.cells, {"T": mean}, "STRESSES", zone.element, zone.constituent)
+    block = zone.block({"T": mean})
     return CellField((block,))
 
 

@@ -128,7 +128,6 @@ class NodeHistories(Track):
 
     Attributes
     ----------
-    problem : Problem
     nodes : array or None
         Increasing; None: all.
     """

@@ -104,9 +104,7 @@ def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:
     """A copy of the state at a step."""
     m = motion
     parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state, m.contact)
-    u, v, a, reaction, w, t, state, contact = (x.copy() for x in parts)
-    time = float(problem.times[step])
-    return Snapshot(problem, step, time, u, v, a, reaction, w, t, state, contact)
+    return Snapshot(problem, step, float(problem.times[step]), *(x.copy() for x in parts))
 
 
 def kept_instant(problem: Problem, recorder: Recorder, row: int, step: int) -> Snapshot:

@@ -122,7 +122,6 @@ class Long:
 
     Attributes
     ----------
-    node : int
     length, speed : float
         Of the cell, of shear waves in it.
     wanted, cells, usual : float

@@ -158,7 +158,7 @@ class Binder:
         for length, heads in level.heads:
             more = heads.get(first[:length])
             if more is not None:
-                known = more if not known else tuple(sorted(known + more, key=_place_of))
+                known = more if not known else tuple(sorted(known + more, key=lambda k: k[0]))
         for _, k, word in known:
             if k.name in level.seen and not k.repeated:
                 continue
@@ -390,10 +390,6 @@ def _twice(value: Any, before: Sequence[Any]) -> str:
 
 def _bare(word: Any) -> str:
     return str(word).rstrip()
-
-
-def _place_of(known: tuple[int, Keyword | Select, str]) -> int:
-    return known[0]
 
 
 _READERS: Mapping[type, Callable[[Binder, Any, int], Any]] = {

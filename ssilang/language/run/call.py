@@ -87,7 +87,6 @@ class Call:
 
     Parameters
     ----------
-    session : Session
     operands : list of Operand
         Unread ones, in order; consumed operands are removed.
     """

@@ -38,7 +38,6 @@ def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> 
 
     Parameters
     ----------
-    error : SsiError
     language : 'en' or 'fr'
     names : iterable of str
         Known variables and procedures, for the suggestion of a near name.

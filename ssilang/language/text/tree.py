@@ -248,10 +248,6 @@ def _item(item: Item) -> str:
     return _ITEMS[type(item)](item)
 
 
-def _number(item: Number) -> str:
-    return repr(item.value)
-
-
 def _quoted(text: str) -> str:
     return "'" + text.replace("'", "''") + "'"
 
@@ -270,7 +266,7 @@ def _attribute(item: Attribute) -> str:
 
 
 _ITEMS: dict[type, Callable[[Any], str]] = {
-    Number: _number,
+    Number: lambda item: repr(item.value),
     Name: lambda item: item.word,
     Quoted: lambda item: _quoted(item.text),
     Symbol: lambda item: item.text,

@@ -3,10 +3,11 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from ssilang.language.values import ListEnti, ListReel
+from ssilang.language.values import ListEnti, ListReel, type_of
 from ssilang.messages.message import spoken
 
 
@@ -93,20 +94,23 @@ class Range:
         """Whether there are numbers outside of it."""
         return self is not UNSAID and not self.carried
 
-    def flaw(self, value: object, name: str) -> tuple[str, dict[str, object]] | None:
+    def flaw(self, value: Any, name: str) -> tuple[str, dict[str, object]] | None:
         """What is wrong with a number or a list of them: a code and data; None if nothing is.
 
-        Nothing is judged where numbers are carried, and of other objects a vector alone, where it
-        must not be zero.
+        Nothing is judged where numbers are carried; of curves the ordinates are, and of other
+        objects a vector alone, where it must not be zero.
         """
         if not self.bounded or isinstance(value, bool):
             return None
         if isinstance(value, int | float):
             return None if value in self else self._outside(value, name)
-        if not isinstance(value, ListReel | ListEnti):
+        if type_of(value) == "EVOLUTIO":
+            numbers = np.hstack([(), *(p.ordinates for p in value.parts if p.ordinates.size)]).real
+        elif isinstance(value, ListReel | ListEnti):
+            numbers = np.asarray(value.values, dtype=float)
+        else:
             vector = None if self.zero else getattr(value, "coordinates", None)
             return None if vector is None or np.any(vector) else self._outside(0.0, name)
-        numbers = np.asarray(value.values, dtype=float)
         with np.errstate(invalid="ignore"):
             above = numbers > self.low if self.open_low else numbers >= self.low
             below = numbers < self.high if self.open_high else numbers <= self.high

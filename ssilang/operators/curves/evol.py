@@ -278,7 +278,7 @@ def _in_time(call: Call, colours: list[int]) -> Curve:
     names = names or names_in_time(call, fields)
     if not names:
         names = [_only(call, _made(fields[0]))] if fields else []
-    nodes = nodes_named(support.value)
+    nodes = support.value.node_ids.tolist()
     called = _point_names(call, support)
     parts: list[CurvePart] = []
     for name in names:
@@ -342,10 +342,10 @@ def _tell_rounding(
         else:
             _tell_held_side(call, fields, name, node)
             still = name in ways and held(problem)[problem.numbering.index_of(node, name)]
-            told_side = call.session.warned("operators.curves.held-side")
-            first = fields.track not in _LOOKED_AT and not told_side
-            if still and first and problem.loading.forces.any():
-                told = {"node": problem.numbering.table.told(node)}
+            table, up = problem.numbering.table, len(axes_of(problem)) - 1
+            top = float(table.coordinates[problem.numbering.nodes, up].max())
+            if still and table.coordinates[node, up] == top and problem.loading.forces.any():
+                told = {"node": table.told(node)}
                 call.warn("operators.curves.held-there", name=name, **told)
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
@@ -375,7 +375,7 @@ def _point_names(call: Call, support: Operand) -> dict[int, str]:
     """What a legend calls nodes: the script's names of the points, else their numbers."""
     named = reversed(call.session.frame.named().items())
     points = {p.node: name for name, p in named if isinstance(p, Point)}
-    found = {node: points.get(node, str(node + 1)) for node in nodes_named(support.value)}
+    found = {node: points.get(node, str(node + 1)) for node in support.value.node_ids.tolist()}
     if isinstance(support.value, Point) and support.name:
         found[support.value.node] = support.name
     return found
@@ -415,10 +415,6 @@ def _in_a_cell(
         values.append(float(row[min(point, len(row)) - 1]))
     part = CurvePart(times, np.asarray(values), "TEMP", name[:12], legend, colour)
     return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
-
-
-def nodes_named(support: Point | Mesh) -> list[int]:
-    return [support.node] if isinstance(support, Point) else [int(n) for n in support.node_ids]
 
 
 def names_in_time(call: Call, fields: Sequence[Any]) -> list[str]:

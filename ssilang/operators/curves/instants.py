@@ -16,7 +16,6 @@ class InstantField:
 
     Attributes
     ----------
-    numbering : Numbering
     vector : array (n,)
         Values of the unknowns.
     make : callable
@@ -40,7 +39,6 @@ class MadeFields(Sequence[MadeField]):
 
     Attributes
     ----------
-    n_fields : int
     make : callable
         Makes the field at a place, from 0.
     """
@@ -69,7 +67,6 @@ class _Recorded(MadeFields[MadeField]):
 
     Attributes
     ----------
-    track : NodeHistories
     name : str
         `u`, `v` or `a`; of joints `jump`, `traction` or `variables`.
     """

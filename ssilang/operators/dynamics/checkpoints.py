@@ -328,7 +328,7 @@ def _piece_of(problem: Problem, unknowns: IntArray, parts: dict[str, NDArray[Any
 
 def steps_of_reprise(entries: Entries) -> int | None:
     """Steps from one checkpoint to the next (0: by the clock); None without REPRISE."""
-    asked = entries.inside("REPRISE") if isinstance(entries.get("REPRISE"), Table) else None
+    asked = entries.inside("REPRISE")
     return None if asked is None else asked.get("PAS") or 0
 
 
@@ -343,7 +343,7 @@ def kept_calculation(
     not_kept : sequence of str
         Entries in force whose calculation cannot be kept.
     """
-    asked = entries.inside("REPRISE") if isinstance(entries.get("REPRISE"), Table) else None
+    asked = entries.inside("REPRISE")
     if asked is None:
         return None
     for index in not_kept:

@@ -30,6 +30,7 @@ from ssilang.operators.files.outputs import output_path, run_output
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.bodies import plastic_bodies
+from ssilang.operators.statics.solve import first_cells
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
 
@@ -58,7 +59,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
     plausibility.warn_of_strength(entries, problem)
     asked = nodes_asked(entries, "MAILLAGE_SAUVE", problem)
     whole = bodies is not None or entries.flag("CHARMECA")
-    origin = workspace(call.session).origins, (inputs.stiffness.blocks, None)
+    origin = workspace(call.session).origins, (first_cells(inputs.stiffness), None)
     results = TableObserver(NodeHistories(saved, problem=problem, nodes=asked), whole, origin)
     vtk, csv = vtk_observer(entries, problem), csv_observer(entries, problem)
     forces = force_track(entries, problem, saved)

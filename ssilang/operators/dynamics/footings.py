@@ -48,7 +48,7 @@ def zsem(
         node = numbering.table.told(numbering.nodes[np.flatnonzero(lost)[0]])
         raise call.error("operators.dynamics.footing-not-kept", motion, node=node)
     u = np.nan_to_num(u, nan=0.0)
-    w = np.array([_jumps(interface, row) for row in u])
+    w = np.array([interface.jumps(row) for row in u])
     stresses = [cast(CellField, tractions.get(i + 1)) for i in range(len(u))]
     t = np.array([point_values(interface, field, "traction") for field in stresses])
     for code, told in _of_others(interface, stresses[0], w, t):
@@ -128,13 +128,6 @@ def _numbering(model: Model) -> Numbering:
     nodes = np.unique(table.resolve(nodes))
     codes = np.tile(np.arange(len(names)), len(nodes))
     return Numbering(table, names, names, np.repeat(nodes, len(names)), codes, table.version)
-
-
-def _jumps(interface: Interface, u: FloatArray) -> FloatArray:
-    """Jumps (n_points, d) at the points."""
-    of_pairs = (interface.J @ u).reshape(-1, interface.dimension)[interface.pairs]
-    local = of_pairs.reshape(interface.n_points, -1)
-    return np.einsum("pia,pa->pi", interface.B, local)
 
 
 def _results(

@@ -114,7 +114,7 @@ def nodes_asked(entries: Entries, index: str, problem: Problem) -> IntArray | No
     mesh = entries.get(index)
     if mesh is None:
         return None
-    nodes = mesh.sorted_node_ids if isinstance(mesh, Mesh) else np.array([mesh.node])
+    nodes: IntArray = mesh.sorted_node_ids
     tell_still(entries, index, nodes, problem)
     return nodes
 

@@ -36,11 +36,8 @@ def _cells(named: dict[str, object]) -> list[CellBlock]:
     meshes = [v for v in named.values() if isinstance(v, Mesh)]
     found = [b for m in models for b in m.mesh.blocks]
     found = found or list(max(meshes, key=lambda m: m.n_cells).blocks if meshes else ())
-    kept: dict[tuple[str, bytes], CellBlock] = {}
-    for block in found:
-        if block.cell_type in ORDERS and len(block):
-            kept.setdefault((block.cell_type, block.raw.tobytes()), block)
-    return list(kept.values())
+    shown = [b for b in found if b.cell_type in ORDERS and len(b)]
+    return list({(b.cell_type, b.raw.tobytes()): b for b in shown}.values())
 
 
 def _is_displacement(value: object) -> bool:

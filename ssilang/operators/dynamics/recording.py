@@ -9,9 +9,9 @@ import numpy as np
 
 from ssilang.io.recording import Recording
 from ssilang.io.vtk.grid import ORDERS
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.interface.footing import Footing, Loads
-from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem
@@ -19,7 +19,7 @@ from ssilang.kernel.stepping.run import History
 from ssilang.kernel.stepping.snapshot import Observer
 from ssilang.operators.dynamics.motion_files import VtkObserver, stress_of
 from ssilang.operators.dynamics.reports import ENERGIES
-from ssilang.operators.dynamics.watching import joint_places
+from ssilang.operators.dynamics.watching import even, joint_places
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import units_in_si
@@ -33,13 +33,6 @@ NUMBERS = 6_000_000
 
 COLUMNS = ("share", "force", "pressure", "opening")
 """Histories of a footing, beside its moments and rotations."""
-
-
-def even(count: int, most: int) -> BoolArray:
-    """Which of so many instants are taken: the first, the last, and evenly between."""
-    wanted = np.zeros(count, bool)
-    wanted[np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))] = True
-    return wanted
 
 
 @dataclass(eq=False)
@@ -135,15 +128,9 @@ def moving_mesh(inputs: Inputs) -> Mesh | None:
     given = [m for m in (inputs.stiffness, inputs.mass) if m is not None]
     zones = [b.zone for m in given for b in m.blocks if b.zone is not None]
     zones += [] if inputs.model is None else list(inputs.model.zones)
-    blocks: dict[tuple[str, bytes], CellBlock] = {}
-    for zone in zones:
-        cells = zone.cells
-        if cells.cell_type in ORDERS and len(cells):
-            blocks.setdefault((cells.cell_type, cells.raw.tobytes()), cells)
-    if not blocks:
-        return None
-    found = tuple(blocks.values())
-    return Mesh(found[0].nodes, found)
+    shown = [z.cells for z in zones if z.cells.cell_type in ORDERS and len(z.cells)]
+    found = tuple({(c.cell_type, c.raw.tobytes()): c for c in shown}.values())
+    return Mesh(found[0].nodes, found) if found else None
 
 
 def _columns(footing: Footing, loads: Loads, tail: str) -> dict[str, FloatArray]:

@@ -115,8 +115,8 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float 
     """Warn where impacts on relations alone have changed the energy for good; by what share.
 
     A share of what the structure had been given by then. At an impact it is off for a step, see
-    `kernel.contact.impact`. Schemes that damp take energy on purpose, as impacts without correction
-    do; the springs of a penalty hold some.
+    `kernel.contact.impact`. Schemes that damp take energy on purpose, as impacts of multipliers
+    without correction do.
     """
     if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
         return None
@@ -125,7 +125,8 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float 
     damps = not (problem.scheme.average_acceleration or problem.scheme.conserving)
     options = problem.contact_options
     penalty = options.method == "PENALITE"
-    takes = damps or penalty or options.correction == "FAUX"
+    uncorrected = not penalty and options.correction == "FAUX"
+    takes = damps or uncorrected
     change = (history.imbalance if takes else np.abs(history.imbalance)) / history.given
     windows = np.lib.stride_tricks.sliding_window_view(change, LASTING)
     share = max(0.0, float(windows.min(axis=1).max()))
@@ -135,7 +136,6 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float 
         entries.warn("operators.dynamics.impacts-uncorrected", share=100.0 * share)
     else:
         code = "operators.dynamics.impacts-change-energy"
-        uncorrected = not penalty and options.correction == "FAUX"
         entries.warn(code, share=100.0 * share, uncorrected=uncorrected)
     return share
 

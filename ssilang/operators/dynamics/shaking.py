@@ -13,7 +13,6 @@ from ssilang.kernel.interface.interface import Interface, is_macro, joint_zones,
 from ssilang.kernel.interface.kinematics import JointCells
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.matrices.assembly import Numbering, field_to_vector
 from ssilang.kernel.statics.cells_amiss import bordered_solids, layers
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, loose_bodies
@@ -393,8 +392,7 @@ def _sheared(start: Start, joints: Interface) -> Told:
     for body in start.bodies():
         pulls = {a: abs(float(way @ start.weight)) for a, way in body.ways.items()}
         axis = max(pulls, key=pulls.__getitem__)
-        w = np.zeros((joints.n_points, joints.dimension))
-        local_jumps(joints.points, joints.J @ body.ways[axis], w)
+        w = joints.jumps(body.ways[axis])
         slips = np.abs(w).max(initial=0.0) > 0.0 == np.abs(w[:, -1]).round(9).max(initial=0.0)
         if slips and pulls[axis] > 0.0 and not start.holds(body.ways[axis]):
             yield SHEARED, {"axis": axis, "node": body.node}

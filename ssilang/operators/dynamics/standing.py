@@ -16,7 +16,6 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.interface import Interface, is_macro
 from ssilang.kernel.interface.laws.columns import LawCode, Parameter
-from ssilang.kernel.interface.response import local_jumps
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.statics.doubled import bodies_of_nodes
@@ -371,8 +370,7 @@ def weak_cores(start: Start) -> Told:
     lead = [] if joints is None else joints.codes == LawCode.LEAD
     for body in start.bodies() if np.any(lead) else ():
         assert joints is not None
-        w, weight = np.zeros((joints.n_points, joints.dimension)), body.weight
-        local_jumps(joints.points, joints.J @ body.up, w)
+        w, weight = joints.jumps(body.up), body.weight
         cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
         if weight > 0.0 and cores > 0.0 and not CORES <= cores / weight <= STRONG:
             told = {"node": body.node, "cores": cores, "weight": weight, "share": cores / weight}
@@ -382,9 +380,10 @@ def weak_cores(start: Start) -> Told:
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
     """Stiffness against a motion of bearings that have yielded, none beside other joints."""
-    w = np.zeros((joints.n_points, joints.dimension))
-    local_jumps(joints.points, joints.J @ way, w)
-    moved, p = (w[:, :-1] ** 2).sum(axis=1), joints.parameters[:, [Parameter.KPOS, Parameter.RAYO]]
+    moved, p = (
+        (joints.jumps(way)[:, :-1] ** 2).sum(axis=1),
+        joints.parameters[:, [Parameter.KPOS, Parameter.RAYO]],
+    )
     lead, pendulum = (joints.codes[moved > 0.0] == c for c in (LawCode.LEAD, LawCode.PENDULUM))
     if lead.size and lead.all():
         return float(p[:, 0] @ moved)
@@ -459,9 +458,7 @@ def _beside_its_base(start: Start, body: Body) -> Told:
 
 def _normal_jumps(joints: Interface, motion: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Openings (n_points,) by a motion at the middle of each point, and what its ends add."""
-    w = np.zeros((joints.n_points, joints.dimension))
-    local_jumps(joints.points, joints.J @ motion, w)
-    p = joints.parameters
+    w, p = joints.jumps(motion), joints.parameters
     sides = np.maximum(p[:, [Parameter.LONG, Parameter.LARG]], 2.0 * p[:, [Parameter.RAYO]]) / 2.0
     return w[:, -1], (np.abs(w[:, :-1]) * sides[:, 3 - joints.dimension :]).sum(axis=1)
 

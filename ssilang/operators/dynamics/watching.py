@@ -23,6 +23,13 @@ FASTER = 0.1
 KINDS = ("DEPL", "REACTIONS", "OUVERTURE", "COMPRESSION", "CISAILLEMENT")
 
 
+def even(count: int, most: int) -> BoolArray:
+    """Which of so many instants are taken: the first, the last, and evenly between."""
+    wanted = np.zeros(count, bool)
+    wanted[np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int))] = True
+    return wanted
+
+
 def extremes_table(extremes: Extremes) -> Table:
     """VALEUR, TEMPS and where, by quantity and, at nodes, by component."""
     problem, made = extremes.problem, Table()
@@ -83,12 +90,10 @@ class UpliftWatch(Track):
     @classmethod
     def of(cls, problem: Problem) -> "UpliftWatch | None":
         """The watch of a problem with joints that can open; None without."""
-        joints, n = problem.interface, len(problem.times)
+        joints = problem.interface
         if joints is None or any(is_macro(j.zone) for j in joints.joints):
             return None
-        wanted = np.zeros(n, bool)
-        wanted[np.unique(np.linspace(0, n - 1, SAMPLES).round().astype(int))] = True
-        return cls(wanted, np.zeros(0, np.int64))
+        return cls(even(len(problem.times), SAMPLES), np.zeros(0, np.int64))
 
     def receive(self, snapshot: Snapshot) -> None:
         """Look at one whole instant."""

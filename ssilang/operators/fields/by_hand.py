@@ -15,7 +15,7 @@ from ssilang.operators.fields.signs import names_of, nature_of
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import on_zones
 
-_SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+_SUPPORTS: tuple[Support, ...] = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
 _TITLE = key("title", "TITRE", "MOT", en="title of the field")
@@ -161,13 +161,13 @@ def cell_field(
     at = points or integration or (position or "NOEUD").rstrip()
     if at not in _SUPPORTS:
         raise call.error("operators.fields.no-support", support=at, supports=_SUPPORTS)
-    points_at, kind = cast(Support, at), (title or "").rstrip()
+    kind = (title or "").rstrip()
     named = [(name.rstrip(), value) for name, value in pairs]
     if place:
         name, cell = named[-1]
-        return _at_one_point(call, support, name, (cell, *place), points_at, kind)
+        return _at_one_point(call, support, name, (cell, *place), at, kind)
     said = None if constituent is None else constituent.rstrip()
-    return _in_cells(support, named, points_at, kind, said, deal)
+    return _in_cells(support, named, at, kind, said, deal)
 
 
 def _at_one_point(
@@ -237,16 +237,8 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
     return made
 
 
-def _scalar(support: Support) -> tuple[str, Support]:
-    return "SCALAIRE", support
-
-
 _TITLES: dict[str, tuple[str, Support]] = {
-    "NOEUD": _scalar("NOEUD"),
-    "GRAVITE": _scalar("GRAVITE"),
-    "RIGIDITE": _scalar("RIGIDITE"),
-    "MASSE": _scalar("MASSE"),
-    "STRESSES": _scalar("STRESSES"),
+    **{support: ("SCALAIRE", support) for support in _SUPPORTS},
     "DEPLACEM": ("DEPLACEMENTS", "NOEUD"),
     "FORCES": ("FORCES", "NOEUD"),
     "TEMPERAT": ("TEMPERATURES", "NOEUD"),
@@ -300,6 +292,6 @@ def zero(
             return hooke_block(zone, np.zeros((1, n_points(zone.element, support), s, s)), support)
         shape = (len(zone.cells), n_points(zone.element, support))
         components = {n: np.zeros(shape) for n in _names(zone, word)}
-        return CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
+        return zone.block(components, support)
 
     return on_zones(model, title, make)

@@ -129,9 +129,7 @@ def join_cell_fields(first: CellField, second: CellField) -> CellField:
             old = blocks[place]
             merged = {**new.components, **old.components}
             ordered = {n: merged[n] for n in (*old.components, *new.components)}
-            blocks[place] = CellFieldBlock(
-                old.cells, ordered, old.support, old.element, old.constituent
-            )
+            blocks[place] = replace(old, components=ordered)
     return CellField(tuple(blocks), first.title or second.title)
 
 

@@ -166,10 +166,9 @@ def change_constituent(
 
 def support_nodes(support: Point | Mesh) -> IntArray:
     """Nodes of a point or a mesh, in order; those of a mesh of points as they stand."""
-    if isinstance(support, Point):
-        return np.asarray([support.node])
-    if all(b.cell_type == "POI1" for b in support.blocks) and support.blocks:
-        return np.concatenate([b.connectivity[:, 0] for b in support.blocks])
+    blocks = () if isinstance(support, Point) else support.blocks
+    if blocks and all(b.cell_type == "POI1" for b in blocks):
+        return np.concatenate([b.connectivity[:, 0] for b in blocks])
     return support.node_ids
 
 

@@ -29,7 +29,7 @@ def psip(
 ) -> NodeField | tuple[NodeField, ...]:
     """Signed distances."""
     ws = workspace(call.session)
-    nodes = np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
+    nodes = place.sorted_node_ids
     points = ws.nodes.coordinates[nodes]
     phi = signed_distance(points, mesh, ws.dimension)
     rows = {"PHI": phi}

@@ -24,10 +24,6 @@ from ssilang.operators.statics.stresses import MODEL, on_zones, state_and_rest
 _SKINS = ("SUPE", "MOYE", "INFE")
 
 
-def _scalar(zone: Zone, values: FloatArray, support: Support) -> CellFieldBlock:
-    return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
-
-
 STATE = many("fields", "MCHAML", at_least=1, en="stresses or strains, and parameters")
 _SIDE = choice(
     "side",
@@ -48,13 +44,13 @@ def _equivalent(
     field, material = state_and_rest(fields)
 
     def make(zone: Zone) -> CellFieldBlock:
-        if what == "VMIS" and skin.is_shell(zone) and material is not None:
-            return _scalar(zone, *tensors.section_equivalent(zone, field, material))
-        if is_solid(zone) or skin.is_shell(zone) or skin.is_thick_shell(zone):
+        plain = is_solid(zone) or skin.is_thick_shell(zone)
+        if plain or (skin.is_shell(zone) and (what != "VMIS" or material is None)):
             T, support = _tensor(zone, field, material, side)
-            return _scalar(zone, compute(T), support)
+            return zone.block({"SCAL": compute(T)}, support)
         if what == "VMIS":
-            return _scalar(zone, *tensors.section_equivalent(zone, field, material))
+            values, support = tensors.section_equivalent(zone, field, material)
+            return zone.block({"SCAL": values}, support)
         raise FieldError(
             "operators.fields.continuous-elements-only", what=what, element=zone.element
         )
@@ -127,7 +123,7 @@ def inva(
     for zone in present(call, model).zones:
         T, support = _tensor(zone, field, material, side)
         for row, values in zip(rows, tensors.invariants(T), strict=True):
-            row.append(_scalar(zone, values, support))
+            row.append(zone.block({"SCAL": values}, support))
     one, two, three = (CellField(tuple(r), "SCALAIRE") for r in rows)
     return one, two, three
 
@@ -153,7 +149,7 @@ def ener(
             raise FieldError(
                 "operators.fields.stresses-and-strains-apart", support=support, other=other
             )
-        return _scalar(zone, (s * e).sum(axis=1), support)
+        return zone.block({"SCAL": (s * e).sum(axis=1)}, support)
 
     return on_zones(present(call, model), "SCALAIRE", make)
 
@@ -214,7 +210,7 @@ def intg(
     if not by_cell:
         return float(sum(p.sum() for p in parts if p is not None))
     blocks = [
-        _scalar(z, p[:, None], "GRAVITE")
+        z.block({"SCAL": p[:, None]}, "GRAVITE")
         for z, p in zip(model.zones, parts, strict=True)
         if p is not None
     ]
@@ -236,13 +232,14 @@ def jaco(model: Model = MODEL) -> CellField:
         if is_solid(zone):
             geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
             weights = support_rule(zone.element, "RIGIDITE").weights
-            return _scalar(zone, geometry.volumes / weights, "RIGIDITE")
+            return zone.block({"SCAL": geometry.volumes / weights}, "RIGIDITE")
         shell = skin.is_shell(zone) or skin.is_thick_shell(zone)
         if not (shell or structural_gradients.is_structural(zone)):
             raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         points = support_rule(zone.element, "RIGIDITE").points
         slopes = shape_gradients(zone.cells.cell_type, points)
         J = np.einsum("pki,ckd->cpid", slopes, zone.cells.coordinates)
-        return _scalar(zone, np.sqrt(np.linalg.det(J @ np.swapaxes(J, 2, 3))), "RIGIDITE")
+        values = np.sqrt(np.linalg.det(J @ np.swapaxes(J, 2, 3)))
+        return zone.block({"SCAL": values}, "RIGIDITE")
 
     return on_zones(model, "SCALAIRE", make)

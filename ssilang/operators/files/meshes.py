@@ -173,20 +173,12 @@ def _parts_of(call: Call, given: Any) -> tuple[list[Mesh], dict[str, Any]]:
 
 
 def _lies_on(value: Any, mesh: Mesh) -> bool:
-    if isinstance(value, Point):
-        return bool(np.isin(value.node, mesh.sorted_node_ids))
-    return (
-        isinstance(value, Mesh)
-        and bool(value.blocks)
-        and bool(np.isin(value.sorted_node_ids, mesh.sorted_node_ids).all())
-    )
+    ids = value.sorted_node_ids if isinstance(value, Mesh | Point) else ()
+    return len(ids) > 0 and bool(np.isin(ids, mesh.sorted_node_ids).all())
 
 
 def _blocks(value: Any) -> Iterator[CellBlock]:
-    if isinstance(value, Point):
-        yield CellBlock.make(value.nodes, "POI1", np.array([[value.node]]))
-    else:
-        yield from parted(value)[0].blocks
+    yield from parted(value.mesh if isinstance(value, Point) else value)[0].blocks
 
 
 def _file_mesh(call: Call, given: Any) -> FileMesh:

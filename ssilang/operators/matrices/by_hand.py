@@ -4,7 +4,6 @@ from ssilang.kernel.matrices import build
 from ssilang.kernel.matrices.by_hand import column, from_columns, square
 from ssilang.kernel.mesh.cells import many_noded
 from ssilang.operators.dispatch import MANU
-from ssilang.operators.matrices.supports import nodes_of
 from ssilang.operators.prelude import *
 
 _SIGN = {"SYME": 1.0, "ANTI": -1.0, "QUEL": None}
@@ -34,9 +33,7 @@ def repeated(
     ),
 ) -> Matrix:
     """The same matrix on all cells of a mesh."""
-    mesh = support
-    if isinstance(mesh, Point):
-        mesh = Mesh.of(mesh.nodes, "POI1", np.array([[mesh.number]]))
+    mesh = support.mesh if isinstance(support, Point) else support
     if not mesh.blocks:
         raise call.error("operators.matrices.matrix-mesh-empty", support)
     unknowns = _names(primal)
@@ -107,7 +104,7 @@ def one_cell(
     places: tuple[Mesh | Point, ...] = Many("POINT", "MAILLAGE", at_least=1, en="points"),
 ) -> Mesh:
     """One cell of all the points."""
-    nodes = np.concatenate([nodes_of(p) for p in places])
+    nodes = np.concatenate([p.node_ids for p in places])
     if len(np.unique(nodes)) != len(nodes):
         raise call.error("operators.matrices.point-twice-in-cell")
     return Mesh.of(places[0].nodes, many_noded(word, len(nodes)), nodes[None, :])

@@ -50,11 +50,6 @@ def _assembled(model: Model, blocks: list[ElementMatrices], kind: str) -> Matrix
     return Matrix(model.mesh.nodes, tuple(blocks), (), kind)
 
 
-def nodes_of(place: Mesh | Point) -> IntArray:
-    """Node numbers of a point or mesh, each once."""
-    return np.array([place.node]) if isinstance(place, Point) else place.sorted_node_ids
-
-
 MODEL = arg("model", "MMODEL", en="model")
 PARAMETERS = many("fields", "MCHAML", at_least=1, en="parameters, or Hooke matrices")
 _ON_MESH = flag("on_mesh", "REFE", en="of shells off the mesh (EXCE): of forces on the mesh")
@@ -105,7 +100,7 @@ def _additional(
     mode = workspace(call.session).mode
     groups = {"DEPL": NODE_TRANSLATIONS[mode], "ROTA": NODE_ROTATIONS[mode]}
     said = [n for name in names for n in groups.get(name, (name,))]
-    nodes = nodes_of(place)
+    nodes = place.sorted_node_ids
     if not len(nodes):
         call.warn("operators.matrices.at-no-node")
     chosen = dict.fromkeys(said or NODE_TRANSLATIONS[mode])

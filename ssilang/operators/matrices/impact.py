@@ -32,7 +32,7 @@ def impo(
     if workspace(call.session).mode.dimension != 2:
         raise call.error("operators.matrices.impo-in-the-plane", master)
     if isinstance(slave, Point):
-        slave = Mesh.of(slave.nodes, "POI1", np.array([[slave.node]]))
+        slave = slave.mesh
     return touching.possible_links(master, slave)
 
 

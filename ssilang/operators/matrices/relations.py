@@ -3,7 +3,7 @@
 from ssilang.kernel.matrices import relations as made
 from ssilang.kernel.matrices import tied_relations as tied
 from ssilang.kernel.matrices.relations import Term
-from ssilang.operators.matrices.supports import as_matrix, nodes_of, warn_of_foreign
+from ssilang.operators.matrices.supports import as_matrix, warn_of_foreign
 from ssilang.operators.mesh.changes.cells import tie_relations
 from ssilang.operators.prelude import *
 
@@ -50,7 +50,7 @@ def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     """The term by unknowns: one list of terms for each relation that it makes."""
     assert term.support is not None
     mode = workspace(call.session).mode
-    nodes = nodes_of(term.support)
+    nodes = term.support.node_ids
     groups = {"DEPL": made.in_space(mode), "ROTA": made.rotations(mode)}
     names = groups.get(term.unknown, (term.unknown,))
     if term.direction is None:
@@ -186,8 +186,8 @@ def rigid_with_rotations(
     """A rigid body whose nodes turn."""
     ws = workspace(call.session)
     names, turns = made.in_space(ws.mode), made.rotations(ws.mode)
-    nodes = nodes_of(mesh)
-    following = nodes[:0] if rest is None else nodes_of(rest)
+    nodes = mesh.node_ids
+    following = nodes[:0] if rest is None else rest.node_ids
     return as_matrix(tied.rigid_with_rotations(ws.nodes, nodes, following, names, turns))
 
 
@@ -229,7 +229,7 @@ def hooked_on_model(
 ) -> Matrix:
     """Nodes hooked onto the cells of a model."""
     names = made.in_space(workspace(call.session).mode)
-    nodes = nodes_of(guest.mesh if isinstance(guest, Model) else guest)
+    nodes = (guest.mesh if isinstance(guest, Model) else guest).node_ids
     return as_matrix(tied.hooked(nodes, host.mesh, names, 1e-5))
 
 
@@ -242,7 +242,7 @@ def hooked(
     tolerance: float = _TOLERANCE,
 ) -> Matrix:
     """Nodes hooked onto the cells that they lie in."""
-    return as_matrix(tied.hooked(nodes_of(guest), host, _unknowns(call, words), tolerance))
+    return as_matrix(tied.hooked(guest.node_ids, host, _unknowns(call, words), tolerance))
 
 
 @rela.form(said("GLISSANT"))

@@ -26,8 +26,7 @@ def stiffness(
     """Stiffness condensed onto the masters."""
     if isinstance(chosen, Matrix | NodeField):
         return superelement.condense(matrix, chosen, inside)
-    nodes = chosen.node_ids if isinstance(chosen, Mesh) else np.array([chosen.node])
-    return superelement.condense(matrix, nodes, inside)
+    return superelement.condense(matrix, chosen.node_ids, inside)
 
 
 @SUPE.form(said("CHARGE"))

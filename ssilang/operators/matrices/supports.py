@@ -11,11 +11,6 @@ IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
 IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space")
 
 
-def nodes_of(support: Point | Mesh) -> IntArray:
-    """Node numbers of a point or of a mesh, in the mesh's order."""
-    return np.array([support.node]) if isinstance(support, Point) else support.node_ids
-
-
 def as_matrix(relations: Relations) -> Matrix:
     """Conditions alone as a matrix."""
     return Matrix(relations.table, (), (relations,))
@@ -137,7 +132,7 @@ class _Held:
 @operator("BLOQ", *_held(_CENTRE), _SUPPORT, when=IN_PLANE, family="relations", full_name="BLOQUE")
 def bloq(call: Call, support: Mesh | Point, **said: Any) -> Matrix:
     """Conditions on single nodes."""
-    held, nodes = _Held(call, **said), nodes_of(support)
+    held, nodes = _Held(call, **said), support.node_ids
     _some(nodes)
     if held.directed():
         rows = [
@@ -175,7 +170,7 @@ def bloq_of_table(call: Call, table: Table = Arg("TABLE", en="table LIAISONS_STA
     for entry, point, unknown in static_links(table):
         if not isinstance(point, Point) or not unknown:
             raise call.error("operators.matrices.link-wants-point-and-unknown", table)
-        single = as_matrix(made.blocked(ws.nodes, nodes_of(point), (unknown,)))
+        single = as_matrix(made.blocked(ws.nodes, point.node_ids, (unknown,)))
         entry.set("BLOCAGE", single)
         parts += single.relations
     if not parts:
@@ -262,7 +257,7 @@ def _mirror(
     if reach <= 0.0:
         raise call.error("operators.matrices.symmetry-distance-missing")
     plane = np.stack([p.coordinates for p in points.values()])
-    near, normal = made.on_plane(ws.nodes, nodes_of(mesh), plane, reach)
+    near, normal = made.on_plane(ws.nodes, mesh.node_ids, plane, reach)
     names = made.in_space(ws.mode) if "DEPL" in groups else ()
     turns = made.rotations(ws.mode) if "ROTA" in groups else ()
     return as_matrix(made.mirror_rows(ws.nodes, near, normal, names, turns, mirrored))
@@ -298,7 +293,7 @@ def appu(
     call: Call, stiffness: float = _STIFFNESS, support: Mesh | Point = _SUPPORT, **said: Any
 ) -> Matrix:
     """Springs to the ground."""
-    held, nodes = _Held(call, **said), nodes_of(support)
+    held, nodes = _Held(call, **said), support.node_ids
     if held.sense:
         raise call.error("operators.matrices.spring-works-both-ways")
     _some(nodes)

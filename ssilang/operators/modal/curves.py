@@ -44,7 +44,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     names = names or evol.names_in_time(call, known)
     if not names:
         raise call.missing(("MOT",))
-    places_of = [(name, node) for name in names for node in evol.nodes_named(support.value)]
+    places_of = [(name, node) for name in names for node in support.value.node_ids.tolist()]
     return _curves(call, times, contributions(list(fields), shapes), known, places_of, colours)
 
 
@@ -76,17 +76,18 @@ def _recombined_results(call: Call, colours: list[int]) -> Curve:
     shapes = read_basis(call)
     load = call.optional("CHARGEME")
     quantity = call.keyword(("DEPL", "VITE", "ACCE")) or "DEPL"
-    at = call.given(evol.TIMES)
-    fields, times = _about(call, at, *modal_history(call, results, quantity))
-    weights = contributions(fields, shapes)
+    fields, times = modal_history(call, results, quantity)
     known = [s.field for s in shapes]
+    pseudo = []
     if load is not None and quantity == "DEPL":
         if basis is None:
             raise call.error("operators.modal.pseudo-modes-want-basis", load)
         pseudo = pseudo_shapes(call, basis, load)
-        weights = np.column_stack([weights, *(p.at(times) for p in pseudo)])
         known += [p.field for p in pseudo]
     places = _places_asked(call, known)
+    at = call.given(evol.TIMES)
+    fields, times = _about(call, at, fields, times)
+    weights = np.column_stack([contributions(fields, shapes), *(p.at(times) for p in pseudo)])
     if at is not None:
         weights, times = _at(at, times, weights), np.asarray(at.values)
     return _curves(call, times, weights, known, places, colours)
@@ -104,7 +105,7 @@ def _places_asked(call: Call, fields: list[NodeField]) -> list[tuple[str, int]]:
     names = evol.names_in_time(call, fields)
     if not names:
         raise call.missing(("MOT",))
-    return [(name, node) for name in names for node in evol.nodes_named(support.value)]
+    return [(name, node) for name in names for node in support.value.node_ids.tolist()]
 
 
 def _about(
@@ -137,8 +138,7 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
     word = call.keyword(words, length=9)
     if word is None:
         raise call.error("operators.modal.which-contributions", words=[f"'{w}'" for w in words])
-    at = call.given(evol.TIMES)
-    fields, times = _about(call, at, *modal_history(call, results, _SOLU.get(word, word)))
+    fields, times = modal_history(call, results, _SOLU.get(word, word))
     other = call.read("TABLE")
     if other is not None:
         shapes = shapes_of(call, other.value)
@@ -147,6 +147,8 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
     else:
         places = _places_asked(call, list(fields[:1]))
     names = [c for c, _ in places]
+    at = call.given(evol.TIMES)
+    fields, times = _about(call, at, fields, times)
     weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
     if at is not None:
         weights, times = _at(at, times, weights), np.asarray(at.values)

@@ -73,16 +73,15 @@ def _integrated(
     links, arrays = links_of(call, tables.get("links"), system.basis)
     start = _start(call, tables.get("start"), system, len(arrays.kinds), steps)
     # Forces on the modes (p, n) and their values at each half step (p, 2 steps + 1).
-    table = tables.get("loads")
-    load = None if table is None else table.get("BASE_A")
-    if table is not None and not isinstance(load, Load):
-        raise call.error("operators.modal.table-chargement-no-load", table)
-    given = load if isinstance(load, Load) else None
+    given = _held(tables["loads"], "BASE_A") if "loads" in tables else None
     loading = loading_of(given, system.numbering, np.zeros(0, dtype=np.int64))
     times = start.time + 0.5 * steps.h * np.arange(2 * max(steps.count, 0) + 1, dtype=np.float64)
     spaces, amplitudes = loading.forces.T.copy(), loading.at(times).T.copy()
     problem = explicit.ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
     run = explicit.integrate_modes(problem, start, steps)
+    closed = system.K + explicit.stiffness_of_links(arrays)
+    if steps.h > (limit := explicit.largest_step(system.M, closed, steps.scheme)):
+        call.warn("operators.modal.step-of-links", h=steps.h, limit=limit, scheme=steps.scheme)
     return _results(call, run, system, links, tables.get("output"))
 
 
@@ -167,7 +166,7 @@ def _of_mode(call: Call, entry: Table, name: str) -> float:
 
 
 def _of_matrices(call: Call, table: Table) -> System:
-    stiffness, mass = (_matrix(call, table, name) for name in ("RAIDEUR", "MASSE"))
+    stiffness, mass = (_held(table, name) for name in ("RAIDEUR", "MASSE"))
     numbering = numbering_of(stiffness, mass)
     named = [numbering.unknowns[c] for c in numbering.codes]
     if any(u not in ("ALFA", "BETA") for u in named):
@@ -184,14 +183,13 @@ def _of_matrices(call: Call, table: Table) -> System:
         _kept(assemble(m, numbering).toarray(), _full(table, nature))
         for m, nature in ((stiffness, "NATURE_RAIDEUR"), (mass, "NATURE_MASSE"))
     )
+    if (masses := np.diag(M)).min(initial=0.0) < 0.0:
+        raise call.error("operators.modal.mass-not-positive", table, masses_min=masses.min())
     return System(basis, numbering, K, M)
 
 
-def _matrix(call: Call, table: Table, name: str) -> Matrix:
-    value = table.get(Mot(name))
-    if not isinstance(value, Matrix):
-        raise call.error("operators.modal.matrix-wanted", table, subtype=table.subtype, name=name)
-    return value
+def _held(table: Table, name: str) -> Any:
+    return table.get(Mot(name))  # of its type: the table is checked
 
 
 def _full(table: Table, name: str) -> bool:
@@ -206,8 +204,11 @@ def damping_of(call: Call, table: Table | None, system: System) -> FloatArray:
     """Damping of the modes (n, n), zero without a table."""
     if table is None:
         return np.zeros_like(system.M)
-    matrix = _matrix(call, table, "AMORTISSEMENT")
-    return _kept(assemble(matrix, system.numbering).toarray(), _full(table, "NATURE"))
+    matrix = _held(table, "AMORTISSEMENT")
+    damping = _kept(assemble(matrix, system.numbering).toarray(), _full(table, "NATURE"))
+    if (driven := np.diag(damping) < 0.0).any():
+        call.warn("operators.modal.damping-negative", table, mode=int(np.argmax(driven)) + 1)
+    return damping
 
 
 def _start(

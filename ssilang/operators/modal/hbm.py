@@ -12,45 +12,50 @@ from ssilang.operators.tables.entries import Entries
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
-    """A result asked for: its table, the point, the component, title and colour."""
+class Drawn:
+    """A result: its table, title and colour."""
 
     table: Table
-    point: Point
-    component: str
     title: str
     colour: int
 
 
+@dataclass(frozen=True, eq=False)
+class Asked(Drawn):
+    """A result asked for at a point, in a component."""
+
+    point: Point
+    component: str
+
+
 def asked_results(entries: Entries, index: str) -> list[Asked]:
     """Results 1, 2 ... of the table at an index; none without it."""
-    inner = entries.get(index)
-    if inner is None:
-        return []
-    return [
-        _asked(entries, inner.get(i), index, i)
-        for i, _ in sorted((i, v) for i, v in inner.items() if type(i) is int)
-    ]
+    return [_asked(entries, own, place) for own, place in _numbered(entries, index)]
 
 
-def _asked(entries: Entries, table: object, index: str, number: int) -> Asked:
-    place = f"{index} . {number}"
-    if not isinstance(table, Table):
-        raise entries.error("operators.modal.entry-is-a-table", place=place)
-    own = Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I")
+def _numbered(entries: Entries, index: str) -> Iterator[tuple[Entries, str]]:
+    inner = entries.get(index) or Table()
+    for i, table in sorted((i, v) for i, v in inner.items() if type(i) is int):
+        place = f"{index} . {i}"
+        if not isinstance(table, Table):
+            raise entries.error("operators.modal.entry-is-a-table", place=place)
+        yield Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I"), place
+
+
+def _drawn(own: Entries, component: str) -> tuple[Table, str, int]:
+    name = str(own.table.get("COULEUR") or "").strip().upper()[:4]
+    title = str(own.get("TITRE") or component).rstrip()
+    return own.table, title, (index_of(name) if name in NAMES else 0)
+
+
+def _asked(entries: Entries, own: Entries, place: str) -> Asked:
     point: Point = own.needed("POINT_MESURE")
     word = "COMPOSANTE" if own.has("COMPOSANTE") else "COMPOSANTES"
     given = own.needed(word)
     words = given.values if isinstance(given, ListMots) else [str(given)]
     if not words or not words[0].strip():
         raise entries.error("operators.modal.component-wanted", place=place, word=word)
-    component = words[0]
-    title = own.get("TITRE")
-    name = str(table.get("COULEUR") or "").strip().upper()[:4]
-    return Asked(
-        table, point, component.rstrip(), str(title or component).rstrip(),
-        (index_of(name) if name in NAMES else 0),
-    )  # fmt: skip
+    return Asked(*_drawn(own, words[0]), point, words[0].rstrip())
 
 
 def curve(x: FloatArray, y: FloatArray, names: tuple[str, str], title: str, colour: int) -> Curve:
@@ -87,8 +92,7 @@ MATRICES = {
 def known_names(entries: Entries) -> Names:
     """Unknowns and harmonics of a table given to HBM."""
     harmonics = entries.needed("N_HARMONIQUE")
-    words = ("RIGIDITE_CONSTANTE", "AMORTISSEMENT_CONSTANT", "MASSE_CONSTANTE")
-    given = [m for m in (entries.get(w) for w in words) if m is not None]
+    given = [m for source, _ in MATRICES.values() if (m := entries.get(source)) is not None]
     return names_of(given, harmonics)
 
 
@@ -97,8 +101,6 @@ def zhbm(call: Call, table: Table = Arg("TABLE", en="table of HBM")) -> None:
     """Read the matrices of the motion, add those of its coefficients."""
     entries = Entries(call, table, "HBM")
     names = known_names(entries)
-    entries.needed("RIGIDITE_CONSTANTE")
-    entries.needed("MASSE_CONSTANTE")
     for index, (source, terms) in MATRICES.items():
         given = entries.get(source)
         if given is None:
@@ -192,7 +194,8 @@ def zhpo(
     values, rates = basis_at(harmonics, 2 * np.pi * shares)
     every = entries.get("PAS_SAUVES")
     curves, titles = [], []
-    for asked in asked_results(entries, "RESULTATS"):
+    for own, _ in _numbered(entries, "RESULTATS"):
+        asked = Drawn(*_drawn(own, str(own.table.get("COMPOSANTES") or "U")))
         motion = _motion(entries, asked)
         if "MAXI" in wanted:
             largest = np.abs(motion.coefficients @ values.T).max(axis=1)
@@ -210,7 +213,7 @@ def zhpo(
         shown.set(Mot("TITRE"), Table.numbered(titles))
 
 
-def _motion(entries: Entries, asked: Asked) -> Motion:
+def _motion(entries: Entries, asked: Drawn) -> Motion:
     own = Entries(entries.call, asked.table, "HBM_POST", "TAB1.RESULTATS.I")
     numbers = own.needed("INDICES_HBM").values
     found = entries.needed("RESULTATS_HBM")
@@ -228,7 +231,7 @@ def _motion(entries: Entries, asked: Asked) -> Motion:
 
 
 def _in_time(
-    motion: Motion, asked: Asked, period: tuple[FloatArray, FloatArray, FloatArray],
+    motion: Motion, asked: Drawn, period: tuple[FloatArray, FloatArray, FloatArray],
     wanted: list[str], every: int,
 ) -> Table:  # fmt: skip
     shares, values, rates = period

@@ -8,6 +8,7 @@ from ssilang.kernel.statics import doubled
 from ssilang.language.values import Solution
 from ssilang.operators.matrices import connections
 from ssilang.operators.prelude import *
+from ssilang.operators.statics.solve import first_cells
 from ssilang.operators.workspace import solver_of
 
 _FREQUENCY = arg("frequency", "FLOTTANT", range=NOT_NEGATIVE, en="frequency", unit="Hz")
@@ -119,7 +120,7 @@ def _modes(
         if twice:
             call.warn("operators.modal.mode-twice", frequency=twice[0].frequency)
     for mode in modes:
-        workspace(call.session).origins[mode.shape] = stiffness.blocks, mass
+        workspace(call.session).origins[mode.shape] = first_cells(stiffness), mass
     free = sum(m.frequency == 0.0 for m in modes)
     if free and stiffness.relations and mass.inertial:  # a body that nothing holds is meant to fly
         call.warn("operators.modal.free-motions", count=free)

@@ -78,4 +78,4 @@ def _block(zone: Zone, results: Table | None) -> CellFieldBlock:
         column = np.empty((len(zone.cells), 1), dtype=object)
         column[:] = results
         values["SLIA"] = column
-    return CellFieldBlock(zone.cells, values, "GRAVITE", zone.element, zone.constituent)
+    return zone.block(values, "GRAVITE")

@@ -36,16 +36,10 @@ def prec(
     if before is not None:
         raise call.error("operators.models.tensions-before-not-built")
     losses = None if table is None else _losses(call, table)
-    chosen = _nodes(ends)
+    chosen = None if ends is None else ends.sorted_node_ids
     return CellField(
         tuple(_zone(call, z, material, force, losses, chosen) for z in model.zones), "CONTRAINTES"
     )
-
-
-def _nodes(ends: Mesh | Point | None) -> IntArray | None:
-    if ends is None:
-        return None
-    return np.array([ends.node]) if isinstance(ends, Point) else ends.sorted_node_ids
 
 
 def _losses(call: Call, table: Table) -> Losses:

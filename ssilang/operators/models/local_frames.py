@@ -209,7 +209,7 @@ def calp(
         if not is_shell(zone):
             return skin_stress(zone, field, material)
         parts, support = shell_skin(zone, field, material, side)
-        return CellFieldBlock(zone.cells, parts, support, zone.element, zone.constituent)
+        return zone.block(parts, support)
 
     return on_zones(present(call, model), field.title, make)
 
@@ -257,7 +257,7 @@ def _block(zone: Zone, unit: bool) -> CellFieldBlock | None:
         round_axis = zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER)
         names = ("VR", "VZ") if round_axis else ("VX", "VY")
     components = {name: vectors[..., i].copy() for i, name in enumerate(names)}
-    return CellFieldBlock(zone.cells, components, "RIGIDITE", zone.element, zone.constituent)
+    return zone.block(components, "RIGIDITE")
 
 
 def _vectors(zone: Zone, normal: bool) -> FloatArray:

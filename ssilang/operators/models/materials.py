@@ -335,10 +335,7 @@ def _blocks(zone: Zone, given: Values) -> list[CellFieldBlock]:
     for name, (values, support) in given.items():
         place = support if values.shape[1] > 1 else main
         supports.setdefault(place, {})[name] = values
-    return [
-        CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
-        for support, components in supports.items()
-    ]
+    return [zone.block(components, support) for support, components in supports.items()]
 
 
 # Curves in MATE: TRAC in place of ECRO, cyclic soil by GGAM or by the strain GAMR.

@@ -54,6 +54,7 @@ _SETTINGS = (
     choice("bound", ("LIBRE", "LIE"), en="whether the axes of JOI1 follow"),
     key("measure", "EPSI", "MOT", en="LINEAIRE or QUADRATIQUE: changes nothing"),
 )
+_KNOWN_LINKS = [" ".join(w) for w in LINKS]
 MODE = shared("MODE", "model", full_name="MODELISER", aliases=("MODL",))
 
 
@@ -124,9 +125,7 @@ def link(
     """A model of links, one for each point."""
     words = (kind, more) if more else (kind,)
     if words not in LINKS:
-        raise call.error(
-            "operators.models.no-such-link", words=words, known=[" ".join(w) for w in LINKS]
-        )
+        raise call.error("operators.models.no-such-link", words=words, known=_KNOWN_LINKS)
     if any(b.cell_type != "POI1" for b in mesh.blocks):
         raise call.error("operators.models.link-on-points", mesh)
     mode = workspace(call.session).mode
@@ -155,6 +154,8 @@ def mode(
         raise call.missing(("MAILLAGE",))
     if wish.formulation == "CHARGEMENT":
         return Model(tuple(_pressure_zone(block, wish, ws) for block in used.blocks))
+    if wish.formulation == "LIAISON":
+        raise call.error("operators.models.no-such-link", words=said, known=_KNOWN_LINKS)
     zones = tuple(_zone(block, wish, ws) for block in used.blocks)
     if wish.rule and not any(is_joint(z) for z in zones):
         raise call.error("operators.models.rule-without-joints", rule=wish.rule)
@@ -192,7 +193,7 @@ def _usable(call: Call, mesh: Mesh | Point, wish: Wish) -> tuple[Mesh, tuple[Cel
     if isinstance(mesh, Point):
         if not {"IMPEDANCE", *shape_models.UNKNOWN} & {*wish.laws}:
             raise call.error("operators.models.no-element-on-a-point", mesh)
-        mesh = Mesh.of(mesh.nodes, "POI1", np.array([[mesh.node]]))
+        mesh = mesh.mesh
     if not mesh.blocks:
         raise call.error("operators.models.mesh-empty", mesh)
     if not wish.formulation and not wish.laws:

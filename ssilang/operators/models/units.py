@@ -12,7 +12,7 @@ THICKER = "operators.models.thicker-than-large"
 COMPRESSIBLE = 0.49
 """Poisson's ratio beyond which linear cells are told: a punch on QUA4 is 4 % too stiff there, by
 27 % at 0.499; on CUB8 by 43 % and three times."""
-_PURE = ("", "deg", "rad")  # the same in any system
+_PURE = (None, "", "deg", "rad")  # the same in any system
 THICK = {"EPAI": (1, 1.0), "SECT": (2, 10.0)}
 """Parameters that are lengths of a section: their power, how many times the size of a zone."""
 _SOLID, _STOUT = Range(0.01, 10.0), 0.2
@@ -40,7 +40,7 @@ def warn_of_units(call: Call, zone: Zone, given: Mapping[str, Given]) -> None:
         ends = _ends(array) if meant is not None and array.dtype == float else ()
         if meant is None or not ends or (ours and name != "FROT"):
             continue
-        here = 0.0 if system is None or not meant.unit else system.factor(meant.unit)
+        here = 0.0 if system is None or meant.unit in _PURE else system.factor(meant.unit or "")
         unusual = next((v for v in ends if here and v * here not in meant.usual), None)
         for code, told in _odd(zone, meant, ends, {n: v for n, (v, _) in given.items()}):
             if unusual is None or code != THICKER:  # one mistake is told once

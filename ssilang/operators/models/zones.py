@@ -94,7 +94,7 @@ def _names(kind: str, en: str) -> list[Entry]:
     select(
         "what",
         {
-            "MAIL": [],
+            "MAIL": [flag("rubbing", "FROT", en="of contact with friction alone")],
             "ZONE": [],
             "FORM": _names("formulation", "formulations"),
             "CONS": _names("", "constituents"),
@@ -119,6 +119,8 @@ def _names(kind: str, en: str) -> list[Entry]:
 def extr_model(call: Call, model: Model, what: Chosen) -> Mesh | Table | Model | ListMots:
     """A part of a model."""
     if what.word == "MAIL":
+        if what["rubbing"]:
+            model = Model(tuple(z for z in model.zones if "FROTTANT" in z.behaviour))
         return model.mesh if model.zones else Mesh(workspace(call.session).nodes, ())
     if what.word == "ZONE":
         pairs = ((Model((z,)), Mesh(z.cells.nodes, (z.cells,))) for z in model.zones)

@@ -101,10 +101,6 @@ def _in_numbers(call: Call, values: Any) -> bool:
     return bool(np.any(equal_items(values.values, item, tolerance, False)))
 
 
-def _in_cloud(call: Call, cloud: Any) -> bool:
-    return str(call.required("MOT")).rstrip() in cloud.columns
-
-
 def _in_load(call: Call, load: Load) -> bool:
     said = str(call.required("MOT")).rstrip()
     kind = call.optional("MOT")
@@ -113,10 +109,8 @@ def _in_load(call: Call, load: Load) -> bool:
         held = [p.space if p.space is not None else p.steps[0][1] for p in parts]
         made = ["LISTOBJE" if p.steps else type_of(h) for p, h in zip(parts, held, strict=True)]
         return str(kind).strip() in made
-    if said.upper() in ("LIBR", "LIBRE"):
-        return False
-    if said.upper() == "LIE":
-        return bool(load.parts)
+    if said.upper() in ("LIBR", "LIBRE", "LIE"):
+        return any(p.free == (said.upper() != "LIE") for p in load.parts)
     return any(p.name.rstrip() == said for p in load.parts)
 
 
@@ -145,7 +139,8 @@ def _in_solution(call: Call, solution: Any) -> bool:
 _SEARCHES: dict[str, Callable[[Call, Any], Any]] = {
     "TABLE": _in_table, "OBJET": _in_object, "CHPOINT": _in_field, "MCHAML": _in_field,
     "LISTMOTS": _in_words, "LISTENTI": _in_numbers, "LISTREEL": _in_numbers,
-    "CHARGEME": _in_load, "NUAGE": _in_cloud, "MMODEL": _in_model,
+    "CHARGEME": _in_load, "MMODEL": _in_model,
+    "NUAGE": lambda call, cloud: str(call.required("MOT")).rstrip() in cloud.columns,
     "SOLUTION": _in_solution,
 }  # fmt: skip
 

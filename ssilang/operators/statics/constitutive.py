@@ -29,7 +29,7 @@ def _named(zone: Zone, answer: Answer, wanted: str) -> CellFieldBlock:
     if wanted == "CONTRAINTES":
         return cell_block(zone, family_of(zone).stress_names(zone), answer.stress)
     values = answer.variables if wanted == "VARIABLES INTERNES" else answer.inelastic
-    return CellFieldBlock(zone.cells, dict(values), "STRESSES", zone.element, zone.constituent)
+    return zone.block(dict(values))
 
 
 # ---- COMP -----------------------------------------------------------------------------------
@@ -96,7 +96,7 @@ def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellFiel
         parts = dict(_named(zone, answer, "CONTRAINTES").components) | dict(answer.variables)
         for name, values in answer.inelastic.items():
             parts[name] = values + before.at(name, "STRESSES", 0.0)
-        blocks.append(CellFieldBlock(zone.cells, parts, "STRESSES", zone.element, zone.constituent))
+        blocks.append(zone.block(parts))
     return CellField(tuple(blocks))
 
 
@@ -302,12 +302,8 @@ def crit(call: Call, **state: Any) -> CellField:
     for zone in read.model.zones:
         there = _stresses_of(zone, read.stress)
         values = criterion(zone, read.material, there, zone_field(zone, read.variables))
-        blocks.append(_scalar(zone, values))
+        blocks.append(zone.block({"SCAL": values}))
     return CellField(tuple(blocks), "SCALAIRE")
-
-
-def _scalar(zone: Zone, values: FloatArray) -> CellFieldBlock:
-    return CellFieldBlock(zone.cells, {"SCAL": values}, "STRESSES", zone.element, zone.constituent)
 
 
 @operator("MOTA", *_STATE, family="stress")
@@ -318,5 +314,5 @@ def mota(call: Call, **state: Any) -> CellField:
     for zone in read.model.zones:
         there, held = _stresses_of(zone, read.stress), zone_field(zone, read.variables)
         modulus = tangent_modulus(zone, read.material, there, held, read.precision)
-        blocks.append(_scalar(zone, modulus))
+        blocks.append(zone.block({"SCAL": modulus}))
     return CellField(tuple(blocks), "SCALAIRE")

@@ -116,7 +116,7 @@ def work_of(
             return cell_block(zone, ("SCAL",), structural_work(zone, stress, gradient)[:, None])
         _solid(zone, "WORK")
         values, support = finite_motion.work(zone, stress, gradient)
-        return CellFieldBlock(zone.cells, {"SCAL": values}, support, zone.element, zone.constituent)
+        return zone.block({"SCAL": values}, support)
 
     return stresses.on_zones(zones, "SCALAIRE", make)
 

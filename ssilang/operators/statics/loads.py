@@ -5,7 +5,7 @@ from ssilang.kernel.elements.results.supports import model_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.mesh.queries.quality import repeated_cells
-from ssilang.operators.matrices.element import joined, nodes_of
+from ssilang.operators.matrices.element import joined
 from ssilang.operators.matrices.supports import static_links
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL
@@ -19,7 +19,7 @@ _PLACE = arg("place", "MAILLAGE", "POINT", en="nodes that share it")
 
 def _shared(call: Call, values: Mapping[str, float], place: Mesh | Point) -> NodeField:
     """Values by component, shared equally by the nodes of a place."""
-    nodes = nodes_of(place)
+    nodes = place.sorted_node_ids
     if not len(nodes):
         raise call.error("operators.statics.empty-mesh-for-force", place)
     parts = {n: np.full(len(nodes), v / len(nodes)) for n, v in values.items()}
@@ -222,9 +222,7 @@ def _of_loads(
             values = seen.raw(seen.names[0])[0]
         else:
             values = np.full((len(zone.cells), 1), float(value))
-        blocks.append(
-            CellFieldBlock(zone.cells, {label: values}, "NOEUD", zone.element, zone.constituent)
-        )
+        blocks.append(zone.block({label: values}, "NOEUD"))
     return CellField(tuple(blocks), "PRESSION")
 
 

@@ -29,14 +29,14 @@ def char(
     path: str | None = _PATH,
 ) -> Load:
     """A field times a curve."""
-    _refuse_moving(call, moves or path)
+    _refuse_moving(call, moves or ("TRAJ" if path else None))
     if curve is not None:
         part = one_part(call, curve)
         if not len(part.abscissas):
             raise call.error("operators.statics.empty-curve", curve)
         check_increasing(part.abscissas)
         _check_numbers(call, curve)
-    return Load((LoadPart(_short(name), held, curve),))
+    return Load((LoadPart(_short(name), held, curve, free=link == "LIBR"),))
 
 
 def _short(name: str | None) -> str:
@@ -69,7 +69,7 @@ def char_in_steps(
     path: str | None = _PATH,
 ) -> Load:
     """A field at each of listed times."""
-    _refuse_moving(call, moves or path)
+    _refuse_moving(call, moves or ("TRAJ" if path else None))
     steps: list[tuple[float, Any]] = []
     for i in range(len(times)):
         if not times.has(i) or not fields.has(i):
@@ -84,7 +84,7 @@ def char_in_steps(
         steps.append((float(time), held))
     if not steps:
         raise call.error("operators.statics.tables-are-empty", times)
-    return Load((LoadPart(_short(name), None, None, tuple(steps)),))
+    return Load((LoadPart(_short(name), None, None, tuple(steps), free=link == "LIBR"),))
 
 
 @char.form()
@@ -98,7 +98,7 @@ def char_in_lists(
     path: str | None = _PATH,
 ) -> Load:
     """A field at each of listed times."""
-    _refuse_moving(call, moves or path)
+    _refuse_moving(call, moves or ("TRAJ" if path else None))
     if len(times) != len(objects) or not len(times):
         told = {"n_times": len(times), "n_objects": len(objects)}
         raise call.error("operators.statics.times-and-objects-differ", objects, **told)
@@ -108,7 +108,7 @@ def char_in_lists(
             raise call.error("operators.statics.not-loaded", objects, found=type_of(held))
     fields = cast("tuple[NodeField | CellField, ...]", objects.values)  # by _HELD
     steps = tuple(zip(times.values.tolist(), fields, strict=True))
-    return Load((LoadPart(_short(name), None, None, steps),))
+    return Load((LoadPart(_short(name), None, None, steps, free=link == "LIBR"),))
 
 
 # ---- values at a time ---------------------------------------------------------------------------
@@ -249,7 +249,7 @@ def extr_load(call: Call, load: Load, what: Chosen) -> Any:
     if what.word == "COMP":
         return ListMots([p.name for p in load.parts])
     if what.word in ("LIE", "LIBR"):
-        return Load(load.parts if what.word == "LIE" else ())
+        return Load(tuple(p for p in load.parts if p.free == (what.word == "LIBR")))
     place = what["place"]
     if not 1 <= place <= len(load.parts):
         raise call.error(
@@ -311,7 +311,7 @@ def in_steps(call: Call, load: Load = _LOAD, name: str = _PART) -> Load:
     times = sorted({t for p in chosen for t in _times(p)})
     steps = tuple((t, reduce(_sum, [part_at(p, t) for p in chosen])) for t in times)
     others = tuple(p for p in load.parts if p not in chosen)
-    return Load((LoadPart(chosen[0].name, None, None, steps), *others))
+    return Load((LoadPart(chosen[0].name, None, None, steps, free=chosen[0].free), *others))
 
 
 def _times(part: LoadPart) -> list[float]:

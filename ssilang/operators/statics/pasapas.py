@@ -422,8 +422,10 @@ def _inputs(
         masses = joined_matrix(entries, heavy, (entries.get("MASSE_CONSTANTE"),), "MASSE")
     stiffnesses = joined_matrix(entries, blocks, (constant, supports, sides.matrix), "RIGIDITE")
     damping, velocity = entries.get("AMORTISSEMENT"), start.of("VITESSES")
-    if dynamic and (dashpots := _dashpots_of_laws(solids, damping)):
+    if dashpots := _dashpots_of_laws(solids, damping):
         damping = joined_matrix(entries, dashpots, (damping,), "AMORTISSEMENT")
+        if not dynamic:
+            entries.warn("operators.statics.dashpots-at-rest")
     inputs = Inputs(
         stiffnesses, times, masses, damping if dynamic else None, load, displacement,
         velocity if dynamic else None, model, material, scheme_of(entries),

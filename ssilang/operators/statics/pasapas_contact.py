@@ -135,9 +135,7 @@ def stress_offsets(
         size = max(float(np.abs(now.components[n]).max(initial=0.0)) for n in names)
         left = max(float(np.abs(v).max(initial=0.0)) for v in rest.values())
         if left > NEGLIGIBLE * max(size, left):
-            found[id(zone)] = CellFieldBlock(
-                now.cells, rest, now.support, now.element, now.constituent
-            )
+            found[id(zone)] = replace(now, components=rest)
     return found
 
 
@@ -185,10 +183,7 @@ def joined_matrix(
     """The blocks of a model's zones and the matrices that a table gives, as one matrix."""
     given = [m for m in parts if m is not None]
     if not blocks and not given:
-        model: Model = entries.needed("MODELE")
-        if not model.zones:
-            raise entries.error("operators.statics.no-mechanical-zone")
-        return Matrix(model.mesh.nodes, (), (), kind)
+        return Matrix(entries.needed("MODELE").mesh.nodes, (), (), kind)
     table = blocks[0].table if blocks else given[0].table
     all_blocks = (*blocks, *(b for m in given for b in m.blocks))
     return Matrix(table, all_blocks, tuple(r for m in given for r in m.relations), kind)

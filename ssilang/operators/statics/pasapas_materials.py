@@ -68,9 +68,7 @@ class Varying:
                 continue
             shape = (len(zone.cells), len(support_rule(zone.element, "STRESSES")))
             free = {"T": np.broadcast_to(seen.at("TREF", "STRESSES"), shape)}
-            cold = CellField(
-                (CellFieldBlock(zone.cells, free, "STRESSES", zone.element, zone.constituent),)
-            )
+            cold = CellField((zone.block(free),))
             alone = Varying(Model((zone,)), self.material, self.outer.parts)
             material = alone.at([cold] if self.outer.parts else [])
             assert material is not None

@@ -55,7 +55,7 @@ class Stresses:
         if offset is None:
             return found
         total = {k: v + offset.components[k] for k, v in found.components.items()}
-        return CellFieldBlock(found.cells, total, found.support, found.element, found.constituent)
+        return replace(found, components=total)
 
 
 @dataclass

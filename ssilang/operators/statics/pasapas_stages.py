@@ -32,7 +32,6 @@ class Stage:
     ----------
     entries : Entries
         With the model, characteristics and supports of these steps.
-    steps : int
     """
 
     entries: Entries

@@ -93,7 +93,7 @@ def _reso(
         down = load.components.get("FZ") if down is None else down  # of revolution
         if down is not None:
             warn_of_weight(call, matrix, (), matrix.table.resolve(down.nodes), -down.values)
-        workspace(call.session).origins[solution] = matrix.blocks, None
+        workspace(call.session).origins[solution] = first_cells(matrix), None
         if is_anywhere(load) and not is_anywhere(solution):
             call.warn("operators.statics.nothing-moves")
         judged = workspace(call.session).units is not None
@@ -102,6 +102,13 @@ def _reso(
                 call.warn("operators.statics.moves-far", **told)
     _warn_condition(call, matrix, options)
     return solutions
+
+
+def first_cells(matrix: Matrix) -> list[ElementMatrices]:
+    """Some element matrices of each zone: what fields keep of the matrix they were found with."""
+    zoned = [b for b in matrix.blocks if b.zone is not None]
+    few = [(b, b.raw_nodes[:_FIRST].copy(), b.values[:_FIRST].copy()) for b in zoned]
+    return [replace(b, raw_nodes=nodes, values=values) for b, nodes, values in few]
 
 
 def tell_other_stiffness(call: Call, u: NodeField, model: Model, material: CellField) -> None:
@@ -113,8 +120,7 @@ def tell_other_stiffness(call: Call, u: NodeField, model: Model, material: CellF
             continue
         cells = replace(zone.cells, raw=zone.cells.raw[:_FIRST], _resolved=[])
         part = replace(zone, cells=cells)
-        known = replace(given[0], zone=part, values=given[0].values[:_FIRST])
-        if off := families.unlike([known], part, material):
+        if off := families.unlike([replace(given[0], zone=part)], part, material):
             told = {"node": zone.cells.nodes.told(int(zone.cells.raw[0, 0])), "off": off}
             call.warn("operators.statics.stress-of-others", **told)
 

@@ -11,6 +11,7 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Model
 from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.run.call import Call
 from ssilang.language.values import ListReel
 
@@ -22,13 +23,15 @@ _HANDED = {
 }  # fmt: skip
 """What operators make of what a temperature left: forces, displacements, stresses of the whole
 strain. Whatever else is done with these, such as taking the stress of THET from them, clears it."""
+_HOLD: tuple[tuple[type, str], ...] = ((Curve, "parts"), (Model, "zones"), (Mesh, "blocks"))
+"""What objects are empty without."""
 _READ = frozenset(("MAXI", "MINI", "PRIN", "VMIS", "TRAC", "EXTR", "EVOL", "LIST", "INVA"))
 
 
 def flaw_of(value: object) -> str:
     """Code of the refusal of a value, '' if it is sound."""
-    if isinstance(value, Curve) and not value.parts:
-        return "entry-no-curve"
+    if any(isinstance(value, kind) and not getattr(value, held) for kind, held in _HOLD):
+        return "entry-empty"
     if not all(np.isfinite(v).all() for v in _numbers_in(value)):
         return "entry-not-finite"
     return ""

@@ -227,14 +227,6 @@ def _procedure_lines(value: Procedure, first: int, last: int, say: Teller) -> st
     return "\n".join([_procedure(value, True, say), *(f"{i:5d}  {line}" for i, line in chosen)])
 
 
-def _reals_by(value: ListReel, per_line: int, _: int, say: Teller) -> str:
-    return say_reals(value, False, say, per_line)
-
-
-def _integers_by(value: ListEnti, per_line: int, _: int, say: Teller) -> str:
-    return say_integers(value, False, say, per_line)
-
-
 def _table_within(value: Table, depth: int, _: int, say: Teller) -> str:
     return "\n".join(_nested(value, min(depth, _DEEPEST), (id(value),), say))
 
@@ -254,8 +246,8 @@ def _nested(value: Table, depth: int, above: tuple[int, ...], say: Teller) -> li
 _DEEPEST = 10
 _NUMBERED: dict[str, Callable[[Any, int, int, Teller], str]] = {
     "PROCEDUR": _procedure_lines,
-    "LISTREEL": _reals_by,
-    "LISTENTI": _integers_by,
+    "LISTREEL": lambda value, per_line, _, say: say_reals(value, False, say, per_line),
+    "LISTENTI": lambda value, per_line, _, say: say_integers(value, False, say, per_line),
     "TABLE": _table_within,
 }
 

@@ -314,7 +314,7 @@ def test_work_of_loads_and_of_supports_is_stored_and_lost(law: str, scheme: str)
     result = plate(law)
     zones, support = plastic_zones(at(result, "M")), at(result, "B")
     stiffness = Matrix(support.table, tuple(without_stiffness(z) for z in zones), support.relations)
-    times, rule = np.linspace(0.0, 2.0, 81), SCHEMES[scheme]
+    times, rule = np.linspace(0.0, 2.0, 61), SCHEMES[scheme]
     moving = {"mass": at(result, "MA"), "damping": at(result, "AM"), "scheme": rule} if rule else {}
     p = make_problem(Inputs(stiffness, times, load=at(result, "C"), **moving))
     bulk = bulk_of(zones, at(result, "A"), p.numbering)

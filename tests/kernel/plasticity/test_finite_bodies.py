@@ -121,7 +121,7 @@ def test_a_cycle_of_large_displacements_gives_the_work_back(kind):
     T . 'CHARGEMENT' =
     (CHAR 'DIMP' (DEPI H 0.9) (EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 0.))) ET
     (CHAR 'MECA' (FORC 'FY' 3. (COTE 3 S)) (EVOL 'MANU' (PROG 0. 0.5 2.) (PROG 0. 1. 0.))) ;
-    T . 'TEMPS_CALCULES' = PROG 0. PAS 0.02 2. ; PASAPAS T ;
+    T . 'TEMPS_CALCULES' = PROG 0. PAS 0.04 2. ; PASAPAS T ;
     """)
     energies = result.session.root.find("T").get("ENERGIES")
     stored, lost, work = (energies.get(n).values for n in ("ELASTIQUE", "DISSIPEE", "EXTERIEURE"))

@@ -127,7 +127,7 @@ PULSE = (
 
 def test_energy_of_the_ground_leaves_and_never_comes_back():
     find = ran(
-        box("QUA4", 12, 6, 6, 6, nu=0.45) + LAYER + PULSE.format(end=4.0)
+        box("QUA4", 12, 6, 6, 6, nu=0.45) + LAYER + PULSE.format(end=3.0)
         + "LE = PROG ; REPE PAS (DIME R) ; J = R . &PAS . 'DEPL' ; V = R . &PAS . 'VITE' ; "
         "LE = LE ET (PROG (0.5 * ((XTMX J KI) + (XTMX V MI)))) ; FIN PAS ; "
     )  # fmt: skip

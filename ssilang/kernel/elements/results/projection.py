@@ -7,7 +7,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.results.frames import points_of
 from ssilang.kernel.elements.shapes import reference
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
+from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Mode, Model
 from ssilang.kernel.matrices.location import locate
@@ -70,9 +70,7 @@ def on_model(
             flat[rows] = values
             components[name] = flat.reshape(n, p)
         if components:
-            blocks.append(
-                CellFieldBlock(zone.cells, components, support, zone.element, zone.constituent)
-            )
+            blocks.append(zone.block(components, support))
     return CellField(tuple(blocks), field.title)
 
 
@@ -130,7 +128,5 @@ def by_least_squares(
             right = np.einsum("cpk,cp->ck", weighted, flat.reshape(x.shape[:2]))
             components[name] = np.linalg.solve(squares, right[..., None])[..., 0]
         if components:
-            blocks.append(
-                CellFieldBlock(zone.cells, components, "NOEUD", zone.element, zone.constituent)
-            )
+            blocks.append(zone.block(components, "NOEUD"))
     return CellField(tuple(blocks), field.title)

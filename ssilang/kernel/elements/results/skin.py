@@ -105,4 +105,4 @@ def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldB
     stress = stress - term("MOMZ", "DY", "INRZ")
     if len(kept_rows(zone)) == 6:
         stress = stress + term("MOMY", "DZ", "INRY")
-    return CellFieldBlock(zone.cells, {"SMXX": stress}, support, zone.element, zone.constituent)
+    return zone.block({"SMXX": stress}, support)

@@ -39,7 +39,7 @@ def _moved_zone(zone: Zone, field: CellField, target: Support) -> list[CellField
         components[name] = np.broadcast_to(found, (len(zone.cells), max(width, found.shape[1])))
     if not components:
         return []
-    return [CellFieldBlock(zone.cells, components, target, zone.element, zone.constituent)]
+    return [zone.block(components, target)]
 
 
 def nodal_of_cells(
@@ -105,9 +105,7 @@ def cells_of_nodal(
                 values = (values[:, :half] + values[:, half:]) / 2
             components[name] = values @ shapes.T
         if components:
-            blocks.append(
-                CellFieldBlock(zone.cells, components, target, zone.element, zone.constituent)
-            )
+            blocks.append(zone.block(components, target))
     return CellField(tuple(blocks), title)
 
 
@@ -215,10 +213,7 @@ def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
                 n: np.broadcast_to(v, (len(block.cells), v.shape[1]))[kept]
                 for n, v in block.components.items()
             }
-            cells = _picked(block.cells, kept)
-            blocks.append(
-                CellFieldBlock(cells, full, block.support, block.element, block.constituent)
-            )
+            blocks.append(replace(block, cells=_picked(block.cells, kept), components=full))
     if not blocks and field.title not in NONE_IF_ELASTIC:
         raise FieldError("kernel.elements.no-cell-mesh-belongs-to-support")
     return CellField(tuple(blocks), field.title)

@@ -77,9 +77,7 @@ def cell_geometry(cell_type: str, coordinates: FloatArray, rule: Rule) -> CellGe
 
     Parameters
     ----------
-    cell_type : str
     coordinates : array (n_cells, n_nodes, dim)
-    rule : Rule
 
     Raises
     ------

@@ -154,9 +154,7 @@ def hooke_block(zone: Zone, moduli: FloatArray, support: Support) -> CellFieldBl
         for j in range(p):
             objects[i, j] = moduli[i, j]
     values = np.broadcast_to(objects, (n, p))
-    return CellFieldBlock(
-        zone.cells, {HOOKE_COMPONENT: values}, support, zone.element, zone.constituent
-    )
+    return zone.block({HOOKE_COMPONENT: values}, support)
 
 
 def moduli_from_field(material: ZoneField, support: Support) -> FloatArray | None:

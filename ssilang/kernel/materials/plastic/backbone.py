@@ -161,7 +161,6 @@ def hardening_of(tension: Curve, young: float) -> Curve:
     ----------
     tension : Curve
         From (0, 0) through the elastic limit.
-    young : float
 
     Raises
     ------

@@ -37,7 +37,6 @@ class PlasticLaw:
 
     Attributes
     ----------
-    respond : callable
     required : tuple of str
         Parameters beside YOUN and NU.
     variables : tuple of str

@@ -47,10 +47,6 @@ SLENDER, MOST_SLENDER = 5.0, 11.0
 """Values of FALD from which bars buckle, and up to which the law was written."""
 
 
-def _table(p: PointParameters) -> FloatArray:
-    return np.stack([p[n] for n in _STEEL])
-
-
 @compiled
 def _first_loading(p: FloatArray, i: int, e: float) -> tuple[float, float]:
     """Stress and slope of the first loading of steel."""
@@ -136,7 +132,7 @@ def _points(
         v[i, 1] = e
 
 
-STEEL = Points(_points, _table)
+STEEL = Points(_points, lambda p: np.stack([p[n] for n in _STEEL]))
 
 
 def check(p: PointParameters) -> None:

@@ -81,7 +81,6 @@ class NodeCopier:
 
     Attributes
     ----------
-    nodes : NodeTable
     image : PointMap
         From the positions (m, 3) of the originals to those of the copies.
     by_node : function of array (m,) to array (m, 3) or None

@@ -32,7 +32,6 @@ class Path:
 
     Attributes
     ----------
-    motion : Motion
     length : float
         Mean length of the nodes' paths, against which mesh sizes count.
     last : array (m,) or None

@@ -228,7 +228,6 @@ class ParabolicArc:
 
     Attributes
     ----------
-    arc : Arc
     fractions : array (n + 1,)
         Ends of the parabolas, as parts of the arc.
     """

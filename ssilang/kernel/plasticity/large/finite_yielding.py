@@ -92,7 +92,6 @@ class FiniteBulk(Bulk):
     ----------
     finite : tuple of FiniteZone
         Elastic bodies, at `places`.
-    yielding : tuple of YieldingSolid
     at : tuple of array (n_cells, n_rows)
         Unknown of each row of each element vector of these.
     """

@@ -92,7 +92,6 @@ class Reference:
     ----------
     K : csr array (n, n)
         The bodies' stiffness in it, c times a tangent.
-    effective : Effective
     T : csr array (n, r)
         Motions by the factor's unknowns: scaled, in the order of elimination.
     order : array (r,)

@@ -104,7 +104,6 @@ class Start(NamedTuple):
 
     Attributes
     ----------
-    points : Points
     given : array (k, m)
         Shear and bulk modulus, and what else the law has.
     """
@@ -118,7 +117,6 @@ class Step(NamedTuple):
 
     Attributes
     ----------
-    start : Start
     du : array (n,)
         Displacement.
     freed : array (m, 6)

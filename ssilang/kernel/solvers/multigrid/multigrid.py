@@ -112,7 +112,6 @@ class MultigridFactor:
     Parameters
     ----------
     A : csr array (n, n)
-    positive : bool
     rigid : array (n, k) or None
         Rigid motions of the unknowns, in the unknowns of A; None for constant ones.
     nodes : array (n,) or None

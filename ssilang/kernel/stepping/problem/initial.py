@@ -36,14 +36,14 @@ class JointState:
     D: FloatArray
 
 
-def joint_state(problem: Problem) -> JointState:
-    """Joints at the initial displacement, starting from the problem's state."""
+def joint_state(problem: Problem, u: FloatArray | None = None) -> JointState:
+    """Joints at the initial displacement, or at another one, from the problem's state."""
     joints = problem.interface
     if joints is None:
         empty = np.zeros((0, 1))
         return JointState(np.zeros(0), np.zeros(0), empty, empty, empty, np.zeros((0, 1, 1)))
     n, d = joints.n_points, joints.dimension
-    delta = joints.J @ problem.u
+    delta = joints.J @ (problem.u if u is None else u)
     w, t, D = np.zeros((n, d)), np.zeros((n, d)), np.zeros((n, d, d))
     state, f = np.zeros_like(problem.state), np.zeros(joints.size)
     local_jumps(joints.points, delta, w)

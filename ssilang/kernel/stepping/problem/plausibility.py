@@ -19,11 +19,9 @@ from ssilang.kernel.base.scientific import la, sp
 from ssilang.kernel.interface.bed import Bed
 from ssilang.kernel.interface.family import displacement_names
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.laws.point_laws import respond
-from ssilang.kernel.interface.response import interface_forces, local_jumps
 from ssilang.kernel.solvers.backends import SuperLUFactor
 from ssilang.kernel.stepping.problem.bodies import ROUNDING, bodies_of, held, translation
-from ssilang.kernel.stepping.problem.initial import admissible_velocity
+from ssilang.kernel.stepping.problem.initial import admissible_velocity, joint_state
 from ssilang.kernel.stepping.problem.loading import nodal_terms
 from ssilang.kernel.stepping.problem.problem import Inputs, Problem, closed_forces, closed_stiffness
 from ssilang.kernel.waves.shaken import accelerations, axes_of, shares, translations
@@ -247,21 +245,11 @@ class Start:
 
     def touches(self, motion: FloatArray) -> bool:
         """Whether stops or joints act against a small motion from the start."""
-        contact, joints = self.problem.contact, self.problem.interface
+        contact = self.problem.contact
         if contact is not None and (contact.G @ motion < -ROUNDING).any():
             return True
-        if joints is None:
-            return False
-        delta = joints.J @ (LITTLE * motion)
-        if not delta.any():
-            return False
-        w, t = np.zeros((2, joints.n_points, joints.dimension))
-        D, f = np.zeros((*t.shape, joints.dimension)), np.zeros(joints.size)
-        local_jumps(joints.points, delta, w)
-        new = np.zeros_like(self.problem.state)
-        respond(joints.codes, w, self.problem.state, joints.parameters, t, new, D)
-        interface_forces(joints.points, t, f)
-        return bool(f @ delta > LITTLE**3 * self._closed(motion))
+        joints = joint_state(self.problem, LITTLE * motion)
+        return bool(joints.f @ joints.delta > LITTLE**3 * self._closed(motion))
 
 
 def swings(problem: Problem, factors: FloatArray) -> Iterator[Swing]:

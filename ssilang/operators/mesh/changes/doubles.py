@@ -5,10 +5,6 @@ from ssilang.operators.mesh.tolerance import DISTANCE, tolerance_of
 from ssilang.operators.prelude import *
 
 
-def _ids(item: Mesh | Point) -> IntArray:
-    return np.array([item.node]) if isinstance(item, Point) else item.node_ids
-
-
 @operator("ELIM", family="mesh", full_name="ELIMINATION")
 def elim(
     call: Call,
@@ -20,17 +16,17 @@ def elim(
 ) -> Mesh | Point:
     """Merge close nodes; gives the first object back."""
     ws = workspace(call.session)
-    ids = _ids(first)
+    ids = first.node_ids
     near = max(tolerance_of(ws, distance, ws.nodes.coordinates[ids]), 1e-300)
     meshes = [m for m in (first, second) if isinstance(m, Mesh)]
     before = sum(map(merge.repeated_nodes, meshes))
     if second is None:
         merge.merge_close(ws.nodes, ids, near)
     else:
-        others = _ids(second)
+        others = second.node_ids
         apart = not np.isin(ids, others).any()
         merge.merge_between(ws.nodes, ids, others, near)
-        if apart and not np.isin(_ids(first), _ids(second)).any():
+        if apart and not np.isin(first.node_ids, second.node_ids).any():
             call.warn("operators.mesh.nothing-merged", distance=near)
     if (count := sum(map(merge.repeated_nodes, meshes)) - before) > 0:
         call.warn("operators.mesh.cells-closed", distance=near, count=count)

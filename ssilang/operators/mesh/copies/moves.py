@@ -19,12 +19,8 @@ _MOVED = arg("moved", "MAILLAGE", "POINT", en="what is moved")
 _Moved = Mesh | Point
 
 
-def _ids(moved: _Moved) -> IntArray:
-    return np.array([moved.node]) if isinstance(moved, Point) else moved.node_ids
-
-
 def _move(moved: _Moved, image: transform.PointMap) -> _Moved:
-    transform.move(moved.nodes, _ids(moved), image)
+    transform.move(moved.nodes, moved.node_ids, image)
     return moved
 
 
@@ -38,7 +34,7 @@ def depl(
     sign = 1.0 if word == "PLUS" else -1.0
     if isinstance(by, Point):
         return _move(moved, transform.shift(sign * by.coordinates.copy()))
-    ids = np.unique(_ids(moved))
+    ids = moved.sorted_node_ids
     moved.nodes.coordinates[ids] += sign * displacements(by, ids)
     return moved
 
@@ -59,7 +55,7 @@ def turned(
     size = float(np.linalg.norm(direction))
     if size == 0.0:
         raise MeshError("operators.mesh.axis-without-length")
-    ids = np.unique(_ids(moved))
+    ids = moved.sorted_node_ids
     degrees = angle.values_at(next(iter(angle.components)), ids)
     place = moved.nodes.coordinates
     for value in np.unique(degrees):
@@ -164,7 +160,7 @@ def quartered(
     ),
 ) -> _Moved:
     """Put middle nodes of cells at a crack near the quarter of their sides."""
-    transform.quarter_middles(moved, _ids(tip), at)
+    transform.quarter_middles(moved, tip.node_ids, at)
     return moved
 
 
@@ -185,5 +181,5 @@ def deduced(
     else:
         if goal is None:
             raise call.missing(("MAILLAGE", "POINT"))
-        old, new = (m.nodes.coordinates[_ids(m)].copy() for m in (by, goal))
+        old, new = (m.nodes.coordinates[m.node_ids].copy() for m in (by, goal))
     return _move(moved, transform.affine_through(old, new, workspace(call.session).dimension))

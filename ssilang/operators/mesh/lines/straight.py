@@ -101,13 +101,5 @@ def quel(
 def _given_nodes(call: Call, points: Sequence[Point | Mesh]) -> IntArray:
     if not points:
         raise call.missing(("POINT", "MAILLAGE", "LISTREEL"))
-    parts = [
-        p
-        for item in points
-        for p in (
-            [np.array([item.node])]
-            if isinstance(item, Point)
-            else [b.connectivity.ravel() for b in item.blocks]
-        )
-    ]
-    return np.concatenate(parts).astype(np.int64)
+    meshes = (item.mesh if isinstance(item, Point) else item for item in points)
+    return np.concatenate([b.connectivity.ravel() for mesh in meshes for b in mesh.blocks])

@@ -57,13 +57,8 @@ def _coordinate(support: Support, axis: int, density: bool) -> float | NodeField
     """One coordinate, from 0, or the density, of what an object stands on."""
     if isinstance(support, Model):
         blocks = tuple(
-            CellFieldBlock(
-                z.cells,
-                {"SCAL": _column(z.cells.nodes, axis, density)[z.cells.connectivity]},
-                element=z.element,
-                constituent=z.constituent,
-            )
-            for z in support.zones
+            z.block({"SCAL": _column(c.nodes, axis, density)[c.connectivity]}, "NOEUD")
+            for z, c in ((z, z.cells) for z in support.zones)
         )
         return CellField(blocks, "SCALAIRE")
     nodes = support.table if isinstance(support, NodeField) else support.nodes

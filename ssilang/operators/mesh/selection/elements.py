@@ -129,9 +129,7 @@ def resting_on_points(
     mesh = last
     if not support:
         raise call.missing(("MAILLAGE", "POINT"))
-    ids = np.concatenate(
-        [np.array([s.node]) if isinstance(s, Point) else s.node_ids for s in support]
-    )
+    ids = np.concatenate([s.node_ids for s in support])
     made = resting_on(mesh, ids, resting["how"] != "LARGEMENT")
     if not made.blocks and not resting["allowed"]:
         raise MeshError("operators.mesh.no-cell-rests")

@@ -13,7 +13,7 @@ _ALLOWED = flag("allowed", "NOVERIF", en="the result may be empty")
 
 def as_mesh(item: Mesh | Point) -> Mesh:
     """The mesh itself, or a point as a mesh of one POI1."""
-    return combine.points_mesh([item], item.nodes) if isinstance(item, Point) else item
+    return item.mesh if isinstance(item, Point) else item
 
 
 @worded_union(

@@ -13,6 +13,7 @@ from ssilang.kernel.mesh.surfaces.fill import split_contour
 from ssilang.kernel.mesh.surfaces.grid import grid_surface, matching_sides, sides_in_order
 from ssilang.kernel.mesh.surfaces.surface import contour_chart_data, fill_surface
 from ssilang.operators.mesh.lines.ends import chosen_family
+from ssilang.operators.mesh.selection.sets import as_mesh
 from ssilang.operators.prelude import *
 
 _CENTRE = arg("centre", "POINT", en="centre")
@@ -175,13 +176,7 @@ def fuit(
     second: Mesh | Point = Arg("MAILLAGE", "POINT", en="where it may end"),
 ) -> tuple[Mesh, Mesh, Mesh]:
     """Cut a contour in two."""
-    return split_contour(contour, _nodes(first), _nodes(second))
-
-
-def _nodes(given: Mesh | Point) -> Mesh:
-    if isinstance(given, Mesh):
-        return given
-    return Mesh.of(given.nodes, "POI1", np.array([[given.node]]))
+    return split_contour(contour, as_mesh(first), as_mesh(second))
 
 
 _SIDES = {"EGAL": 0, "EGINFE": -1, "EGSUPE": 1}

@@ -33,7 +33,7 @@ def grown(first: Mesh, new: Mesh) -> Mesh:
         return new
     made = union(first, new, as_given=True)
     old = first.sides
-    if len(old) < 4:
+    if min(len(old), len(new.sides)) < 4:
         return made
     right = union(old[1], new.sides[1], as_given=True)
     left = union(new.sides[3], old[3], as_given=True)
@@ -114,14 +114,7 @@ def regl(
     made = _swept(
         call, swept, lambda line: sweep.ruling(line, reached), sweep.mean_density(reached), cuts
     )
-    if reached is goal:
-        return made
-    whole = union(made, goal, as_given=True)
-    if len(goal.sides) < 4:
-        return whole
-    right = union(made.sides[1], goal.sides[1], as_given=True)
-    left = union(goal.sides[3], made.sides[3], as_given=True)
-    return Mesh(whole.nodes, whole.blocks, (made.sides[0], right, goal.sides[2], left))
+    return made if reached is goal else grown(made, goal)
 
 
 def generator_path(generator: Mesh) -> tuple[sweep.Path, Subdivision]:

@@ -305,7 +305,7 @@ def test_a_rank_killed_during_a_solve_ends_the_server(mpi):
     factor = server.factorise(A, True)
     victim = other_rank(server)
     os.kill(victim, signal.SIGSTOP)  # the solve waits for it
-    killer = threading.Timer(0.5, os.kill, (victim, signal.SIGKILL))
+    killer = threading.Timer(0.2, os.kill, (victim, signal.SIGKILL))
     killer.start()
     with pytest.raises(KernelError, match="a process or a machine was lost"):
         factor.solve(np.ones(5))
@@ -325,7 +325,7 @@ def test_an_interruption_during_a_solve_ends_the_server(mpi, heeded):
     server = PetscServer(COMMAND)
     factor = server.factorise(A, True)
     os.kill(other_rank(server), signal.SIGSTOP)
-    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         factor.solve(np.ones(5))
     assert factor.lost
@@ -362,7 +362,7 @@ def test_a_client_that_is_killed_leaves_no_rank_and_no_memory(mpi, doing, tmp_pa
     assert process.stdout is not None
     started = [int(pid) for pid in process.stdout.readline().split()]
     assert len(started) == 2
-    time.sleep(0.5)  # it asks for a solution
+    time.sleep(0.2)  # it asks for a solution
     process.kill()
     process.wait()
     gone(lambda: not any(Path(f"/proc/{pid}").exists() for pid in started))

@@ -71,7 +71,7 @@ def test_many_exchanges_do_not_gather_rounding():
 
 @pytest.mark.parametrize("scheme", [Scheme(), hht(0.1)])
 def test_rocking_beam_steps_as_the_full_newton(scheme):
-    problem = rocking(scheme, 600)
+    problem = rocking(scheme, 300)
     assert rule_of(Case(problem, Integration(problem).motion, 1e-3)).name == "springs"
     exact = recorded(problem, full_newton=True)
     open_points = (exact[0].of("t")[..., -1] == 0.0).sum(axis=1)
