@@ -104,8 +104,9 @@ class Range:
             return None
         if isinstance(value, int | float):
             return None if value in self else self._outside(value, name)
-        if type_of(value) == "EVOLUTIO":
-            numbers = np.hstack([(), *(p.ordinates for p in value.parts if p.ordinates.size)]).real
+        curves = getattr(value, "parts", None) if type_of(value) == "EVOLUTIO" else None
+        if curves is not None:  # what `check` knows of a curve has none
+            numbers = np.hstack([(), *(p.ordinates for p in curves if p.ordinates.size)]).real
         elif isinstance(value, ListReel | ListEnti):
             numbers = np.asarray(value.values, dtype=float)
         else:
