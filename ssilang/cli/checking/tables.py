@@ -94,11 +94,13 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
                 entry = target.base.text, " . ".join(i.span.text for i in target.indices)
                 known = all(isinstance(i, tree.Quoted) for i in target.indices)
                 node = replace(node, targets=target.indices)
-            fresh *= not reads_all(node)
+            if reads_all(node):
+                fresh = []
         fresh = [key for key in fresh if key[0] not in _names_in([node])]
         if entry in fresh:
             yield SsiError("entry-twice", node.span, where=entry[1])
-        fresh += [entry] if entry is not None and known and entry[0] not in others else []
+        if entry is not None and known and entry[0] not in others:
+            fresh.append(entry)
 
 
 def _names_in(nodes: Iterable[tree.Node]) -> set[str]:

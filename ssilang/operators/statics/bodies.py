@@ -71,7 +71,7 @@ def _in_parts(entries: Entries, zones: Sequence[Zone], material: CellField) -> C
 
     def block(zone: Zone) -> CellFieldBlock:
         values = {name: np.full((len(zone.cells), 1), float(value)) for name, value in said.items()}
-        return CellFieldBlock(zone.cells, values, "GRAVITE", zone.element, zone.constituent)
+        return zone.block(values, "GRAVITE")
 
     blocks = tuple(block(zone) for zone in zones if "RH_COULOMB" in zone.behaviour)
     return CellField((*material.blocks, *blocks), material.title)
