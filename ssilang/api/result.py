@@ -309,13 +309,12 @@ class Result(Mapping[str, Any]):
     def _node_at(self, at: Any, table: Table, word: str, component: str) -> int:
         """The node at coordinates, of those where the component was saved."""
         nodes = workspace(self.session).nodes
-        among = histories.nodes_of(table, word, component)
-        if not len(among):
-            among = np.unique(nodes.resolve(np.arange(len(nodes))))
+        known = histories.nodes_of(table, word, component)
+        among = known if len(known) else np.unique(nodes.resolve(np.arange(len(nodes))))
         x = nodes.coordinates[among]
         distance = np.linalg.norm(x - np.pad(at, (0, 3 - len(at))), axis=1)
         near = among[distance <= _SAME_PLACE * (np.ptp(x, axis=0).max() or 1.0)]
-        if len(near) == 1:
+        if len(near) == 1 or (len(near) and not len(known)):  # EVOL tells of the component
             return int(near[0])
         if len(near):
             told = [nodes.told(n) for n in near[:5].tolist()]

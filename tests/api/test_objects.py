@@ -45,6 +45,7 @@ def test_a_mesh_gives_a_curve_a_node(swing):
         (("DEPL", "UX", 9), "there is no node 9: they are counted from 1 to 6"),
         (("DEPL", "UX", "P2"), "P2"),
         (("DEPL", "UW", "P1"), "there are UX, UY"),
+        (("DEPL", "UW", (1.0, 0.0)), "there are UX, UY"),
         (("DEPO", "UX", "P1"), "did you mean 'DEPL'?"),
         (("DEPL", "UX", {}), "a dict is no point"),
         (("DEPL", "UX", "P1", "T1"), "no table of results"),

@@ -97,9 +97,11 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
             if reads_all(node):
                 fresh = []
         fresh = [key for key in fresh if key[0] not in _names_in([node])]
+        if entry is None:
+            continue
         if entry in fresh:
             yield SsiError("entry-twice", node.span, where=entry[1])
-        if entry is not None and known and entry[0] not in others:
+        if known and entry[0] not in others:
             fresh.append(entry)
 
 

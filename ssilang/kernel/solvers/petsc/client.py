@@ -129,14 +129,14 @@ class PetscServer:
     def close(self) -> None:
         """End the server; its factors solve no more."""
         if self._line is not None:
-            self._line.close()
+            self._end()  # and lets go of the line, whose output is a file
             self._line = None
 
     def _started(self) -> "_Line":
         if self._line is None or self._line.ended:
-            self._line = None
+            self.close()
             self._line, greeting = _start(self.command, self.limit)
-            weakref.finalize(self, self._line.close)
+            self._end = weakref.finalize(self, self._line.close)
             keys = ("petsc", "mpi", "ranks", "hosts")
             self._report = {"command": self.command, **{k: greeting[k] for k in keys}}
         return self._line
