@@ -444,3 +444,5 @@ def test_the_smallest_named_set_names_a_cell(tmp_path: Path) -> None:
         "group_ALL": 1.0, "group_LEFT": 2.0, "group_ONE": 3.0, "part_beam": 2.0,
     }  # fmt: skip
     assert labels_of(mesh, {"group": {}}) == Labels()
+    growing = {"group": {"ONE": turned, "LEFT": left, "ALSO": left, "ALL": whole}}
+    assert labels_of(mesh, growing).numbers["group"].tolist() == [2, 2, 1, 4, 4]
