@@ -17,7 +17,6 @@ from ssilang.api.objects import CurveView, held, seen
 from ssilang.api.view import library
 from ssilang.cli.run import phrase_values
 from ssilang.cli.summary import is_within, pictures_among
-from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.scopes import PREDEFINED, Frame
@@ -265,7 +264,7 @@ class Result(Mapping[str, Any]):
         text = f"EVOL 'TEMP' RESULTS '{index}' '{component}' PLACE ;"
         place = self._place(point, results, index, component)
         if isinstance(place, Point):  # as a mesh: the curve gets the name that the script gave it
-            place = poi1(place.nodes, np.array([place.node]))
+            place = place.mesh
         found = self._evaluated(text, {"RESULTS": results, "PLACE": place})
         return CurveView(found[0], self.language)
 

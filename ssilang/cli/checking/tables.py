@@ -96,7 +96,8 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
                 node = replace(node, targets=target.indices)
             if reads_all(node):
                 fresh = []
-        fresh = [key for key in fresh if key[0] not in _names_in([node])]
+        read = _names_in([node]) if fresh else set()
+        fresh = [key for key in fresh if key[0] not in read]
         if entry is None:
             continue
         if entry in fresh:

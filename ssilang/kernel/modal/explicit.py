@@ -128,7 +128,9 @@ def _inverse(A: FloatArray) -> FloatArray:
 def largest_step(M: FloatArray, K: FloatArray, scheme: str) -> float:
     """The largest step of an explicit or conditionally stable scheme, infinite for others."""
     limit = {"DE_VOGELAERE": 2.0 * np.sqrt(2.0), "DIFFERENCES_CENTREES": 2.0,
-             "FOX_GOODWIN": np.sqrt(6.0)}.get(scheme, np.inf)  # fmt: skip
+             "FOX_GOODWIN": np.sqrt(6.0)}.get(scheme)  # fmt: skip
+    if limit is None:
+        return np.inf
     fastest = float(np.linalg.eigvals(np.linalg.solve(M, K)).real.max(initial=0.0))
     return float(limit / np.sqrt(fastest)) if fastest > 0.0 else np.inf
 

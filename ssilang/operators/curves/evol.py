@@ -341,12 +341,8 @@ def _tell_rounding(
             _LOOKED_AT.setdefault(fields.track, set()).add(node)
         else:
             _tell_held_side(call, fields, name, node)
-            still = name in ways and held(problem)[problem.numbering.index_of(node, name)]
-            table, up = problem.numbering.table, len(axes_of(problem)) - 1
-            top = float(table.coordinates[problem.numbering.nodes, up].max())
-            if still and table.coordinates[node, up] == top and problem.loading.forces.any():
-                told = {"node": table.told(node)}
-                call.warn("operators.curves.held-there", name=name, **told)
+            if name in ways and held(problem)[problem.numbering.index_of(node, name)]:
+                _tell_held_top(call, fields, name, node)
         return
     free = not held(problem)[problem.numbering.index_of(node, name)]
     known = node in _LOOKED_AT.get(fields.track, ())
@@ -369,6 +365,15 @@ def _tell_held_side(call: Call, fields: instants.RecordedFields, name: str, node
             if moved and not known and not call.session.warned(code):
                 told = {"node": table.told(node), "other": table.told(other), "moved": moved}
                 call.warn(code, name=name, **told)
+
+
+def _tell_held_top(call: Call, fields: instants.RecordedFields, name: str, node: int) -> None:
+    """Warn of a held node that is the highest: a base may be looked at, a top is meant to move."""
+    problem = fields.track.problem
+    table, up = problem.numbering.table, len(axes_of(problem)) - 1
+    top = float(table.coordinates[problem.numbering.nodes, up].max())
+    if table.coordinates[node, up] == top and problem.loading.forces.any():
+        call.warn("operators.curves.held-there", name=name, node=table.told(node))
 
 
 def _point_names(call: Call, support: Operand) -> dict[int, str]:

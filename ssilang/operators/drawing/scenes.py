@@ -187,7 +187,7 @@ def _draw(call: Call, session: Session, said: _Said) -> None:
     subjects = said.subjects
     if subjects.values is None and not subjects.meshes:
         if subjects.deformed is None and said.eye is not None:
-            subjects.meshes = [poi1(said.eye.nodes, np.array([said.eye.node]))]
+            subjects.meshes = [said.eye.mesh]
         elif subjects.deformed is None and subjects.arrows is None:
             raise call.missing(("MAILLAGE", "CHPOINT", "MCHAML", "DEFORME", "VECTEUR"))
     made = compose(subjects)
@@ -295,7 +295,7 @@ def _labels(session: Session, meshes: list[Mesh]) -> tuple[tuple[str, Mesh], ...
     found = []
     for name, value in session.frame.named().items():
         if isinstance(value, Point):
-            value = poi1(value.nodes, np.array([value.node]))
+            value = value.mesh
         if not isinstance(value, Mesh) or not value.n_cells:
             continue
         if np.isin(value.sorted_node_ids, drawn).all() and not any(value is m for m in meshes):

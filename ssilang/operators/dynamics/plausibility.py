@@ -194,12 +194,15 @@ def _on_supports(start: Start) -> Told:
     for name in names:
         told = {"name": name, "other_side": other_side}
         yield "operators.dynamics.load-on-supports", told
-    problem, forces = start.problem, np.abs(start.problem.loading.forces)
+    problem, forces = start.problem, start.problem.loading.forces
+    if problem.interface is None:
+        return
     bare = held(problem) & (problem.K.diagonal() == 0.0) & (problem.M.diagonal() == 0.0)
-    for k in np.flatnonzero(forces[bare].any(axis=0) & (problem.interface is not None)).tolist():
-        node, part = problem.numbering.told(forces[:, k] * bare), forces[bare, k].sum()
+    for k in np.flatnonzero(forces[bare].any(axis=0)).tolist():
         if start.names[k] not in names:
-            told = {"name": start.names[k], "node": node, "part": 100.0 * part / forces[:, k].sum()}
+            force = np.abs(forces[:, k])
+            told = {"name": start.names[k], "node": problem.numbering.told(force * bare)}
+            told["part"] = 100.0 * force[bare].sum() / force.sum()
             yield "operators.dynamics.force-on-ground", told
 
 

@@ -195,8 +195,8 @@ class _Entering:
         damping = () if self.inputs.damping is None else self.inputs.damping.blocks
         sides = [b.nodes.ravel() for b in damping if b.zone is None and b.raw_nodes.shape[1] > 1]
         beside = ~np.isin(problem.numbering.nodes, np.concatenate([[], *sides]))  # dashpots let in
-        driving = self.changing & problem.loading.forces[beside].any(axis=0)
-        for k in (k for k in np.flatnonzero(driving) if is_record(curves[k][1])):
+        records = [k for k in np.flatnonzero(self.changing) if is_record(curves[k][1])]
+        for k in (k for k in records if problem.loading.forces[beside, k].any()):
             for axis, e in zip(self.axes, self.along.T, strict=True):
                 force, mass = np.abs(problem.loading.forces[:, k]) * e, (problem.M @ e) * e
                 driven = np.flatnonzero(force * (mass >= 0.0))

@@ -380,10 +380,8 @@ def weak_cores(start: Start) -> Told:
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
     """Stiffness against a motion of bearings that have yielded, none beside other joints."""
-    moved, p = (
-        (joints.jumps(way)[:, :-1] ** 2).sum(axis=1),
-        joints.parameters[:, [Parameter.KPOS, Parameter.RAYO]],
-    )
+    moved = (joints.jumps(way)[:, :-1] ** 2).sum(axis=1)
+    p = joints.parameters[:, [Parameter.KPOS, Parameter.RAYO]]
     lead, pendulum = (joints.codes[moved > 0.0] == c for c in (LawCode.LEAD, LawCode.PENDULUM))
     if lead.size and lead.all():
         return float(p[:, 0] @ moved)

@@ -232,7 +232,8 @@ def _restore(call: Call, archive: Archive, name: str, label: str) -> None:
     frame, others = call.session.frame, list[str]()
     for held, value in decoder.named(records):
         before = frame.find(held)
-        others += [held] if isinstance(value, float) and before not in (None, value) else []
+        if isinstance(value, float) and before not in (None, value):
+            others.append(held)
         frame.assign(held, value)
     if others:
         call.warn("operators.files.other-numbers", name=name, names=others)

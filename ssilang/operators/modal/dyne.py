@@ -80,7 +80,8 @@ def _integrated(
     problem = explicit.ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
     run = explicit.integrate_modes(problem, start, steps)
     closed = system.K + explicit.stiffness_of_links(arrays)
-    if steps.h > (limit := explicit.largest_step(system.M, closed, steps.scheme)):
+    limit = explicit.largest_step(system.M, closed, steps.scheme) if len(arrays.kinds) else np.inf
+    if steps.h > limit:
         call.warn("operators.modal.step-of-links", h=steps.h, limit=limit, scheme=steps.scheme)
     return _results(call, run, system, links, tables.get("output"))
 

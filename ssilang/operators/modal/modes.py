@@ -119,8 +119,8 @@ def _modes(
         twice = [m for m, u, v in zip(modes, shapes, shapes[1:], strict=False) if np.allclose(u, v)]
         if twice:
             call.warn("operators.modal.mode-twice", frequency=twice[0].frequency)
-    for mode in modes:
-        workspace(call.session).origins[mode.shape] = first_cells(stiffness), mass
+    origin = first_cells(stiffness), mass
+    workspace(call.session).origins.update((mode.shape, origin) for mode in modes)
     free = sum(m.frequency == 0.0 for m in modes)
     if free and stiffness.relations and mass.inertial:  # a body that nothing holds is meant to fly
         call.warn("operators.modal.free-motions", count=free)
