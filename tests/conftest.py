@@ -27,8 +27,10 @@ from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
 from ssilang.kernel.solvers.backends import keep_factors
 
-# processes that tests start keep their byte code, as a person's do: half of a start otherwise
+# processes that tests start keep their byte code, as a person's do: half of a start otherwise;
+# and what they print waits in a buffer, as a person's does
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+os.environ.pop("PYTHONUNBUFFERED", None)
 sys.dont_write_bytecode = False
 
 # a busy machine, or a first compilation, is no failure of what is tested

@@ -66,7 +66,8 @@ def release(tmp_path_factory: pytest.TempPathFactory) -> Release:
     folder = tmp_path_factory.mktemp("release")
     sdist = _build("sdist", _ROOT, folder / "sdist")
     with tarfile.open(sdist) as packed:
-        packed.extractall(folder, filter="data")
+        safely = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}  # from 3.11.4
+        packed.extractall(folder, **safely)
     tree = folder / sdist.name.removesuffix(".tar.gz")
     return Release(sdist, tree, _build("wheel", tree, folder / "wheel"))
 

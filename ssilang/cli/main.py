@@ -117,8 +117,10 @@ def _folder_gone(language: str) -> int | None:
 def _flushed(code: int) -> int:
     """The exit code, when all that was printed has been written."""
     sys.stdout.flush()
-    with suppress(OSError):  # a full one that takes no messages
+    try:
         sys.stderr.flush()
+    except OSError:  # a full one that takes no messages: Python would try again, and exit with 120
+        _silence()
     return code
 
 

@@ -65,7 +65,7 @@ send({**GREETING, **{"stranger": {"word": "0" * 64}, "older": {"protocol": 0},
       "complex": {"real": False}, "plain": {"mumps": False}}.get(mode, {})})
 if mode == "dies":
     line.recv(1)
-    print("out of memory")
+    print("out of memory", flush=True)
     os.kill(os.getpid(), 9)
 if mode == "babbles":
     line.recv(1)
