@@ -85,7 +85,7 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
     alone = [s.items[0] for s in statements_of(script.body) if s.targets and len(s.items) == 1]
     others = {i.text for i in alone if isinstance(i, tree.Name)}
     others |= _names_in(n for n in script.body if isinstance(n, tree.Definition))
-    fresh = list[tuple[str, str]]()
+    fresh: dict[str, set[str]] = {}  # by table
     for node in script.body:
         entry = None
         if isinstance(node, tree.Statement):
@@ -95,15 +95,16 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
                 known = all(isinstance(i, tree.Quoted) for i in target.indices)
                 node = replace(node, targets=target.indices)
             if reads_all(node):
-                fresh = []
-        read = _names_in([node]) if fresh else set()
-        fresh = [key for key in fresh if key[0] not in read]
+                fresh = {}
+        for read in _names_in([node]) & fresh.keys():
+            del fresh[read]
         if entry is None:
             continue
-        if entry in fresh:
-            yield SsiError("entry-twice", node.span, where=entry[1])
-        if known and entry[0] not in others:
-            fresh.append(entry)
+        table, where = entry
+        if where in fresh.get(table, ()):
+            yield SsiError("entry-twice", node.span, where=where)
+        if known and table not in others:
+            fresh.setdefault(table, set()).add(where)
 
 
 def _names_in(nodes: Iterable[tree.Node]) -> set[str]:
