@@ -87,20 +87,17 @@ def _twice(script: tree.Script) -> Iterator[SsiError]:
     others |= _names_in(n for n in script.body if isinstance(n, tree.Definition))
     fresh: dict[str, set[str]] = {}  # by table
     for node in script.body:
-        entry = None
+        table, where, known = "", "", False
         if isinstance(node, tree.Statement):
             target = (*node.targets, None)[0]
             if isinstance(target, tree.Path) and isinstance(target.base, tree.Name):
-                entry = target.base.text, " . ".join(i.span.text for i in target.indices)
+                table, where = target.base.text, " . ".join(i.span.text for i in target.indices)
                 known = all(isinstance(i, tree.Quoted) for i in target.indices)
                 node = replace(node, targets=target.indices)
             if reads_all(node):
                 fresh = {}
         for read in _names_in([node]) & fresh.keys():
             del fresh[read]
-        if entry is None:
-            continue
-        table, where = entry
         if where in fresh.get(table, ()):
             yield SsiError("entry-twice", node.span, where=where)
         if known and table not in others:
