@@ -1,4 +1,4 @@
-"""What scripts give holds: scripts and conditions of `test_scripts.toml` and `stdlib/scripts.toml`.
+"""What a script gives fulfils the conditions beside it (`test_scripts.toml`).
 
 A case's script goes on behind the start that it names, in a session of its own.
 """
@@ -16,8 +16,7 @@ from together import together
 
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 
-FILES = Path(__file__).with_suffix(".toml"), Path(__file__).parents[1] / "stdlib" / "scripts.toml"
-GROUPS = {g: cases for f in FILES for g, cases in tomllib.loads(f.read_text("utf-8")).items()}
+GROUPS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 CASES = [(g, name) for g, cases in GROUPS.items() for name in cases if name != "starts"]
 KNOWN = {
     "np": np, "math": math, "approx": pytest.approx, "numbering_of": numbering_of,
