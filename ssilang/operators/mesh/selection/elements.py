@@ -179,6 +179,10 @@ def _numbered(call: Call, mesh: Mesh, which: int | ListEnti | None) -> Mesh:
     return Mesh(mesh.nodes, tuple(blocks))
 
 
+def _rows(cells: CellBlock, keep: NDArray[np.bool_]) -> Mesh:
+    return combine.take(Mesh(cells.nodes, (cells,)), lambda _: keep)
+
+
 def _values(block: CellFieldBlock, named: picking.Named, absolute: bool) -> FloatArray:
     """All values (n_cells, m) of the chosen components of a block."""
     chosen = [
@@ -215,6 +219,6 @@ def by_values(
     for block, table in zip(field.blocks, values, strict=True):
         fits, good = good[: table.size].reshape(table.shape), good[table.size :]
         keep = np.asarray((np.all if every else np.any)(fits, axis=1))
-        blocks += combine.take(Mesh(block.cells.nodes, (block.cells,)), lambda _: keep).blocks
+        blocks += _rows(block.cells, keep).blocks
     parts = [Mesh(b.nodes, (b,)) for b in blocks]
     return combine.union(*parts, as_given=True) if parts else Mesh(field.blocks[0].cells.nodes, ())
