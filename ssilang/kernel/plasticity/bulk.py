@@ -250,7 +250,10 @@ class Bulk:
 
         sizes = [p.shape[1] for p in self.places]
         ones = [np.ones((len(p), k, k)) for p, k in zip(self.places, sizes, strict=True)]
-        return Pattern.of(assemble_terms(list(self.places), ones, self.size), self.places)
+        return Pattern.of(self._assembled(ones), self.places)
+
+    def _assembled(self, values: list[FloatArray]) -> sp.csr_array:
+        return assemble_terms(list(self.places), values, self.size)
 
     def force(self, state: State) -> FloatArray:
         """Internal forces (n,) of a state."""
