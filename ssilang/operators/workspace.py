@@ -64,6 +64,8 @@ class Workspace:
         a mass times accelerations these.
     sides : list of (first side, second side, method)
         What IMPO 'MAIL' made contact meshes of.
+    ended : (unknowns, displacements, whether it moves, whether it is damped)
+        Where the last motion came to: how a next one may go on.
     records : mapping of (file, column) to (step, values over the largest)
         What LIRE read of ground motions.
     masses : mapping of int to (nodes, masses)
@@ -83,6 +85,9 @@ class Workspace:
     petsc: "PetscServer | None" = None
     heated: WeakKeyDictionary[Any, str] = field(default_factory=WeakKeyDictionary)
     origins: WeakKeyDictionary[Any, Any] = field(default_factory=WeakKeyDictionary)
+    ended: tuple[IntArray, FloatArray, bool, bool] = (
+        np.zeros(0, int), np.zeros(0), False, False,
+    )  # fmt: skip
     masses: dict[int, tuple[IntArray, FloatArray]] = field(default_factory=dict)
     sides: list[tuple[Mesh, Mesh, str]] = field(default_factory=list)
     records: dict[tuple[str, int], tuple[float, FloatArray]] = field(default_factory=dict)

@@ -14,7 +14,7 @@ _ALONE = {("**", "/"), ("*", "+"), ("*", "-")}  # signs about a 1 that belongs t
 _RANK = {"+": 0, "-": 0, "*": 1, "/": 1, "**": 2}  # of signs, in other languages
 _NAMED = 5  # places that a note names
 _SHORTEST = 4  # letters of a word that may be a misspelt name
-_PROPERTIES = frozenset({"MATE", "MODE", "RIGI", "MASS", "AMOR", "CHAR"})
+_PROPERTIES = frozenset({"MATE", "MODE", "RIGI", "MASS", "AMOR", "CHAR", "LIRE"})
 _NODAL = frozenset({"APPU", "AMOR"})
 _WAYS = frozenset({"UX", "UY", "UZ", "RX", "RY", "RZ"})
 _LEVEL = {"UX", "UY"}, {"RX", "RY"}  # pairs that a base of space may have turned
@@ -65,7 +65,7 @@ def reads_all(statement: tree.Statement) -> bool:
 
 
 def stale_names(script: tree.Script) -> Iterator[SsiError]:
-    """A warning for each property of the model that is given anew, and not read behind that.
+    """A warning for each property or file that is given anew, and not read behind that.
 
     What was made of the one before keeps it. A turn of a loop comes before those behind it, and a
     procedure may be called, with the names of its caller, from anywhere.

@@ -84,11 +84,11 @@ def largest_motions(problem: "Problem") -> FloatArray:
     return np.asarray((np.where(sizes > 0.0, sizes, 1.0) * most)[changing(problem)])
 
 
-def is_shaken(problem: "Problem", name: str) -> bool:
-    """Whether loads shake the problem along an axis: accelerations are relative to the ground."""
-    axes = axes_of(problem)
+def ground_along(problem: "Problem", name: str) -> FloatArray:
+    """Accelerations (t,) of the ground along an axis, that loads -M a stand for; else nought."""
+    axes, factors = axes_of(problem), problem.loading.at(problem.times)
     shaking = accelerations(problem) * changing(problem)
-    return name in axes and bool(shaking[axes.index(name)].any())
+    return -factors @ (shaking[axes.index(name)] if name in axes else np.zeros(shaking.shape[1]))
 
 
 def is_record(values: FloatArray) -> bool:

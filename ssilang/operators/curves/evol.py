@@ -4,7 +4,7 @@ from weakref import WeakKeyDictionary
 
 from ssilang.kernel.fields.node_algebra import component
 from ssilang.kernel.mesh.lines.lines import line_chain
-from ssilang.kernel.waves.shaken import axes_of, is_shaken
+from ssilang.kernel.waves.shaken import axes_of, ground_along
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves import instants
 from ssilang.operators.curves.words import COLOUR, axis_name, read_colours
@@ -299,7 +299,7 @@ def _are_relative(fields: Sequence[Any], index: str, name: str) -> bool:
     if index != "ACCE" or not isinstance(fields, instants.RecordedFields):
         return False
 
-    return is_shaken(fields.track.problem, name)
+    return bool(ground_along(fields.track.problem, name).any())
 
 
 def _tell_peak(call: Call, fields: Sequence[Any], values: FloatArray, name: str) -> None:

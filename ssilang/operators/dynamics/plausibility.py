@@ -77,6 +77,7 @@ AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its en
 HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stages sees less
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 FEWEST, WANTED = 3, 20  # steps of a period
+BRIEF = 0.1  # of a period: what a calculation ends in has not begun to move
 RESOLVED = 5e-3  # of the largest energy: with four steps a contact some 3 %, with 24 0.15 %
 TURNED, TIPPED = 1.0, 0.2  # rad: of a node; of a body at the end, that joints or stops bear
 STEEP = 1.0 / 3.0  # of a bowl's radius, where sine and tangent are 6 % apart
@@ -224,13 +225,16 @@ def _held_on_the_other_side(problem: Problem, inputs: Inputs) -> IntArray:
     return none
 
 
+def _sinks(start: Start) -> Told:
+    for sunk in start.sunk():
+        yield "operators.dynamics.sinks-in", vars(sunk)
+
+
 def _loose(start: Start) -> Told:
     problem = start.problem
     alone = problem.interface is None and problem.contact is None
     if alone and problem.numbering.size > MOST_ALONE:
         return
-    for sunk in start.sunk():
-        yield "operators.dynamics.sinks-in", vars(sunk)
     zones, loose = () if (joints := problem.interface) is None else joints.joints, [*start.loose()]
     slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
     away = (s for s in start.swings if np.isinf(s.period) and start.stirs(s.motion, start.size))
@@ -256,6 +260,9 @@ def _swings(start: Start) -> Told:
         told["dt_over"] = dt / period
         yield "operators.dynamics.step-over-period", told
     longest = max((s.period for s in found), default=np.inf)
+    least, lasts = min((s.period for s in found), default=0.0), float(np.ptp(problem.times))
+    if lasts < BRIEF * least < np.inf:
+        yield "operators.dynamics.ends-early", {"lasts": lasts, "period": least}
     strikes = problem.interface is not None or problem.contact or any(s.sudden for s in found)
     if longest < FEWEST * dt and not strikes and start.shaking.any():
         told = {"period": longest, "steps": longest / dt}
@@ -276,10 +283,10 @@ GUARDS: tuple[Callable[[Start], Told], ...] = (
 """Each gives the codes of warnings with their data."""
 IN_STATICS = (
     _imposed_elsewhere, _on_supports, bridged, unequal_joints, ground_twice, footing_too_wide,
-    stops_on_held,
+    stops_on_held, _sinks,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
+    _masses_alone, _sinks, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
     braked, rest_of_others,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
@@ -294,7 +301,10 @@ def warn_of_motion(entries: Entries, start: Start, track: NodeHistories) -> None
     )
     if not len(track) or not along[track.unknowns].any():
         return
-    u = track.instant(len(track) - 1).values("u")[0]
+    last = track.instant(len(track) - 1)
+    u, moved = last.values("u")[0], bool(last.values("v")[0].any())
+    ended = track.unknowns, u, moved, bool(problem.C.count_nonzero())
+    workspace(entries.call.session).ended = ended
     loose = start.bodies() if problem.interface or problem.contact else ()
     turn = float(np.abs(u[round_about[track.unknowns]]).max(initial=0.0))
     tips = max((_turn(problem, body.own, track.unknowns, u) for body in loose), default=0.0)
@@ -325,7 +335,7 @@ def warn_of_bowls(entries: Entries, joints: Interface | None, track: NodeHistori
 
 
 def warn_of_loads(
-    entries: Entries, load: Load | None, times: FloatArray, *, at_rest: bool = False
+    entries: Entries | Call, load: Load | None, times: FloatArray, *, at_rest: bool = False
 ) -> None:
     """Warn of curves of loads that begin late, end early, or change between the instants.
 
@@ -535,8 +545,13 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
     energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
     before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None
     again = isinstance(before, ListReel) and np.isclose(first, before.values[-1])
-    if again and not problem.v.any():
+    at, u, moved, damped = workspace(entries.call.session).ended
+    on = problem.u[at] if at.max(initial=0) < len(problem.u) else u[:0]
+    goes_on = on.any() and len(on) == len(u) and np.abs(on - u).max() < ROUNDING * np.abs(u).max()
+    if not problem.v.any() and (again or (goes_on and moved)):
         entries.warn("operators.dynamics.begins-again", first=first)
+    if goes_on and damped and not problem.C.count_nonzero():
+        entries.warn("operators.dynamics.goes-on-undamped")
 
 
 def warn_contrast(entries: Entries, problem: Problem) -> None:

@@ -404,7 +404,7 @@ def _held_footings(start: Start, joints: Interface) -> Told:
     rows, numbering = problem.constraints.C, problem.numbering
     if problem.loading.imposed.any() or not joints.n_points:
         return
-    left = abs(joints.J @ problem.constraints.T).max(axis=1).toarray().reshape(-1, joints.dimension)
+    left = abs(joints.J @ problem.constraints.T).sum(axis=1).reshape(-1, joints.dimension)
     moving = (left > ROUNDING)[joints.pairs].reshape(joints.n_points, 1, -1)
     moves: BoolArray = np.asarray(((np.abs(joints.B) > ROUNDING) & moving).any(axis=2))
     if not moves[:, -1].any():

@@ -1,8 +1,9 @@
 """ZBIL: what @BILANSSI found, for the summary and the report of a run."""
 
 from ssilang.io.recording import thinned_drawing
+from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.stepping.problem.bodies import held
-from ssilang.kernel.waves.shaken import is_shaken
+from ssilang.kernel.waves.shaken import ground_along
 from ssilang.messages.message import teller
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
@@ -28,6 +29,7 @@ _DRAWN = (
 LEFT = ("ROTATION", "ENFONCEMENT")
 LATE = 0.1  # of a run, in which what is left should stand still
 STILL = 0.1  # of the largest rotation
+LIKE = 0.5  # correlation, ratio of sizes: less is another motion
 _TOP = 1000.0
 """Value at which @BILANSSI cuts its factors: there is no moment or shear."""
 
@@ -73,8 +75,18 @@ def _doubts(given: Table, found: Table) -> Iterator[tuple[str, dict[str, Any]]]:
         track = getattr(recorded[0], "track", None)
         if track:
             still.append(held(track.problem)[track.problem.numbering.index_of(point.node, name)])
-        if not floor.has("ACCELERATION_BASE") and track and is_shaken(track.problem, name):
-            yield "operators.dynamics.floor-relative", {"floor": number, "component": name}
+        ground = ground_along(track.problem, name) if track else np.zeros(0)
+        base, told = floor.get("ACCELERATION_BASE"), {"floor": number, "component": name}
+        if ground.any() and not isinstance(base, Curve):
+            yield "operators.dynamics.floor-relative", told
+        elif ground.any():
+            given_base = base.parts[0]
+            values = np.interp(track.problem.times, given_base.abscissas, given_base.ordinates)
+            size = float(np.linalg.norm(values) * np.linalg.norm(ground))
+            if values @ ground < LIKE * size or not LIKE < np.ptp(values) / np.ptp(ground) < 1 / LIKE:
+                told |= {"given": np.abs(values).max(), "ground": np.abs(ground).max()}
+                told["turned"] = bool(values @ ground < -LIKE * size)
+                yield "operators.dynamics.base-of-another", told
     if still and all(still):
         yield "operators.dynamics.floors-held", {"count": len(still)}
     histories = cast(Table, found.get("HISTOIRES"))

@@ -76,6 +76,9 @@ def _integrated(
     given = _held(tables["loads"], "BASE_A") if "loads" in tables else None
     loading = loading_of(given, system.numbering, np.zeros(0, dtype=np.int64))
     times = start.time + 0.5 * steps.h * np.arange(2 * max(steps.count, 0) + 1, dtype=np.float64)
+    from ssilang.operators.dynamics.plausibility import warn_of_loads
+
+    warn_of_loads(call, given, times)
     spaces, amplitudes = loading.forces.T.copy(), loading.at(times).T.copy()
     problem = explicit.ModalProblem(system.M, damping, system.K, spaces, amplitudes, arrays)
     run = explicit.integrate_modes(problem, start, steps)

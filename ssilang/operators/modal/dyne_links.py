@@ -521,6 +521,8 @@ def links_of(call: Call, table: Table | None, basis: Basis) -> tuple[list[ReadLi
         inner = None if table is None else table.get(Mot(name))
         if isinstance(inner, Table):
             read = [_read(call, e, places) for e in _numbered(inner)]
+            if len({id(r.table) for r in read}) < len(read):
+                call.warn("operators.modal.link-twice", table, name=name)
             found += _with_conditions(read, len(found))
     return found, places.arrays(found, len(basis.marks))
 
