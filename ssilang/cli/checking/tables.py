@@ -57,22 +57,33 @@ def _late(
 ) -> Iterator[SsiError]:
     """Entries set behind the last call that takes their table, and not read behind that.
 
-    Loops come back to the call; a table that has another name too is left alone.
+    Loops come back to the call; a table that has another name too is left alone, as are those
+    that stand in it, but for the one name that they have beside their index.
     """
+    inner: dict[str, list[tree.Item]] = {table: []}
+    said: list[str] = []
     for each in statements_of(script.body):
-        words = (i for items in phrases_in(each.items) for i in items if isinstance(i, tree.Name))
+        words = [i for items in phrases_in(each.items) for i in items if isinstance(i, tree.Name)]
         other = each.first_word[:4] != call.first_word[:4]
         if reads_all(each) or (other and any(i.text == table for i in words)):
             return
+        said += [i.text for i in words]
+        target = (*each.targets, None)[0]
+        if isinstance(target, tree.Path) and len(each.items) == 1 and words:
+            if isinstance(target.base, tree.Name) and target.base.text == table:
+                inner[words[0].text] = [*target.indices]
     for node in script.body:
         target = (*node.targets, None)[0] if isinstance(node, tree.Statement) else None
         if not isinstance(target, tree.Path) or node.span.start < call.span.end:
             continue
         index, code = target.indices[-1], node.span.source.code[node.span.end :]
-        entry = declared.at((argument,), index.text) if isinstance(index, tree.Quoted) else None
-        own = isinstance(target.base, tree.Name) and target.base.text == table
-        own = own and len(target.indices) == 1 and entry is not None and entry.is_read
-        if own and isinstance(index, tree.Quoted) and table not in reads(code, index.text):
+        name = target.base.text if isinstance(target.base, tree.Name) else ""
+        if name not in inner or len(target.indices) > 1 or not isinstance(index, tree.Quoted):
+            continue
+        way = [i.text for i in inner[name] if isinstance(i, tree.Quoted)]
+        entry = declared.at((argument, *way), index.text)
+        own = entry is not None and entry.is_read and (name == table or said.count(name) == 1)
+        if own and name not in reads(code, index.text):
             told = {"procedure": declared.name, "where": f"'{index.text}'"}
             yield SsiError("entry-behind-call", target.span, **told)
 

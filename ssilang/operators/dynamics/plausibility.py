@@ -77,7 +77,7 @@ AHEAD = 10.0  # times what a calculation saw of a curve: what lies behind its en
 HALF = 2.0  # times what it saw of a load that grows to 1: a calculation in stages sees less
 SWUNG = 2.0  # of a curve's largest value, up and down together: more is no load that was put on
 FEWEST, WANTED = 3, 20  # steps of a period
-BRIEF = 0.1  # of a period: what a calculation ends in has not begun to move
+BRIEF, TRIED = 0.1, 30  # of a period: what ends in it has not begun to move; steps of a trial
 RESOLVED = 5e-3  # of the largest energy: with four steps a contact some 3 %, with 24 0.15 %
 TURNED, TIPPED = 1.0, 0.2  # rad: of a node; of a body at the end, that joints or stops bear
 STEEP = 1.0 / 3.0  # of a bowl's radius, where sine and tangent are 6 % apart
@@ -261,7 +261,7 @@ def _swings(start: Start) -> Told:
         yield "operators.dynamics.step-over-period", told
     longest = max((s.period for s in found), default=np.inf)
     least, lasts = min((s.period for s in found), default=0.0), float(np.ptp(problem.times))
-    if lasts < BRIEF * least < np.inf:
+    if lasts < BRIEF * least < np.inf and len(problem.times) > TRIED:
         yield "operators.dynamics.ends-early", {"lasts": lasts, "period": least}
     strikes = problem.interface is not None or problem.contact or any(s.sudden for s in found)
     if longest < FEWEST * dt and not strikes and start.shaking.any():

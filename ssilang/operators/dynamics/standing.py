@@ -370,12 +370,18 @@ def weak_cores(start: Start) -> Told:
     lead = [] if joints is None else joints.codes == LawCode.LEAD
     for body in start.bodies() if np.any(lead) else ():
         assert joints is not None
-        w, weight = joints.jumps(body.up), body.weight
-        cores = float(joints.parameters[lead & (w[:, -1] > 0.0), Parameter.QD].sum())
-        if weight > 0.0 and cores > 0.0 and not CORES <= cores / weight <= STRONG:
-            told = {"node": body.node, "cores": cores, "weight": weight, "share": cores / weight}
-            codes = "operators.dynamics.cores-strong", "operators.dynamics.cores-weak"
-            yield codes[cores < CORES * weight], told
+        own = lead & (joints.jumps(body.up)[:, -1] > 0.0)
+        cores = joints.parameters[:, Parameter.QD]
+        bearing = [(float(cores[own].sum()), body.weight)]
+        if body.weight > 0.0 and start.problem.u.any():  # what each bears at rest
+            pressed = -joints.parameters[:, Parameter.KN] * joints.jumps(start.problem.u)[:, -1]
+            bearing += zip(cores[own].tolist(), pressed[own].tolist(), strict=True)
+        for core, weight in bearing:
+            if weight > 0.0 and core > 0.0 and not CORES <= core / weight <= STRONG:
+                told = {"node": body.node, "cores": core, "weight": weight, "share": core / weight}
+                codes = "operators.dynamics.cores-strong", "operators.dynamics.cores-weak"
+                yield codes[core < CORES * weight], told
+                break
 
 
 def _bearing_stiffness(joints: Interface, way: FloatArray, weight: float) -> float:
