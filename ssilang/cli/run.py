@@ -446,10 +446,14 @@ def _close_files(session: Session, errors: list[SsiError]) -> None:
 
 def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool, again: int) -> None:
     """Write summary.json; one line says what the run leaves: files, warnings, energy."""
-    from ssilang.cli.summary import write_summary
+    from ssilang.cli.summary import deck_name, deck_of, write_summary
 
     output = run_output(result.session)
     try:
+        if (other := deck_of(output.directory)) not in ("", deck_name(source)):
+            told = {"folder": output.directory, "other": other}
+            warned = SsiError("cli.folder-of-another", None, **told)
+            err.write(render(warned, result.session.language) + "\n")
         write_summary(result.session, source, output, result.errors, result.exit_code)
     except OutputError as problem:
         with suppress(OSError):

@@ -41,7 +41,7 @@ def write_summary(
     files = [_file(p, output.directory) for p in output.files if p.is_file()]
     n_bytes = peak_memory()
     made = {
-        "deck": str(source.path) if source.path is not None else source.name,
+        "deck": deck_name(source),
         "deck_digest": source.digest,
         "version": __version__,
         "exit_code": exit_code,
@@ -67,6 +67,19 @@ def write_summary(
     }
     write_text(path, json.dumps(plain(made), indent=2, ensure_ascii=False) + "\n")
     return path
+
+
+def deck_name(source: Source) -> str:
+    """What a summary calls a deck."""
+    return str(source.path) if source.path is not None else source.name
+
+
+def deck_of(folder: Path) -> str:
+    """The deck whose summary stands in a folder; empty without one that can be read."""
+    try:
+        return str(json.loads((folder / NAME).read_text(encoding="utf-8"))["deck"])
+    except (OSError, ValueError, LookupError, TypeError):
+        return ""
 
 
 def _file(path: Path, base: Path) -> dict[str, Any]:

@@ -4,6 +4,8 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
+from numpy.linalg import LinAlgError
+
 from ssilang.language.registry import OF_MODELS, Operator, find_operator, keywords_of
 from ssilang.language.run.binding import run_operator
 from ssilang.language.run.call import Call, Operand
@@ -265,6 +267,8 @@ class PhraseRunner(OperandReader):
             raise SsiError("memory", span, operator=name) from None
         except OverflowError:
             raise SsiError("number-too-large", span, operator=name) from None
+        except LinAlgError as problem:  # of numbers that a script gives
+            raise SsiError("unsolvable", span, operator=name, reason=str(problem)) from problem
         except Exception as problem:
             if self.session.was_interrupted():  # it fails over what it swallowed
                 raise KeyboardInterrupt from problem
