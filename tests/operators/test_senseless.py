@@ -294,7 +294,7 @@ DATA: dict[str, dict[str, object]] = {
     "joints of the mesh that a raft had before": {"count": 5 * 7 + 4 * 9 - 2 * 20},
     "a line under a block with thirds of its divisions": {"count": 4, "node": "3 (0.5 0.)"},
     "three divisions on one": {"count": 4},
-    "a block in ground that was left": {"count": 5},
+    "a block in ground that was left": {"count": 5, "node": "1 (0. 0.)"},
     "a roof's beam that ends at a copy": {"count": 1, "node": "5 (6. 4.)"},
     "a frame of space on springs, one foot without": {"count": 1, "node": "4 (5. 0. 0.)"},
     "springs of the ground on a node that is held": {"count": 3, "node": "2 (0. -1.)"},

@@ -71,6 +71,8 @@ def chosen(x: float, often: bool) -> float:
 
 @pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
 def test_what_few_runs_enter_is_not_compiled_beside_them(monkeypatch):
+    marks = [(f.expected, f.later) for f in (half, twice, third)]
+    assert marks == [(True, False), (False, False), (True, True)]
     told = []
     monkeypatch.setattr(calls.BESIDE, "tell", lambda name, task: told.append(name))
     monkeypatch.setattr(chosen, "name", None)  # nothing is kept
