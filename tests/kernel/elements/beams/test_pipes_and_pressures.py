@@ -6,7 +6,7 @@ import pytest
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.loads.follower import pressure_stiffness
+from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.loads.loads import pipe_pressure, pressure_vectors, shell_load
 from ssilang.kernel.elements.results.tensors import section_equivalent
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -133,6 +133,25 @@ def test_follower_matrix_is_the_derivative_of_the_forces(make, names, nodal):
     product = block.values[0] @ layout.gather(motion)[0]
     expected = change[zone.cells.connectivity[0]].ravel()
     np.testing.assert_allclose(product, expected, atol=1e-8)
+
+
+@pytest.mark.parametrize(("make", "names"), [s[1:] for s in SIDES], ids=[s[0] for s in SIDES])
+def test_sides_that_move_in_a_pressure_that_grows_feel_its_change(make, names):
+    zone, d = make(), len(names)
+    at, x = zone.cells.connectivity[0], zone.cells.coordinates[0]
+    u = np.random.default_rng(2).normal(size=(len(at), d))
+    motion = field(zone, **{n: (lambda x, i=i: u[:, i]) for i, n in enumerate(names)})
+    along = np.array([0.3, -1.2, 2.0])
+    ways = {None: np.array([x[0, 1] - x[1, 1], x[1, 0] - x[0, 0]])} if d == 2 else {}
+    for way in (*ways, along):
+        own = along[:d] if way is along else ways[way]
+        grown = 2.5 * (u @ own)[None] / np.linalg.norm(own)
+        p = CellField((CellFieldBlock(zone.cells, {"P": grown}, "NOEUD", zone.element),))
+        forces = pressure_vectors(zone, p)
+        block = gradient_stiffness(zone, 2.5, way, unsymmetric=True)
+        layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+        wanted = np.stack([forces.components["F" + n[1]].values[at] for n in names], axis=1)
+        np.testing.assert_allclose(block.values[0] @ layout.gather(motion)[0], wanted.ravel())
 
 
 def test_pressure_on_a_cone_that_moves_and_turns_as_a_whole_goes_with_it():
