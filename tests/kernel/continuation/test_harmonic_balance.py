@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.sparse import csr_array
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.continuation.arc import Lengths, Point, Tracer
@@ -15,6 +16,7 @@ from ssilang.kernel.continuation.harmonics import (
     LinkForces,
     Oscillators,
     basis_of,
+    crossing,
     monodromy,
     unstable,
 )
@@ -138,6 +140,23 @@ def test_exponents_are_those_that_perturbations_of_the_motion_show():
     for scale in (0.01, 100.0):  # in any unit of time
         assert not unstable(np.array([-1.0, 0.5j + 0.6 * ONE]) * scale, scale)
         assert unstable(np.array([-1.0, 0.5j + 1.6 * ONE]) * scale, scale)
+
+
+@together(
+    "grown, kind",
+    [
+        ([1e-3], "BP"),
+        ([1e-3 + 0.6j, 1e-3 - 0.6j], "PD"),
+        ([1e-3 - 0.2j, 1e-3 + 0.2j], "NS"),
+        ([], ""),
+    ],
+)
+def test_what_crosses_the_axis_is_named_whatever_has_grown_before(grown, kind):
+    calm = np.array([-0.3, -0.2 + 0.1j])
+    before = np.array([0.4 + 0.5j, *calm])
+    after = np.array([0.4 + 0.5j, *grown, *calm])
+    assert crossing(before, after, (1.1, 1.2)) == kind
+    assert crossing(after, before, (1.2, 1.1)) == kind
 
 
 def test_monodromy_is_what_a_period_makes_of_each_perturbation():

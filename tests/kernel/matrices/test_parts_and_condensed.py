@@ -371,16 +371,16 @@ def test_matrices_written_by_hand():
         assert caught.value.data["wanted"] == wanted
     table = NodeTable()
     table.add(np.arange(8.0).reshape(4, 2))
-    field = NodeField(table, {
+    given = NodeField(table, {
         "UX": NodeValues(np.array([0, 2]), np.array([3.0, 4.0])),
         "FY": NodeValues(np.array([1, 2]), np.array([5.0, 6.0])),
     })  # fmt: skip
     own = (2, "UX"), (2, "FX")
     usual, other = {"UX": ("UX", "FX"), "FY": ("UY", "FY")}, {"UX": ("UX", "FX"), "FY": ("T", "FY")}
-    made = NodeField(table, {"UX": field.components["UX"], "SUM": field.components["FY"]})
+    made = NodeField(table, {"UX": given.components["UX"], "SUM": given.components["FY"]})
     new = {"UX": ("UX", "FX"), "SUM": ("T", "SUM")}
     for meant, names, field in (
-        (usual, None, field), (usual, {}, field), (other, {"FY": "T"}, field),
+        (usual, None, given), (usual, {}, given), (other, {"FY": "T"}, given),
         (new, {"SUM": "T"}, made),
     ):  # fmt: skip
         for row, sign in itertools.product((False, True), (None, 1.0, -1.0)):

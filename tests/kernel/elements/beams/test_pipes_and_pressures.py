@@ -167,7 +167,8 @@ def test_pressure_on_a_cone_that_moves_and_turns_as_a_whole_goes_with_it():
     fr, fz = (0.5 * still.components[n].values for n in ("FR", "FZ"))  # cos^2 around
     turned = np.stack([fz, -fr, -fz], axis=1)
     for u, wanted in (((1 + 0 * r, 0 * r, -1 + 0 * r), 0 * turned), ((z, -r, -z), turned)):
-        motion = field(zone, **{n: (lambda x, c=c: c) for n, c in zip(("UR", "UZ", "UT"), u)})
+        own = dict(zip(("UR", "UZ", "UT"), u, strict=True))
+        motion = field(zone, **{n: (lambda x, c=c: c) for n, c in own.items()})
         found = block.values[0] @ layout.gather(motion)[0]
         np.testing.assert_allclose(found.reshape(2, 3), wanted, atol=1e-12)
 

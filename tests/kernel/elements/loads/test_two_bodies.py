@@ -142,8 +142,10 @@ def test_tractions_work_on_the_sides_of_all_bodies(mode, given):
         for k, (side, centre) in enumerate(zip(table, inner, strict=True))
         for N, n in b.points(side, centre)
     )
-    blocks = [CellFieldBlock(z.cells, {"DIM3": t[:, None]}, "GRAVITE")
-              for z, t in zip(b.zones, (thick[:1], thick[2:4]), strict=True)]
+    blocks = [
+        CellFieldBlock(z.cells, {"DIM3": t[:, None]}, "GRAVITE")
+        for z, t in zip(b.zones, (thick[:1], thick[2:4]), strict=True)
+    ]
     material = CellField(tuple(blocks), "CARACTERISTIQUES")
     traction = np.array([0.3, -0.8, 1.1]) if given == "vector" else value
     found = loads.traction(b.model, b.mesh(table), traction, material)
