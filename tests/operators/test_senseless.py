@@ -312,6 +312,7 @@ DATA: dict[str, dict[str, object]] = {
     },
     "an angle made of PI": {"value": math.pi / 6.0, "degrees": 30.0},
     "a strip that rested on softer joints than it rocks on": {"part": 200.0 / 3.0},
+    "a record scaled twice": {"value": 38.0, "times": 38.0 / 9.81, "wanted": 9.81},
     "two steps a period": {"dt": 0.14, "period": PERIOD, "wanted": PERIOD / 20.0},
 }  # fmt: skip
 """What is told of some of them beside their rows, reckoned by hand."""
