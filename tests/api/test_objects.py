@@ -305,6 +305,9 @@ def test_views_of_mixed_data_keep_what_belongs_together():
     html = r["T"]._repr_html_()
     assert re.findall("<td>(.*?)</td>", html)[14:18] == ["8", "64", "13", "169"]
     assert "... 4 ..." in html
+    shown = re.findall("<td>(.*?)</td>", r.evaluate("U / 3.")._repr_html_())
+    assert shown[:6] == ["3", "4", "0", "0", "1.66667", "-0.333333"]
+    assert shown[6:] == ["4", "4", "2", "0", "", "0.666667", "6", "7", "0", "0", "1", ""]
 
 
 def test_results_by_hand_are_in_the_order_of_time():
