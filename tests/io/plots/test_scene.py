@@ -128,9 +128,15 @@ def test_no_legend_on_demand() -> None:
 
 def test_numbers_of_nodes_and_cells() -> None:
     mesh = grid(2)
-    options = PictureOptions(node_numbers=True, cell_numbers=True)
-    texts = [t.get_text() for t in draw_scene((Layer(mesh),), (), options).axes[0].texts]
-    assert sorted(map(int, texts)) == sorted([*range(1, 10), *range(1, 5)])
+    mesh.nodes.coordinates[mesh.nodes.coordinates[:, 0] == 1.0, 0] = 4.0
+    named = ("low", Mesh.of(mesh.nodes, "SEG2", np.array([[0, 1], [1, 2]])))
+    options = PictureOptions(node_numbers=True, cell_numbers=True, labels=(named,))
+    texts = draw_scene((Layer(mesh),), (), options).axes[0].texts
+    found = sorted((*np.round(t.get_position(), 9).tolist(), t.get_text()) for t in texts)
+    xs = (0, 0.5, 4)
+    wanted = [(xs[i], j / 2, str(3 * j + i + 1)) for j in range(3) for i in range(3)]
+    wanted += [((0.25, 2.25)[i], j / 2 + 0.25, str(2 * j + i + 1)) for j in (0, 1) for i in (0, 1)]
+    assert found == sorted([*wanted, (1.5, 0, "low")])
 
 
 def test_deformed_shape_stands_before_its_initial_outline() -> None:
