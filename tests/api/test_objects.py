@@ -12,6 +12,8 @@ from together import together
 
 import ssilang
 import ssilang.api
+from ssilang.api.html import html_of
+from ssilang.kernel.curves.curve import Curve
 
 
 def exact(t):
@@ -263,6 +265,10 @@ def test_views_give_numbers_in_their_own_order():
     with pytest.raises(ssilang.Error, match="component"):
         r["C"].values("Q", 2)
     assert r["R"].tolist() == [3.0, -1.25]
+    assert r.evaluate("S POIN 'PROC' (4. 0.)").node == 3
+    alone = r.evaluate("MANU 'CHML' (MODE (MANU 'TRI3' (0. 0.) (1. 0.) P) 'MECANIQUE') 'A' 2.")
+    assert {*alone.mesh.cells} == {"TRI3"}
+    assert html_of(Curve(())) == ""
     assert ssilang.api.objects.held(Path("a") / "b") == "a/b"
 
 

@@ -17,7 +17,7 @@ from ssilang.cli.run import write_report
 from ssilang.io.atomic import inside
 from ssilang.report import scenes
 from ssilang.report.page import page_of
-from ssilang.report.results import read_results
+from ssilang.report.results import read_results, tables_of
 from ssilang.system import CAN_FORK
 from tests.report.test_report_file import Sections, page
 
@@ -311,6 +311,9 @@ def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> Non
     put(tmp_path, whole(rocking), rocking)
     (tmp_path / "top.csv").write_text('a;b\n1;"' + "2" * 200_000)
     assert read_results(tmp_path).tables == {}
+    (tmp_path / "up.csv").write_text("a;b\n1;2\n3;4")
+    (found,) = tables_of([tmp_path / n for n in ("top.csv", "top.txt", "up.csv")], []).values()
+    assert {name: column.tolist() for name, column in found.items()} == {"a": [1, 3], "b": [2, 4]}
 
 
 @together("name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"])

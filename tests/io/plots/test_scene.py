@@ -349,16 +349,19 @@ def test_von_mises_of_a_uniform_stress() -> None:
     assert np.allclose(values_on(faces, stress, VON_MISES), exact)
 
 
-def test_values_at_integration_points_are_extended_to_the_nodes() -> None:
+@together("mesh, kind", [(grid(1), "QUA4"), (cube(1), "CUB8")])
+def test_values_at_integration_points_are_extended_to_the_nodes(mesh: Mesh, kind: str) -> None:
+    """Linear values and the products of their axes are kept."""
     from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 
-    mesh = grid(1)
-    element = ELEMENTS["QUA4"]
-    points = support_rule("QUA4", "STRESSES").points
-    s = CellFieldBlock(mesh.blocks[0], {"T": (1 + 2 * points[:, 0])[None]}, "STRESSES", "QUA4")
-    (faces,) = visible_faces(mesh)
-    exact = 1 + 2 * element.reference_cell.nodes[:, 0]
-    assert np.allclose(values_on(faces, CellField((s,)), "T")[0], exact)
+    def values(x: np.ndarray) -> np.ndarray:
+        return 1 + 2 * x[:, 0] - 3 * x[:, 0] * x[:, 1] + 5 * x[:, -1] + 4 * x.prod(axis=1)
+
+    given = values(support_rule(kind, "STRESSES").points)[None]
+    field = CellField((CellFieldBlock(mesh.blocks[0], {"T": given}, "STRESSES", kind),))
+    exact = values(ELEMENTS[kind].reference_cell.nodes)
+    for faces in visible_faces(mesh):
+        assert np.allclose(values_on(faces, field, "T")[0], exact[faces.local])
 
 
 def test_principal_strokes_of_a_shear() -> None:

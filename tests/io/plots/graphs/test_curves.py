@@ -9,13 +9,14 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from together import together
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures, slug
-from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
-from ssilang.io.plots.graphs.line_style import parse_style
+from ssilang.io.plots.graphs.curves import CurveOptions, draw_bars, draw_curves
+from ssilang.io.plots.graphs.line_style import Line, LineStyle, parse_style
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import shade
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -33,6 +34,15 @@ def test_titles_are_those_of_the_first_curve() -> None:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time", "u")
     assert figure.get_suptitle() == "A title"
     assert axes.get_legend() is None
+
+
+def test_bars_that_are_their_own_outline_are_filled() -> None:
+    figure = Figure()
+    panel, x, y = figure.subplots(), np.array([1.0, 1, 4, 4]), np.array([0.0, 3, 3, 0])
+    draw_bars(panel, Line(0, x, y, "#123456", "b", LineStyle(), 1.0))
+    ((filled,), (rim,)) = panel.patches, panel.lines
+    assert filled.get_xy()[:4].tolist() == rim.get_xydata().tolist() == np.c_[x, y].tolist()
+    assert (to_hex(filled.get_facecolor()), rim.get_color()) == ("#123456", "#123456")
 
 
 def test_titles_of_the_options_come_first() -> None:
