@@ -343,8 +343,8 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
         f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
         "X = 0. ; T = TABL ; SI (X > 0.) ; T . 'REDUCTION' = X ; FINSI ; DYNAMIC T ;",
-        "REPE B 2 ; SI (&B EGA 2) ; LIST XYZ ; FINSI ; REST ; FIN B ;",
-        "ENDOMAGEMENT = 3. ; L = MOTS ENDOMMAGEMENT ; MESS L ENDOMAGEMENT ;",
+        "REPE B 2 ; SI (&B EGA 2) ; Y = XYZ + 1. ; MESS Y ; FINSI ; REST ; FIN B ;",
+        "NOTRON = 3. ; L = MOTS NORTON ; MESS L NOTRON ;",
     ],
 )
 def test_raises_no_false_alarm(text):

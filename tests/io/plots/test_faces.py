@@ -196,8 +196,8 @@ def test_what_a_plane_cuts_has_the_colours_of_cells_or_of_values(iso: str) -> No
     table.add(np.array([(x, y, z) for x in xs for y in (0, 1) for z in (0, 1)], float))
     table.add(np.array([(x, 2, z) for x in xs for z in (0, 1)], float))
     first = np.array([0, 4, 6, 2, 1, 5, 7, 3])
-    cells = [("CUB8", first, "ROUG"), ("CUB8", first + 4, "DEFA"), ("QUA4", [12, 14, 15, 13], "VERT"),
-             ("TRI3", [14, 16, 17], "DEFA")]  # fmt: skip
+    cells = [("CUB8", first, "ROUG"), ("CUB8", first + 4, "DEFA"),
+             ("QUA4", [12, 14, 15, 13], "VERT"), ("TRI3", [14, 16, 17], "DEFA")]  # fmt: skip
     blocks = [CellBlock.make(table, k, np.array([n]), index_of(c)) for k, n, c in cells]
     known = np.array([i for i in range(18) if i != 11])
     given = NodeField.of(table, known, {"T": linear(table.coordinates[known])})

@@ -355,7 +355,8 @@ def test_values_at_integration_points_are_extended_to_the_nodes(mesh: Mesh, kind
     from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 
     def values(x: np.ndarray) -> np.ndarray:
-        return 1 + 2 * x[:, 0] - 3 * x[:, 0] * x[:, 1] + 5 * x[:, -1] + 4 * x.prod(axis=1)
+        products = x[:, 0] * (7 * x[:, -1] - 3 * x[:, 1]) + 4 * x.prod(axis=1)
+        return 1 + 2 * x[:, 0] + 5 * x[:, -1] + products
 
     given = values(support_rule(kind, "STRESSES").points)[None]
     field = CellField((CellFieldBlock(mesh.blocks[0], {"T": given}, "STRESSES", kind),))
