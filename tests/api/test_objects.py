@@ -59,6 +59,19 @@ def test_what_is_not_there_is_refused_with_what_is_near(swing, asked, said):
     assert said in str(caught.value)
 
 
+@together("tables, said", [(0, "no table of results"), (1, ""), (2, "T1 and T2")])
+def test_results_that_are_meant_are_the_only_ones(tables, said):
+    text = "T{0} = TABL ; T{0} . 'TEMPS' = TABL ; T{0} . 'TEMPS' . 0 = 0. ; "
+    for word in ("DEPLACEMENTS", "VITESSES"):
+        text += f"T{{0}} . '{word}' = TABL ; T{{0}} . '{word}' . 0 = MANU 'CHPO' P 1 'UX' 7. ; "
+    r = ssilang.run("OPTI DIME 2 ; P = 1. 0. ; " + "".join(map(text.format, (1, 2)[:tables])))
+    if not said:
+        assert r.history("DEPL", "UX", "P").y.tolist() == [7.0]
+        return
+    with pytest.raises(ssilang.Error, match=said):
+        r.history("DEPL", "UX", "P")
+
+
 def test_two_nodes_at_one_place_are_told_apart():
     deck = "OPTI DIME 2 ELEM SEG2 ; P = 0. 0. ; Q = 0. 0. ; "
     deck += "U = MANU 'CHPO' (P ET Q) 1 'UX' 1. ; T = TABL ; T . 1 = TABL ; "
@@ -269,6 +282,11 @@ def test_views_give_numbers_in_their_own_order():
     alone = r.evaluate("MANU 'CHML' (MODE (MANU 'TRI3' (0. 0.) (1. 0.) P) 'MECANIQUE') 'A' 2.")
     assert {*alone.mesh.cells} == {"TRI3"}
     assert html_of(Curve(())) == ""
+    html = r._repr_html_()
+    assert f"{r.seconds:.2f} s</th>" in html
+    rows = re.findall("<tr><td>(.*?)</td><td>(.*?)</td></tr>", html)
+    assert [name for name, _ in rows] == list(r)
+    assert (dict(rows)["P"], dict(rows)["E"]) == ("POINT", "EVOLUTIO")
     assert ssilang.api.objects.held(Path("a") / "b") == "a/b"
 
 

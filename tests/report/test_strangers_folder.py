@@ -316,6 +316,23 @@ def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> Non
     assert {name: column.tolist() for name, column in found.items()} == {"a": [1, 3], "b": [2, 4]}
 
 
+def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path: Path) -> None:
+    pa, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    given = {
+        "x": {"t": [1, 2], "b": [0.5, -3.5]},
+        "y": {"t": [1]},
+        "z": {"t": [1, 2], "b": ["c", "d"]},
+    }
+    for name, columns in given.items():
+        parquet.write_table(pa.table(columns), tmp_path / f"{name}.parquet")
+    (tmp_path / "cut.parquet").write_bytes((tmp_path / "x.parquet").read_bytes()[:-9])
+    paths, unread = [tmp_path / f"{n}.parquet" for n in ("y", "z", "cut", "gone", "x")], []
+    found = tables_of(paths, unread)
+    assert unread == ["cut.parquet", "gone.parquet"]
+    shown = {n: {k: v.tolist() for k, v in columns.items()} for n, columns in found.items()}
+    assert shown == {"x.parquet": given["x"]}
+
+
 @together("name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"])
 def test_what_stands_elsewhere_is_not_inside(name: str, tmp_path: Path) -> None:
     folder = tmp_path / "in"

@@ -1,6 +1,7 @@
 """Pictures of meshes and fields, looked at pixel by pixel."""
 
 import io
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -165,6 +166,11 @@ def test_components_have_a_panel_each() -> None:
     figure = draw_scene(made.layers, (), None, None, made.components)
     titles = [a.get_title() for a in figure.axes]
     assert titles[:2] == ["UX", "UY"]
+    options = PictureOptions(date=True, notes=("of",))
+    views = (plane_view(),) * 3
+    figure = draw_scene(made.layers, views, options, None, ("UX",))
+    assert [a.axison for a in figure.axes[:4]] == [True, True, True, False]
+    assert re.fullmatch(r"of   \d{4}(-\d\d){2} \d\d:\d\d", figure.get_supxlabel())
 
 
 def test_a_field_that_is_not_a_number_is_still_drawn() -> None:
@@ -363,6 +369,22 @@ def test_values_at_integration_points_are_extended_to_the_nodes(mesh: Mesh, kind
     exact = values(ELEMENTS[kind].reference_cell.nodes)
     for faces in visible_faces(mesh):
         assert np.allclose(values_on(faces, field, "T")[0], exact[faces.local])
+
+
+def test_values_along_a_joint_are_the_same_on_both_sides() -> None:
+    from ssilang.kernel.elements.catalog import support_rule
+
+    table = NodeTable()
+    ids = table.add(np.array([(x, y) for y in (0.0, 0.5) for x in (-1.0, 1.0)]))
+    joint = Mesh.of(table, "RAC2", ids[None, :])
+    (xi,) = support_rule("JOI2", "MASSE").points.T
+    given = CellFieldBlock(joint.blocks[0], {"T": (3 + 2 * xi)[None]}, "MASSE", "JOI2")
+    assert len(xi) > 1
+    sides = visible_faces(joint)
+    assert {n for faces in sides for n in faces.nodes.ravel().tolist()} == {*ids.tolist()}
+    for faces in sides:
+        found = values_on(faces, CellField((given,)), "T")
+        assert np.allclose(found, 3 + 2 * table.coordinates[faces.nodes, 0])
 
 
 def test_principal_strokes_of_a_shear() -> None:

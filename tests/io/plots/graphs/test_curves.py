@@ -246,6 +246,18 @@ def test_loops_have_no_differences() -> None:
     assert len(draw_curves(Curve(parts), CurveOptions(difference=True)).axes) == 1
 
 
+@together("shift, frames", [(2.9, 2), (3.1, 1), (-2.9, 2), (-3.1, 1)])
+def test_curves_that_share_less_than_half_have_no_differences(shift: float, frames: int) -> None:
+    t = np.linspace(0.0, 6.0, 61)
+    parts = (CurvePart(t, np.sin(t)), CurvePart(t + shift, np.cos(t + shift)))
+    figure = draw_curves(Curve(parts), CurveOptions(difference=True))
+    assert len(figure.axes) == frames
+    if frames == 2:
+        x, y = figure.axes[1].lines[1].get_data()
+        assert (x.min(), x.max()) == pytest.approx((max(shift, 0.0), 6.0 + min(shift, 0.0)))
+        assert np.allclose(y, np.cos(x) - np.sin(x))
+
+
 def test_a_legend_says_what_looks_alike_once() -> None:
     t = np.linspace(0.0, 2.0, 5)
     parts = [CurvePart(t, (i + 1) * t, legend=n) for i, n in enumerate(("one", "two", "x", "x"))]
