@@ -331,6 +331,7 @@ def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path: Path) -> No
     assert unread == ["cut.parquet", "gone.parquet"]
     shown = {n: {k: v.tolist() for k, v in columns.items()} for n, columns in found.items()}
     assert shown == {"x.parquet": given["x"]}
+    assert [*shown["x.parquet"]] == ["t", "b"]
 
 
 @together("name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"])
