@@ -320,13 +320,14 @@ def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path: Path) -> No
     pa, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     given = {
         "x": {"t": [1, 2], "b": [0.5, -3.5]},
-        "y": {"t": [1]},
+        "v": {"t": [1, 2]},
+        "y": {"t": [1], "b": [2.5]},
         "z": {"t": [1, 2], "b": ["c", "d"]},
     }
     for name, columns in given.items():
         parquet.write_table(pa.table(columns), tmp_path / f"{name}.parquet")
     (tmp_path / "cut.parquet").write_bytes((tmp_path / "x.parquet").read_bytes()[:-9])
-    paths, unread = [tmp_path / f"{n}.parquet" for n in ("y", "z", "cut", "gone", "x")], []
+    paths, unread = [tmp_path / f"{n}.parquet" for n in ("v", "y", "z", "cut", "gone", "x")], []
     found = tables_of(paths, unread)
     assert unread == ["cut.parquet", "gone.parquet"]
     shown = {n: {k: v.tolist() for k, v in columns.items()} for n, columns in found.items()}

@@ -79,6 +79,7 @@ def test_tables_by_their_titles(tmp_path, text, columns):
     assert [(m.quantity, m.in_si) for m in found] == columns
     assert [m.values.tolist() for m in found] == [[1, 3, 5], [2, -4, 6]]
     for motion in found:
+        assert '"' not in motion.event
         assert motion.times == pytest.approx([0, 0.005, 0.009])
 
 
