@@ -76,17 +76,6 @@ def test_stresses_of_layers_are_those_of_one_bent_and_pulled_section():
         assert (stress - n / 0.3) * z < 0  # lifting the end pulls the lower side
 
 
-def test_motion_of_faces_is_that_of_the_shell_and_its_rotation():
-    script = QUADS + LOADED + CALL + (
-        "P = (T . 'MAILLAGE_FIBRE_SUPERIEURE' . 2) POIN 'PROC' (2. 0.5 1.) ; Q = S POIN 'PROC' "
-        "(2. 0.5 0.) ; X = EXTR (T . 'DEPLACEMENTS_VOLUMIQUE' . 5 . 'TOTAL') 'UX' P ; "
-        "Y = EXTR U 'UX' Q ; R = EXTR U 'RY' Q ; "
-    )  # fmt: skip
-    x, y, r = found(script, "X", "Y", "R")
-    assert abs(r) > 1e-6
-    assert x == pytest.approx(y + 0.15 * r, rel=1e-9)
-
-
 def test_relations_tie_the_solid_to_the_shell():
     script = QUADS + LOADED + "T . 'RELATION_3D' = VRAI ; " + CALL + (
         "R = T . 'RELATION_3D' ; Y = RESO ((RIGI M A) ET (BLOQ 'DEPL' 'ROTA' C4) ET R) "
@@ -100,16 +89,3 @@ def test_relations_tie_the_solid_to_the_shell():
         np.testing.assert_allclose(
             y.values_at(name, ids), w.values_at(name, ids), atol=1e-9 * scale
         )
-
-
-def test_second_call_keeps_the_meshes_and_takes_new_fields():
-    script = QUADS + LOADED + CALL + (
-        "V1 = V ; D1 = T . 'DEPLACEMENTS_VOLUMIQUE' . 5 . 'TOTAL' ; "
-        "T . 'DEPLACEMENTS' . 6 = 2. * U ; V = COQ2MAS M A T ; "
-        "D2 = T . 'DEPLACEMENTS_VOLUMIQUE' . 6 . 'TOTAL' ; X = MAXI 'ABS' ((2. * D1) - D2) ; "
-        "Y = MAXI 'ABS' D2 ; "
-    )  # fmt: skip
-    first, second, x, y = found(script, "V1", "V", "X", "Y")
-    assert set(first.sorted_node_ids) == set(second.sorted_node_ids)
-    assert y > 0
-    assert x == pytest.approx(0.0, abs=1e-12 * y)
