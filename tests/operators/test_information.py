@@ -1,5 +1,6 @@
 """INFO, NOTI, AIDE, SOUC, DATE."""
 
+import time
 from datetime import datetime
 from types import SimpleNamespace
 
@@ -55,6 +56,12 @@ def test_calls_of_operators_are_counted_from_zero_on(tmp_path):
     counts = [line.split() for line in result.output.splitlines()]
     assert counts == [["PROG", "1"], ["TEMP", "2"], ["LECT", "3"]]
     assert result.session.root.find("X") >= 0
+
+
+def test_processor_time_counts_from_the_start_of_the_process(tmp_path):
+    before = time.process_time()
+    used = ran("X = TEMP 'CPU' ;", tmp_path).session.root.find("X") / 1000.0
+    assert before - 1e-3 <= used <= time.process_time() + 1e-3
 
 
 def test_assi_runs_the_phrase_that_follows(tmp_path):

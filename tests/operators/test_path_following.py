@@ -7,8 +7,9 @@ import pytest
 from script_runs import failed, ran
 from together import together
 
+from ssilang.kernel.plasticity.following import Split
 from ssilang.language.say.diagnostics import sentence
-from ssilang.operators.statics.path_following import ends_of, strain_points
+from ssilang.operators.statics.path_following import AutomaticControl, ends_of, strain_points
 
 ES, HEIGHT, SPAN = 2.1e11 * 0.05, 1.0, 10.0
 TRUSS = """
@@ -87,6 +88,18 @@ def test_greatest_strain_controls_where_the_script_has_no_autopilo(tmp_path):
     strain = np.maximum(fall, np.abs(fall - elastic)) * HEIGHT / 101.0
     np.testing.assert_allclose(strain[:-1], 1e-3, rtol=1e-6)
     assert factors.min() < -1.9
+
+
+def test_a_norm_that_is_another_backwards_is_met_both_ways():
+    class Lopsided(AutomaticControl):
+        def _norm(self, total, elastic):
+            return max(total[0], -3.0 * total[0])
+
+    none, unit = np.zeros(1), np.ones(1)
+    control = Lopsided(None, None, 0.6, lambda: unit, None)
+    for known in (0.0, 0.06):
+        found = control(Split(none, known * unit, none, unit), 0.5)
+        assert found == pytest.approx([0.3 - known, -0.1 - known])
 
 
 def test_one_step_in_so_many_is_saved_and_a_path_too_long_ends_with_a_warning(tmp_path):
