@@ -286,8 +286,8 @@ IN_STATICS = (
     stops_on_held, _sinks,
 )  # fmt: skip
 OF_STIFFNESS = (
-    _masses_alone, _sinks, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily, bodies_stand,
-    braked, rest_of_others,
+    _masses_alone, _sinks, _loose, _swings, out_of_balance, velocity_of_rest, turns_heavily,
+    bodies_stand, braked, rest_of_others,
 )  # fmt: skip
 """Those that need the stiffness of all bodies: that of plastic ones stands in their law."""
 

@@ -75,18 +75,18 @@ def _doubts(given: Table, found: Table) -> Iterator[tuple[str, dict[str, Any]]]:
         track = getattr(recorded[0], "track", None)
         if track:
             still.append(held(track.problem)[track.problem.numbering.index_of(point.node, name)])
-        ground = ground_along(track.problem, name) if track else np.zeros(0)
         base, told = floor.get("ACCELERATION_BASE"), {"floor": number, "component": name}
-        if ground.any() and not isinstance(base, Curve):
+        if not track or not (ground := ground_along(track.problem, name)).any():
+            continue
+        if not isinstance(base, Curve):
             yield "operators.dynamics.floor-relative", told
-        elif ground.any():
-            given_base = base.parts[0]
-            values = np.interp(track.problem.times, given_base.abscissas, given_base.ordinates)
-            size = float(np.linalg.norm(values) * np.linalg.norm(ground))
-            if values @ ground < LIKE * size or not LIKE < np.ptp(values) / np.ptp(ground) < 1 / LIKE:
-                told |= {"given": np.abs(values).max(), "ground": np.abs(ground).max()}
-                told["turned"] = bool(values @ ground < -LIKE * size)
-                yield "operators.dynamics.base-of-another", told
+            continue
+        values = np.interp(track.problem.times, base.parts[0].abscissas, base.parts[0].ordinates)
+        like, times = values @ ground, float(np.ptp(values) / np.ptp(ground))
+        alike = LIKE * float(np.linalg.norm(values) * np.linalg.norm(ground))
+        if like < alike or not LIKE < times < 1.0 / LIKE:
+            told |= {"given": np.abs(values).max(), "ground": np.abs(ground).max()}
+            yield "operators.dynamics.base-of-another", told | {"turned": bool(like < -alike)}
     if still and all(still):
         yield "operators.dynamics.floors-held", {"count": len(still)}
     histories = cast(Table, found.get("HISTOIRES"))
