@@ -143,6 +143,7 @@ STALE = "A = MATE M 'KN' 1. ; K = RIGI M A ; MESS K ; "
         (STALE + "SI (EGA X 1) ; K = RIGI M A ; FINSI ;", "K"),
         (STALE + "B = VIBR K ; K = K ET (APPU 'UX' 1. P) ; MESS B ;", "K"),
         (STALE + "K = (RIGI M A) ET (BLOQ 'UX' P) ;", "K"),
+        ("E = LIRE 'PEER' 'a' ; C = CHAR F E ; REPE B 2 ; E = LIRE 'PEER' 'b' ; FIN B ; MESS C ;", "E"),
     ],
 )
 def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
@@ -152,6 +153,7 @@ def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
 
 
 CALLED = "T = TABL ; T . 'CHARGEMENT' = C ; PASAPAS T ; "
+INSIDE = "P = TABL ; T = TABL ; T . 'REPRISE' = P ; PASAPAS T ; "
 
 
 @together(
@@ -164,6 +166,8 @@ CALLED = "T = TABL ; T . 'CHARGEMENT' = C ; PASAPAS T ; "
         (CALLED + "T . 'CHARGEMENT' = D ; U = COPI T ; PASAPAS U ;", False),
         (CALLED + "T . 'CHARGEMENT' = D ; SAUV ;", False),
         (CALLED + "T . 'MY_OWN' = 3 ;", False),
+        (INSIDE + "P . 'PAS' = 3 ;", True),
+        (INSIDE + "P . 'PAS' = 3 ; U = P ;", False),
         ("DEBP RUNS ; PASAPAS T ; FINP ; " + CALLED + "T . 'CHARGEMENT' = D ; RUNS ;", False),
     ],
 )

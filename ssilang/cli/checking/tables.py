@@ -68,9 +68,8 @@ def _late(
         if reads_all(each) or (other and any(i.text == table for i in words)):
             return
         said += [i.text for i in words]
-        target = (*each.targets, None)[0]
-        if isinstance(target, tree.Path) and len(each.items) == 1 and words:
-            if isinstance(target.base, tree.Name) and target.base.text == table:
+        for target in each.targets if len(each.items) == 1 and words else ():
+            if isinstance(target, tree.Path) and target.base.span.text == table:
                 inner[words[0].text] = [*target.indices]
     for node in script.body:
         target = (*node.targets, None)[0] if isinstance(node, tree.Statement) else None
