@@ -143,7 +143,10 @@ STALE = "A = MATE M 'KN' 1. ; K = RIGI M A ; MESS K ; "
         (STALE + "SI (EGA X 1) ; K = RIGI M A ; FINSI ;", "K"),
         (STALE + "B = VIBR K ; K = K ET (APPU 'UX' 1. P) ; MESS B ;", "K"),
         (STALE + "K = (RIGI M A) ET (BLOQ 'UX' P) ;", "K"),
-        ("E = LIRE 'PEER' 'a' ; C = CHAR F E ; REPE B 2 ; E = LIRE 'PEER' 'b' ; FIN B ; MESS C ;", "E"),
+        (
+            "E = LIRE 'PEER' 'a' ; C = CHAR F E ; REPE B 2 ; E = LIRE 'PEER' 'b' ; FIN B ;",
+            "E",
+        ),
     ],
 )
 def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):

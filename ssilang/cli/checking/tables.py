@@ -1,6 +1,6 @@
 """Entries that a script puts into a table for a procedure: unknown ones, and wrong values."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -47,44 +47,50 @@ def doubtful_entries(script: tree.Script, session: Session, values: Values) -> I
                 index = target.indices[0]
                 if len(target.indices) == 1 and isinstance(index, tree.Quoted):
                     given.setdefault(target.base.text, {})[index.text.rstrip()] = target
-    for table, call in called.items():
-        yield from () if table in procedures else _late(script, table, *call)
+    yield from _late(script, {t: call for t, call in called.items() if t not in procedures})
     yield from _twice(script)
 
 
 def _late(
-    script: tree.Script, table: str, declared: Declaration, argument: str, call: tree.Statement
+    script: tree.Script, called: Mapping[str, tuple[Declaration, str, tree.Statement]]
 ) -> Iterator[SsiError]:
     """Entries set behind the last call that takes their table, and not read behind that.
 
     Loops come back to the call; a table that has another name too is left alone, as are those
     that stand in it, but for the one name that they have beside their index.
     """
-    inner: dict[str, list[tree.Item]] = {table: []}
-    said: list[str] = []
+    users: dict[str, list[str]] = {}  # of names, the first words of the statements with them
+    inner: dict[str, dict[str, Sequence[tree.Item]]] = {}  # of tables, the names at their indices
+    filled: dict[str, list[tuple[tree.Quoted, tree.Path, int]]] = {}  # and where what follows is
     for each in statements_of(script.body):
-        words = [i for items in phrases_in(each.items) for i in items if isinstance(i, tree.Name)]
-        other = each.first_word[:4] != call.first_word[:4]
-        if reads_all(each) or (other and any(i.text == table for i in words)):
+        if reads_all(each):
             return
-        said += [i.text for i in words]
+        words = [i for items in phrases_in(each.items) for i in items if isinstance(i, tree.Name)]
+        for word in words:
+            users.setdefault(word.text, []).append(each.first_word[:4])
         for target in each.targets if len(each.items) == 1 and words else ():
-            if isinstance(target, tree.Path) and target.base.span.text == table:
-                inner[words[0].text] = [*target.indices]
+            if isinstance(target, tree.Path):
+                inner.setdefault(target.base.span.text, {})[words[0].text] = target.indices
     for node in script.body:
         target = (*node.targets, None)[0] if isinstance(node, tree.Statement) else None
-        if not isinstance(target, tree.Path) or node.span.start < call.span.end:
+        index = target.indices[-1] if isinstance(target, tree.Path) else None
+        if not isinstance(target, tree.Path) or len(target.indices) > 1:
             continue
-        index, code = target.indices[-1], node.span.source.code[node.span.end :]
-        name = target.base.text if isinstance(target.base, tree.Name) else ""
-        if name not in inner or len(target.indices) > 1 or not isinstance(index, tree.Quoted):
+        if isinstance(index, tree.Quoted):
+            filled.setdefault(target.base.span.text, []).append((index, target, node.span.end))
+    for table, (declared, argument, call) in called.items():
+        if {*users.get(table, ())} - {call.first_word[:4]}:
             continue
-        way = [i.text for i in inner[name] if isinstance(i, tree.Quoted)]
-        entry = declared.at((argument, *way), index.text)
-        own = entry is not None and entry.is_read and (name == table or said.count(name) == 1)
-        if own and name not in reads(code, index.text):
-            told = {"procedure": declared.name, "where": f"'{index.text}'"}
-            yield SsiError("entry-behind-call", target.span, **told)
+        once = {n: at for n, at in inner.get(table, {}).items() if len(users[n]) == 1}
+        for name, indices in {table: (), **once}.items():
+            way = [i.text for i in indices if isinstance(i, tree.Quoted)]
+            for index, target, end in filled.get(name, ()):
+                entry, code = declared.at((argument, *way), index.text), target.span.source.code
+                if target.span.start < call.span.end or entry is None or not entry.is_read:
+                    continue
+                if name not in reads(code[end:], index.text):
+                    told = {"procedure": declared.name, "where": f"'{index.text}'"}
+                    yield SsiError("entry-behind-call", target.span, **told)
 
 
 def _twice(script: tree.Script) -> Iterator[SsiError]:
