@@ -97,6 +97,16 @@ def test_an_output_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> Non
     assert "cannot be written" in result.message
 
 
+def test_a_folder_that_holds_the_results_of_another_deck_is_told(tmp_path: Path) -> None:
+    said = []
+    for name in ("a.ssi", "a.ssi", "b.ssi"):
+        err = io.StringIO()
+        options = RunOptions(output_directory=tmp_path / "out", summary=True)
+        run_source(Source(name, "X = 1 ;"), options, io.StringIO(), err)
+        said.append("the results of a.ssi" in err.getvalue())
+    assert said == [False, False, True]
+
+
 def test_a_run_with_a_summary_holds_its_folder_before_it_writes(tmp_path: Path) -> None:
     other, out = RunOutput(tmp_path, tmp_path), io.StringIO()
     other.hold()
