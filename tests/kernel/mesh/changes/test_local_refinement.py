@@ -6,8 +6,8 @@ from script_runs import ran
 from together import together
 
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, is_tie, parted
 from ssilang.kernel.mesh.cells import CELL_TYPES
+from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, is_tie, parted
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.queries.measure import total_measure

@@ -285,7 +285,9 @@ def test_flat_quadrangles_and_smallest_lengths():
     brick = cell("CUB8", REFERENCE_CELLS["CUB8"].nodes * [0.7, 2.0, 0.9] @ rotated().T)
     assert quality.smallest_lengths(brick) == pytest.approx([1.4])
     for top in np.random.default_rng(5).uniform(-1.0, 2.0, (9, 3)):  # by each of its flat sides
-        x = np.array([[0.0, 0, 0], [1, 0, 0], [1.1, 0.7, 0], [0.6, 0.7, 0], top + [0, 0, 1.1]])
+        x = np.array(
+            [[0.0, 0, 0], [1, 0, 0], [1.1, 0.7, 0], [0.6, 0.7, 0], top + np.array([0, 0, 1.1])]
+        )
         wanted = [np.linalg.norm(a - b) for a, b in itertools.combinations(x, 2)]
         for _, side in CELL_TYPES["PYR5"].faces:
             a, b, c = x[list(side[:3])]
