@@ -27,7 +27,7 @@ from ssilang.language import vocabulary
 from ssilang.language.registry import find_operator, keywords_of
 from ssilang.language.say.reference import operator_page, page_text
 from ssilang.language.vocabulary.examples import example, examples
-from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
+from ssilang.language.vocabulary.terms import Option, Quantity, Range, units
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
 from ssilang.operators.models.contact import METHODS
@@ -113,7 +113,7 @@ def test_an_entry_is_whole(kind, word):
 
 @together("word", [w for _, w in _ALL if isinstance(w, Quantity)])
 def test_units_and_ranges_are_sound(word):
-    assert word.unit is None or word.unit in UNITS
+    assert word.unit is None or word.unit in units()
     for span in (word.range, word.usual):
         assert span.low <= span.high
         assert span.low < span.high or not (span.open_low or span.open_high)
