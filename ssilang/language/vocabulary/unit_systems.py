@@ -120,10 +120,8 @@ def _by_unit(index: str, unit: str, system: UnitSystem | None) -> Range:
     powers = units().get(unit)
     if not unit or powers is None or (system is None and (powers.mass or powers.length)):
         return UNSAID
-    usual, size = (
-        Range(powers.least, powers.most, nought=True),
-        1.0 if system is None else system.factor(unit),
-    )
+    usual = Range(powers.least, powers.most, nought=True)
+    size = 1.0 if system is None else system.factor(unit)
     if not math.isfinite(usual.high):
         meant = [w for w in vocabulary.meanings("parameter", index) if isinstance(w, Quantity)]
         usual = next((w.usual for w in meant if w.unit == unit), UNSAID)
