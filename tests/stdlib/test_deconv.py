@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -112,16 +112,6 @@ def test_layers_given_from_the_bottom_up(direction, component):
     )  # fmt: skip
     assert la.values == pytest.approx(given.values, abs=1e-3)
     assert lb.values == pytest.approx(given.values, abs=1e-3)
-
-
-def test_refusals():
-    start = PLANE.format(mode="FOUR 0") + SOIL + SIGNAL + LAYER
-    for call, text in (
-        ("DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER'", "MODE FOUR"),
-        ("DECONV T1 FON1 M1 'BIAIS' ACC1 5. 20.", "HORI or VERT"),
-        ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "the entry 1 is missing"),
-    ):
-        assert text in refused(start + f"T2 = {call} ;")
 
 
 @pytest.mark.parametrize(("cells", "too_coarse"), [(4, True), (5, False)])
