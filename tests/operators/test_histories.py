@@ -240,19 +240,6 @@ def test_a_node_that_is_not_kept_is_told_with_the_nearest_one(step, asked):
     assert "0. 1." in result.message
 
 
-def test_lists_and_their_file_hold_the_same_values(tmp_path):
-    more = "T . 'PAS_SAUVES_CSV' = 3 ; T . 'MAILLAGE_CSV' = MANU 'POI1' P ; R3 = DYNAMIC T ;"
-    find = finder(BLOCK.format(step="") + more)
-    lists, node = find("T").get("RESULTATS_CSV"), find("P").node + 1
-    names = [str(i).rstrip() for i, _ in lists.items()]
-    kinds = [f"{w}_{c}_{node}" for w in ("DEPL", "VITE", "ACCE") for c in ("UX", "UY")]
-    assert names[0] == "TEMP"
-    assert sorted(names[1:]) == sorted(kinds)
-    rows = [find("R2").get(i) for i in range(1, 36)]
-    exact = [float(r.get("ACCE").components["UX"].values[0]) for r in rows]
-    assert np.array_equal(lists.get(f"ACCE_UX_{node}").values, exact)
-
-
 def test_a_parquet_file_holds_the_lists_with_their_units(tmp_path):
     pq = pytest.importorskip("pyarrow.parquet")
     more = (

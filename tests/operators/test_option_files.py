@@ -15,15 +15,6 @@ def test_the_listing_goes_to_a_file_instead(tmp_path: Path) -> None:
     assert (tmp_path / "list.txt").read_text() == "b\nc1\n"
 
 
-def test_what_was_listed_can_be_read(tmp_path: Path) -> None:
-    script = (
-        "OPTI IMPR 'v.txt' ; MESS 'FORMAT' '(F6.2)' 2.5 ; OPTI IMPR 6 ; "
-        "OPTI ACQU 'v.txt' ; ACQU X*FLOTTANT ;"
-    )
-    result = ran(script, tmp_path)
-    assert result.session.root.find("X") == 2.5
-
-
 def test_a_file_name_may_begin_like_a_format_word(tmp_path: Path) -> None:
     ran("OPTI SORT 'FORMES.txt' ; SORT 'CHAI' 'x' ;", tmp_path)
     assert [p.name for p in tmp_path.iterdir()] == ["FORMES.txt"]

@@ -34,25 +34,6 @@ def test_results_by_number_with_the_initial_state_first(tmp_path):
     assert (T.get("CONV"), T.get("ERREUR")) == (True, False)
 
 
-def test_saved_times(tmp_path):
-    find = finder(BAR + "T . 'TEMPS_SAUVES' = PROG 0.5 1. ; PASAPAS T ;", tmp_path)
-    assert [v for _, v in find("T").get("TEMPS").items()] == pytest.approx([0, 0.5, 1])
-
-
-def test_second_call_goes_on_and_reprise_goes_back(tmp_path):
-    text = f"""{BAR}
-    PASAPAS T ; T . 'TEMPS_CALCULES' = PROG 0.5 'PAS' 0.5 2. ;
-    T . 'CHARGEMENT' = CHAR 'MECA' F (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
-    PASAPAS T ; N1 = DIME (T . 'TEMPS') ; U1 = EXTR (T . 'DEPLACEMENTS' . 6) 'UX' P2 ;
-    T . 'REPRISE' = 0.5 ; PASAPAS T ; N2 = DIME (T . 'TEMPS') ;
-    U2 = EXTR (T . 'DEPLACEMENTS' . 5) 'UX' P2 ;
-    """
-    find = finder(text, tmp_path)
-    assert (find("N1"), find("N2")) == (7, 6)
-    assert find("U1") == pytest.approx(4e-3)
-    assert find("U2") == pytest.approx(4e-3)
-
-
 def test_restrained_expansion_presses(tmp_path):
     text = f"""{BAR.replace("(BLOQ 'UX' G)", "(BLOQ 'UX' (G ET R))")}
     T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' S 1 'T' 10.) EV ; PASAPAS T ;
@@ -158,24 +139,6 @@ def test_dynamic_steps_follow_a_mode(tmp_path):
     assert finder(text, tmp_path)("U") == pytest.approx(np.sin(w * 0.062) / w, rel=1e-2)
 
 
-def test_unilateral_support_opens_and_closes(tmp_path):
-    text = (
-        BAR.replace("(BLOQ 'UX' G)", "(BLOQ 'UX' G) ET B").replace(
-            "T = TABL ;", "B = BLOQ 'MAXI' 'UX' R ; T = TABL ;"
-        )
-        + """
-    T . 'CHARGEMENT' = (T . 'CHARGEMENT') ET
-       (CHAR 'DIMP' (DEPI B 1.E-3) (EVOL 'MANU' (PROG 0. 1.) (PROG 1. 1.))) ;
-    PASAPAS T ; U1 = EXTR (T . 'DEPLACEMENTS' . 1) 'UX' P2 ;
-    U4 = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ; RE = REAC (T . 'DEPLACEMENTS' . 4) B ;
-    """
-    )
-    find = finder(text, tmp_path)
-    assert find("U1") == pytest.approx(5e-4, rel=1e-10)
-    assert find("U4") == pytest.approx(1e-3, rel=1e-10)
-    assert find("RE").components["FX"].values.sum() == pytest.approx(-500.0, rel=1e-9)
-
-
 def test_joint_of_the_wrong_unit_scale_is_reported(tmp_path):
     text = """
     OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
@@ -236,28 +199,6 @@ def test_user_procedures_see_where_nodes_were_and_are(tmp_path):
     assert ends == pytest.approx(4e-3 * np.arange(0.25, 1.1, 0.25), rel=5e-3)
 
 
-def test_user_procedure_takes_a_part_of_the_model_away(tmp_path):
-    text = (
-        """
-    DEBP PERSO1 T*TABLE ;
-      SI ((T . 'ESTIMATION' . 'TEMPS') EGA 0.5) ; T . 'WTABLE' . 'MODELE' = MO1 ; FINS ;
-    FINP ;
-    """
-        + BAR.replace("TRAN 1 (0. 1.)", "TRAN 2 (0. 1.)")
-        + """
-    MO1 = REDU MO (S ELEM 'APPU' 'LARG' L) ; BD = BLOQ 'UX' R ;
-    T . 'BLOCAGES_MECANIQUES' = (T . 'BLOCAGES_MECANIQUES') ET BD ;
-    T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI BD 2.E-3) EV ;
-    T . 'PROCEDURE_PERSO1' = VRAI ; PASAPAS T ; F = PROG ;
-    REPE B 4 ; F = F ET (MAXI (RESU (REDU (T . 'REACTIONS' . &B) R))) ; FIN B ;
-    N = NBEL (EXTR (T . 'CONTRAINTES' . 4) 'MAIL') ;
-    """
-    )
-    find = finder(text, tmp_path)
-    assert find("F").values == pytest.approx([250.0, 500.0, 375.0, 500.0], rel=1e-9)
-    assert find("N") == 4
-
-
 @pytest.mark.parametrize(
     ("saved", "kept"),
     [("", [0.25, 0.5, 0.6, 0.8]), ("0.25 0.8", [0.25, 0.8]), ("0.5 0.6 1.", [0.5, 0.6])],
@@ -282,11 +223,6 @@ def test_table_is_saved_during_the_calculation(tmp_path):
 LOOSE = BAR.replace(
     "MO = MODE S", "S2 = S PLUS (9. 0.) ; P3 = S2 POIN 'PROC' P2 ; MO = MODE (S ET S2)"
 )
-
-
-def test_body_without_support_or_load_stays_at_rest(tmp_path):
-    find = finder(LOOSE + "PASAPAS T ; U = EXTR (T . 'DEPLACEMENTS' . 4) 'UX' P2 ;", tmp_path)
-    assert find("U") == pytest.approx(2e-3, rel=1e-12)
 
 
 def test_load_on_a_body_without_support_is_refused(tmp_path):

@@ -204,27 +204,6 @@ def test_a_footing_built_on_settled_soil_stands_on_its_joint(tmp_path):
     assert find("W") == pytest.approx(-1000.0 / 1e8, rel=1e-6)  # traction over KN
 
 
-def test_a_spring_put_beside_a_loaded_one_takes_its_share_of_what_comes_after(tmp_path):
-    """1.E3 N on KN = 1.E4 N/m, 1.E3 N more on it and on 3.E4 N/m that come between."""
-    text = """
-    OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P = 0. 0. ; Q = 0. 1. ;
-    R = 0. 0. ; L = MANU 'SEG2' P Q ; N = MANU 'SEG2' R Q ;
-    ML = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOI1' ; MN = MODE N 'MECANIQUE' 'ELASTIQUE' 'JOI1' ;
-    T = TABL ; T . 'MODELE' = ML ET MN ; T . 'CARACTERISTIQUES' =
-      (MATE ML 'KN' 1.E4 'KS' 1.E4) ET (MATE MN 'KN' 3.E4 'KS' 3.E4) ;
-    T . 'BLOCAGES_MECANIQUES' = (BLOQ 'DEPL' 'ROTA' (P ET R)) ET (BLOQ 'UX' 'RZ' Q) ;
-    TT = TABL ; TT . 0 = 0. ; TT . 1 = 1.5 ; TM = TABL ; TM . 0 = ML ; TM . 1 = ML ET MN ;
-    T . 'CHARGEMENT' = (CHAR 'MODE' TT TM) ET
-      (CHAR 'MECA' (FORC (0. -1.E3) Q) (EVOL 'MANU' (PROG 0. 1. 1.5 2.) (PROG 0. 1. 1. 2.))) ;
-    T . 'TEMPS_CALCULES' = PROG 1. 1.5 2. ; PASAPAS T ; U = PROG ;
-    REPE B 3 ; U = U ET (EXTR (T . 'DEPLACEMENTS' . &B) 'UY' Q) ; FIN B ;
-    """
-    find = ran(text, output_directory=tmp_path).session.root.find
-    assert find("U").values == pytest.approx([-0.1, -0.1, -0.125])
-    found = [b.components["EFFX"].mean() for b in find("T").get("CONTRAINTES").get(3).blocks]
-    assert found == pytest.approx([-1250.0, -750.0])
-
-
 @together(
     "element, given, stiffness, held",
     [

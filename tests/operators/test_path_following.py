@@ -274,14 +274,4 @@ def test_collapse_load_is_where_automatic_steps_end(tmp_path):
     assert v[-1] > 2.1e-3
 
 
-def test_piloindi_gives_the_factor_by_itself(tmp_path):
-    text = f"""{BARS}
-    U1 = MANU 'CHPO' P0 2 'UX' 0. 'UY' -1. ; U0 = 0. * U1 ;
-    X1 = PILOINDI T U0 U0 U0 U1 0.25 ; X2 = PILOINDI T U1 U0 U0 (-1. * U1) 0.25 ;
-    X3 = AUTOPILO U1 U0 MO (T . 'CARACTERISTIQUES') T ;
-    """
-    find = ran(text, tmp_path).session.root.find
-    assert (find("X1"), find("X2"), find("X3")) == pytest.approx((0.25, -0.25, 1.0))
-
-
 # --- refusals --------------------------------------------------------------------------------

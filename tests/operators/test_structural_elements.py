@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from script_runs import finder, ran
+from script_runs import ran
 from together import together
 
 STRIP = """OPTI DIME 3 ELEM CUB8 ;
@@ -145,19 +145,6 @@ def test_load_steps_tell_dashpots_that_have_no_rates():
     )
     codes = [w.code for w in result.session.warnings]
     assert "operators.statics.dashpots-at-rest" in codes
-
-
-def test_modes_of_a_spring_and_a_dashpot_in_series_are_those_of_maxwell():
-    found = finder(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; G = MANU 'POI1' P ; "
-        "MO = MODE G 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' 'REUSS' (MOTS UX) ; "
-        "CA = MATE MO 'RAID' 400. 'VISC' 12. ; "
-        "T = VIBR 'IRAM' 5. 1 (RIGI MO CA) (MASS 'UX' 1. P) (AMOR MO CA) ; "
-        "X = T . 'MODES' . 1 . 'FREQUENCE_REELLE' ; Y = T . 'MODES' . 1 . 'FREQUENCE_IMAGINAIRE' ;"
-    )
-    decay = np.roots([1.0, 400.0 / 12.0, 400.0])  # s^2 + (k / c) s + k / m, beside s = 0
-    assert 2 * np.pi * found("X") == pytest.approx(abs(decay[0].imag))
-    assert 2 * np.pi * found("Y") == pytest.approx(-decay[0].real)
 
 
 def test_pressure_on_shells_goes_towards_a_point(found, refused):

@@ -121,16 +121,6 @@ def test_rules_of_combination(rule):
     np.testing.assert_allclose(found, (d, a, e, f), rtol=1e-8)
 
 
-def test_directions_add_their_squares():
-    text = script("CQC") + (
-        "R = SISSIB T ; X = R . 'X' . 'DEPLACEMENTS' ;"
-        "Y = R . 'Y' . 'DEPLACEMENTS' ; Z = R . 'REPONSE_TOTALE' . 'DEPLACEMENTS' ;"
-        "D = MAXI (ABS ((Z * Z) - (X * X) - (Y * Y))) ;"
-    )
-    result = ran(text)
-    assert result.session.root.find("D") < 1e-12
-
-
 def test_results_serve_again():
     text = script("CQC") + (
         "R1 = SISSIB T ; T . 'REPRISE' = R1 . 'REPRISE' ;"
@@ -223,22 +213,6 @@ G = R . 'CONTRAINTES_POUTRE' . 'POU1' ;
 """
 
 
-def test_a_domain_that_is_a_model_gives_nodes_to_displacements_and_zones_to_forces():
-    """A part has the values that the whole has there."""
-    text = FRAME.format(modes=4, rule="SRSS").partition("R = SISSIB")[0] + (
-        "T . 'SORTIES' . 'DEPLACEMENTS' = VRAI ; R = SISSIB T ;"
-        "MB = REDU MO (ELEM L 'APPU' 'LARG' B) ;"
-        "T . 'SORTIES' . 'DOMAINE' = MB ; R2 = SISSIB T ; U2 = R2 . 'X' . 'DEPLACEMENTS' ;"
-        "NB = NBNO (EXTR U2 'MAIL') ; D = MAXI (ABS (U2 - (REDU (R . 'X' . 'DEPLACEMENTS') U2))) ;"
-        "Q2 = R2 . 'Y' . 'CONTRAINTES' ; NE = NBEL (EXTR Q2 'MAIL') ;"
-        "E = MAXI (ABS (Q2 - (REDU (R . 'Y' . 'CONTRAINTES') MB))) ; S = MAXI Q2 ;"
-    )
-    root = ran(text).session.root
-    assert (root.find("NB"), root.find("NE")) == (2, 1)
-    assert root.find("D") == 0.0
-    assert root.find("E") == 0.0 < root.find("S")
-
-
 def components(field):
     block = field.blocks[0]
     return {name: np.asarray(values).ravel() for name, values in block.components.items()}
@@ -259,14 +233,3 @@ def test_envelopes_of_frames_hold_the_largest_forces(rule):
         for j in range(i + 1, 7):
             bound = np.sqrt(np.abs(products[f"C{i}{i}"] * products[f"C{j}{j}"]))
             assert (np.abs(products[f"C{i}{j}"]) <= bound * (1.0 + 1e-9) + 1e-12).all()
-
-
-def test_products_of_two_forces_are_sums_over_modes_and_directions():
-    text = FRAME.format(modes=2, rule="SRSS") + (
-        "P = TABL ; REPE I 2 ; REPE J 2 ; X = G . &I . &J ;"
-        " Y = (EXCO 'MOMY' X 'C') * (EXCO 'EFFZ' X 'C') ;"
-        " SI ((&I + &J) EGA 2) ; W = Y ; SINON ; W = W + Y ; FINS ; FIN J ; FIN I ;"
-        "Z = EXCO 'C35' C 'C' ; D = MAXI (ABS (Z - W)) ; N = MAXI (ABS W) ;"
-    )
-    result = ran(text)
-    assert result.session.root.find("D") < 1e-9 * result.session.root.find("N")
