@@ -22,7 +22,6 @@ class Unit:
     between `least` and `most`, in SI, or nought.
     """
 
-    symbol: str
     mass: int = 0
     length: int = 0
     time: int = 0
@@ -35,7 +34,7 @@ class Unit:
 def units() -> dict[str, Unit]:
     """All units by their symbols."""
     tables = tables_of(Path(__file__).with_name("units.toml"))
-    return {symbol: Unit(symbol, **powers) for symbol, powers in tables.items()}
+    return {symbol: Unit(**powers) for symbol, powers in tables.items()}
 
 
 @dataclass(frozen=True, slots=True)
