@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from together import together
 
 STEEL = "'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'ALPY' 0.8333 'ALPZ' 0.6"
 
@@ -181,22 +180,6 @@ def test_calculation_goes_on_from_the_fibres_of_an_earlier_one(found):
     parts = found(plastic + depth + twice, "F")
     assert abs(whole) > 1e3
     assert parts == pytest.approx(whole, rel=1e-7)
-
-
-@together(
-    "change, said",
-    [
-        (("'MODS' MS 'MATS' AS", "'MATS' AS"), "MODS is missing"),
-        (("'MODS' MS", "'MODS' «3.»"), "takes the model"),
-        (("ELASTIQUE SECTION TIMO", "ELASTIQUE SECTION POUT"), "no elasticity SECTION"),
-        (("ELASTIQUE  QUAS", "ELASTIQUE  PLASTIQUE RH_COULOMB QUAS"), "have no plastic law"),
-        (("'ALPZ' 0.6", ""), "ALPZ is missing"),
-    ],
-)
-def test_wrong_sections_are_refused(refused, change, said):
-    script = section() + FIBRES + "K = RIGI M A ; "
-    assert change[0] in script
-    assert said in refused(script.replace(*change))
 
 
 # ---- concrete -------------------------------------------------------------------------------
