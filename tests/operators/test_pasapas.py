@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import failed, finder, ran
+from together import together
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -289,8 +290,11 @@ def test_body_without_support_or_load_stays_at_rest(tmp_path):
     assert find("U") == pytest.approx(2e-3, rel=1e-12)
 
 
-def test_load_on_a_body_without_support_is_refused(tmp_path):
-    text = LOOSE.replace("F = FORC (1000. 0.) R", "F = FORC (0. 10.) (P2 ET P3)") + "PASAPAS T ;"
+@together("push", [10.0, -10.0])
+def test_load_on_a_body_without_support_is_refused(push, tmp_path):
+    text = LOOSE.replace("F = FORC (1000. 0.) R", f"F = FORC (0. {push}) (P2 ET P3)")
+    held = "T . 'BLOCAGES_MECANIQUES'"
+    text += f"{held} = ({held}) ET (BLOQ 'UX' S2) ; PASAPAS T ;"  # one way is free
     result = failed(text, folder=tmp_path)
     assert "free motion" in result.message
     ended = result.session.root.find("T")
