@@ -15,6 +15,8 @@ from ssilang.io.tables import Column, as_columns, csv_lines, read_csv
 def test_titles_stand_over_columns_of_unequal_length() -> None:
     lines = csv_lines([Column("t", [0.0, 0.1]), Column("", [1, 2, 3]), Column("w", ["AB"])])
     assert lines == ["t;;w", "0.0;1;AB", "0.1;2;", ";3;"]
+    heads = [Column(t, [], "m").head for t in ("", "  thirteenletters", "a ")]
+    assert heads == ["(m)", "thirteenlett (m)", "a (m)"]
 
 
 def test_numbers_come_back_exactly(tmp_path: Path) -> None:
@@ -37,8 +39,8 @@ def test_digits_are_decimals_of_the_mantissa() -> None:
 
 def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
-    path.write_text("time;force\n0;1.5D3\n1;-2\n")
-    assert read_csv(path, ";", 2) == [[0.0, 1500.0], [1.0, -2.0]]
+    path.write_text("time;force\n0;1.5D3\n1;-2d-1\n")
+    assert read_csv(path, ";", 2) == [[0.0, 1500.0], [1.0, -0.2]]
     with pytest.raises(InputError, match="line 1: 'time'"):
         read_csv(path)
 
