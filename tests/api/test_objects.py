@@ -168,7 +168,7 @@ def test_meshes_and_their_fields_as_grids_of_pyvista(swing):
 def test_curves_of_several_parts_say_which(swing):
     r = ssilang.run(
         "E = EVOL 'MANU' 'LEGE' 'a' (PROG 0. 1.) (PROG 1. 2.) ; "
-        "F = EVOL 'MANU' 'LEGE' 'b' (PROG 0. 2.) (PROG 3. 4.) ; EF = E ET F ;"
+        "F = EVOL 'MANU' 'LEGE' 'b' (PROG -1. 2.) (PROG 3. 4.) ; EF = E ET F ;"
     )
     both = r["EF"]
     assert both.names == ("a", "b")
@@ -176,6 +176,7 @@ def test_curves_of_several_parts_say_which(swing):
         both.x  # noqa: B018
     assert both[1].y.tolist() == [3.0, 4.0]
     assert np.isnan(both.frame().loc[2.0, "a"])
+    assert both.frame().index.tolist() == [-1.0, 0.0, 1.0, 2.0]
     assert both._repr_png_()[:4] == b"\x89PNG"
 
 
@@ -288,6 +289,19 @@ def test_views_give_numbers_in_their_own_order():
     assert [name for name, _ in rows] == list(r)
     assert (dict(rows)["P"], dict(rows)["E"]) == ("POINT", "EVOLUTIO")
     assert ssilang.api.objects.held(Path("a") / "b") == "a/b"
+
+
+def test_what_is_written_into_numbers_seen_leaves_the_script_as_it_is():
+    r = ssilang.run(SHOWN + "N = LECT 4 7 ;")
+    ways = [
+        lambda: r["R"], lambda: r["N"], lambda: r["E"].x, lambda: r["E"].y, lambda: r["U"]["SCAL"],
+        lambda: r["P"].coordinates, lambda: r["S"].points, lambda: r["U"].points,
+        lambda: r["C"].values("B", 2), lambda: r["T"][7],
+    ]  # fmt: skip
+    for seen in ways:
+        before = seen().tolist()
+        seen()[...] = 99
+        assert seen().tolist() == before
 
 
 MIXED = """
