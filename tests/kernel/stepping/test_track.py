@@ -12,6 +12,7 @@ from together import together
 from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.relations import Term, joined, relation_rows
 from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping.choose import only
@@ -370,6 +371,30 @@ def test_extremes_of_reactions_that_act_elsewhere_than_their_condition():
     assert np.abs(pushed[:, at]).max(axis=0)[0] < 1e-9 * np.abs(pushed).max()
     assert (np.abs(pushed[:, at[1:]]).max(axis=0) > 1.0).all()
     assert_largest(extremes, recorder)
+
+
+def test_extremes_of_shear_are_those_of_both_directions():
+    """Two joints in space, pushed along and across at different times."""
+    bench = Bench(Mode.THREE_DIMENSIONAL)
+    tops = []
+    for i in range(2):
+        ground, top = bench.node(2.0 * i, 0.0, -1.0), bench.node(2.0 * i, 0.0, 0.0)
+        bench.fix(ground, "UX", "UY", "UZ")
+        bench.mass(200.0, top, ("UX", "UY", "UZ"))
+        bench.joint("SEG2", [ground, top], "JOI1", KN=2e6, KS=1e6, V1X=0.0, V1Y=0.0, V1Z=1.0,
+                    V2X=1.0, V2Y=0.0, V2Z=0.0)  # fmt: skip
+        tops.append(top)
+    t = 2e-3 * np.arange(31)
+    weight = bench.field(*((n, "FZ", -3e3) for n in tops))
+    along = bench.field((tops[0], "FX", 500.0), (tops[1], "FX", 700.0))
+    across = bench.field((tops[0], "FY", 600.0), (tops[1], "FY", -300.0))
+    parts = bench.load(weight).parts + bench.load(along, t, np.sin(90 * t)).parts
+    parts += bench.load(across, t, np.cos(60 * t)).parts
+    problem = bench.problem(t, Load(parts))
+    recorder, extremes = Recorder(len(t)), Extremes(problem=problem)
+    integrate(problem, [recorder, extremes])
+    assert_largest(extremes, recorder)
+    assert np.abs(recorder.of("t")[..., :2]).max(axis=(0, 1)).min() > 300.0
 
 
 def test_extremes_over_chunks_and_steps_of_two_lengths(monkeypatch):
