@@ -99,6 +99,10 @@ def test_tables_of_results_are_made_as_far_as_they_are_asked_for(oscillator):
     held = ssilang.run("OPTI DIME 2 ; T = TABL ; T . (0 0) = 1. ; T . 'B' = 2. ; T . 3 = 4. ;")["T"]
     with pytest.raises(KeyError, match="there are 'B' and 3"):  # points are no words to try
         held["C"]
+    many = ssilang.run("T = TABL ; REPE B 21 ; T . &B = &B ; FIN B ;")["T"]
+    assert repr(many) == "<TABLE 21: 1, 2, 3, 4, 5, 6, 7, 8, ...>"
+    with pytest.raises(KeyError, match=r"19 and 20(\D|$)"):
+        many["C"]
 
 
 @pytest.mark.parametrize("touched", [False, True])
