@@ -12,8 +12,10 @@ from together import together
 
 import ssilang
 import ssilang.api
+from ssilang.api.fields import CellFieldView
 from ssilang.api.html import html_of
 from ssilang.kernel.curves.curve import Curve
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 
 
 def exact(t):
@@ -340,6 +342,17 @@ def test_views_of_mixed_data_keep_what_belongs_together():
     assert k.frame()["A"].max() == 7
     with pytest.raises(ssilang.Error, match="zone"):
         k["A"]
+    for zone in (0, k.zones + 1):
+        with pytest.raises(ssilang.Error, match="zone"):
+            k.values("A", zone)
+    held = {
+        "A": np.array([[1.0, 2.0, 3.0]]),
+        "B": np.array([[7.0]]),
+        "P": np.array([[r["A"].held]]),
+    }
+    both = CellFieldView(CellField((CellFieldBlock(r["Q"].held.blocks[0], held),)), "en").frame()
+    assert both.to_dict("list") == {"A": [1, 2, 3], "B": [7, 7, 7]}
+    assert both.index.tolist() == [(1, 1, 1), (1, 1, 2), (1, 1, 3)]
     assert "u" in r
     assert "NONE" not in r
     two = r.evaluate("ORDO (PROG 3. 1.) (LECT 7 8)")
