@@ -72,9 +72,12 @@ def test_the_colour_of_each_word():
                 ("TABL", "function"), ("ZP", "function"), ("FINSI", "keyword"),
                 ("2.5", "number"), ("* alone", "comment"), ("A1", "variable")):  # fmt: skip
         assert one in told
-    text = "O = 1 ; X = O%DROI ; MESS SI X ;"
-    shown = [(text[a:b], c) for a, b, c in colours(Document.of(text))]
-    assert ("DROI", "property") in shown
+    text = "O = 1 ; X = O%DROI ; MESS SI X ; Y = %VIBR ; %TABL = 2 ;"
+    document = Document.of(text)
+    shown = [(text[a:b], c) for a, b, c in colours(document)]
+    for attribute in ("DROI", "VIBR", "TABL"):  # of an object, and of the one whose method runs
+        assert (attribute, "property") in shown
+    assert document.names.defined == {"O", "X", "Y"}
     assert ("SI", "keyword") not in shown
 
 
