@@ -1,10 +1,11 @@
 """`ssilang completion`: what shells need to complete commands, options, words of help, scripts."""
 
 import argparse
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
+
+from ssilang.remembered import tables_of
 
 ENDINGS = ("ssi", "dgibi")
 """Of scripts, which are offered before other files."""
@@ -74,7 +75,7 @@ def _zsh(options: Options, commands: dict[str, str]) -> str:
 
 
 def _filled(shell: str, **parts: str) -> str:
-    text: str = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))[shell]
+    text: str = tables_of(Path(__file__).with_suffix(".toml"))[shell]
     for name, part in parts.items():
         text = text.replace(f"@{name}@", part)
     return text

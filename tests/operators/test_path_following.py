@@ -213,6 +213,27 @@ def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
         assert (a + x * b).max() == pytest.approx(least + 0.5 * size)
 
 
+@together(
+    "norm, known, wanted",
+    [
+        (lambda v: 2.0 * v[0] - v[1], [0.0, 0.0], [0.5]),
+        (lambda v: 2.0 * v[0] - v[1], [0.2, 0.3], [0.45]),
+        (lambda v: np.abs(v).max(), [0.0, 0.0], [1.0, -1.0]),
+        (lambda v: np.abs(v).max(), [0.2, 0.3], [1.3, -0.7]),
+    ],
+)
+def test_a_norm_that_changes_its_sign_has_one_step_and_another_two(norm, known, wanted):
+    class Control(AutomaticControl):
+        def _norm(self, total, elastic):
+            return norm(total) + 0.0 * elastic[0]
+
+    control = Control(None, None, 2.0, lambda: np.array([7.0]), None)
+    split = SimpleNamespace(
+        du=np.array(known) - 1.0, rest=np.ones(2), unit=np.array([0.5, -1.0]), x=4.0
+    )
+    assert control(split, 0.5) == pytest.approx(wanted)
+
+
 def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):
     text = f"""{BARS}
     T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 4. ; T . 'PILOTAGE_INDIRECT' = VRAI ;

@@ -4,6 +4,7 @@ from functools import cache
 from pathlib import Path
 
 from ssilang.language.vocabulary.terms import Word
+from ssilang.remembered import tables_of
 
 _OWN = ("elasticity", "plastic", "joint")
 """Sorts of laws of which one has an example of its own."""
@@ -12,9 +13,7 @@ _OWN = ("elasticity", "plastic", "joint")
 @cache
 def examples() -> dict[str, str]:
     """All scripts by what they show."""
-    import tomllib
-
-    return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+    return tables_of(Path(__file__).with_suffix(".toml"))  # type: ignore[no-any-return]
 
 
 def example(kind: str, word: Word) -> str:
