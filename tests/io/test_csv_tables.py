@@ -9,7 +9,7 @@ from together import together
 
 from ssilang.io import tables
 from ssilang.io.errors import InputError
-from ssilang.io.tables import Column, as_columns, csv_lines, read_csv
+from ssilang.io.tables import Column, as_columns, csv_lines, read_csv, write_parquet
 
 
 def test_titles_stand_over_columns_of_unequal_length() -> None:
@@ -87,6 +87,19 @@ def test_digits_that_python_alone_reads_are_no_number(tmp_path: Path) -> None:
     path.write_text("1;1_0\n2;3\n")
     with pytest.raises(InputError, match="1_0"):
         read_csv(path)
+
+
+def test_columns_without_a_unit_have_none_in_parquet(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    columns = {name: np.arange(2.0) + i for i, name in enumerate("cab")}
+    write_parquet(tmp_path / "x.parquet", columns, {"a": "m", "b": ""})
+    table = parquet.read_table(tmp_path / "x.parquet")
+    assert {f.name: f.metadata for f in table.schema} == {
+        "c": None,
+        "a": {b"unit": b"m"},
+        "b": None,
+    }
+    assert table.to_pydict() == {"c": [0, 1], "a": [1, 2], "b": [2, 3]}
 
 
 @together("separator", [";", " "])
