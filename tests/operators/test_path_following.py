@@ -4,11 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import ran
 from together import together
 
+from ssilang.kernel.plasticity.following import Split
 from ssilang.language.say.diagnostics import sentence
-from ssilang.operators.statics.path_following import ends_of, strain_points
+from ssilang.operators.statics.path_following import AutomaticControl, ends_of, strain_points
 
 ES, HEIGHT, SPAN = 2.1e11 * 0.05, 1.0, 10.0
 TRUSS = """
@@ -37,12 +38,6 @@ def truss_load(v):
     rest = np.hypot(HEIGHT, SPAN)
     length = np.hypot(HEIGHT - v, SPAN)
     return -ES * (length / rest - 1.0) * (HEIGHT - v) / length
-
-
-def refused(text, tmp_path):
-    result = failed(text, folder=tmp_path)
-    assert "defect of ssilang" not in result.message
-    return result.message
 
 
 def values(table, word):
@@ -87,6 +82,18 @@ def test_greatest_strain_controls_where_the_script_has_no_autopilo(tmp_path):
     strain = np.maximum(fall, np.abs(fall - elastic)) * HEIGHT / 101.0
     np.testing.assert_allclose(strain[:-1], 1e-3, rtol=1e-6)
     assert factors.min() < -1.9
+
+
+def test_a_norm_that_is_another_backwards_is_met_both_ways():
+    class Lopsided(AutomaticControl):
+        def _norm(self, total, elastic):
+            return max(total[0], -3.0 * total[0])
+
+    none, unit = np.zeros(1), np.ones(1)
+    control = Lopsided(None, None, 0.6, lambda: unit, None)
+    for known in (0.0, 0.06):
+        found = control(Split(none, known * unit, none, unit), 0.5)
+        assert found == pytest.approx([0.3 - known, -0.1 - known])
 
 
 def test_one_step_in_so_many_is_saved_and_a_path_too_long_ends_with_a_warning(tmp_path):
@@ -200,6 +207,27 @@ def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
         assert (a + x * b).max() == pytest.approx(least + 0.5 * size)
 
 
+@together(
+    "norm, known, wanted",
+    [
+        (lambda v: 2.0 * v[0] - v[1], [0.0, 0.0], [0.5]),
+        (lambda v: 2.0 * v[0] - v[1], [0.2, 0.3], [0.45]),
+        (lambda v: np.abs(v).max(), [0.0, 0.0], [1.0, -1.0]),
+        (lambda v: np.abs(v).max(), [0.2, 0.3], [1.3, -0.7]),
+    ],
+)
+def test_a_norm_that_changes_its_sign_has_one_step_and_another_two(norm, known, wanted):
+    class Control(AutomaticControl):
+        def _norm(self, total, elastic):
+            return norm(total) + 0.0 * elastic[0]
+
+    control = Control(None, None, 2.0, lambda: np.array([7.0]), None)
+    split = SimpleNamespace(
+        du=np.array(known) - 1.0, rest=np.ones(2), unit=np.array([0.5, -1.0]), x=4.0
+    )
+    assert control(split, 0.5) == pytest.approx(wanted)
+
+
 def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):
     text = f"""{BARS}
     T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 4. ; T . 'PILOTAGE_INDIRECT' = VRAI ;
@@ -257,38 +285,3 @@ def test_piloindi_gives_the_factor_by_itself(tmp_path):
 
 
 # --- refusals --------------------------------------------------------------------------------
-
-
-@together(
-    "entries, words",
-    [
-        ("T . 'PILOTAGE_INDIRECT' = VRAI ;", "which load is controlled"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'PILOTAGE_INDIRECT' = VRAI ;", "exclude"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'DYNAMIQUE' = VRAI ;", "static"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'AUTOCRIT' = -1. ;", "AUTOCRIT > 0"),
-        (
-            "T . 'PILOTAGE_INDIRECT' = VRAI ; T . 'FORCES_PILOTEES' = F1 ;",
-            "PARAMETRE_DE_PILOTAGE",
-        ),
-        (
-            "T . 'PILOTAGE_INDIRECT' = VRAI ; T . 'FORCES_PILOTEES' = F1 ; T . "
-            "'PARAMETRE_DE_PILOTAGE' = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;",
-            "does not change",
-        ),
-    ],
-)
-def test_entries_that_make_no_path_are_refused(entries, words, tmp_path):
-    text = BARS + "T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 4. ; " + entries + " PASAPAS T ;"
-    assert words in refused(text, tmp_path)
-
-
-def test_a_procedure_that_gives_no_number_is_named(tmp_path):
-    text = (
-        TRUSS
-        + AUTOMATIC
-        + (
-            "DEBP AUTOPILO D1*CHPOINT D2*CHPOINT M1*MMODEL C1*MCHAML T1*TABLE ; FINP D1 ; "
-            "PASAPAS T ;"
-        )
-    )
-    assert "AUTOPILO must give one FLOTTANT" in refused(text, tmp_path)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -127,16 +127,6 @@ def test_accelerations_asked_for_and_given_inside():
     )  # fmt: skip
     assert base < 1e-3
     assert np.abs(surface.values).max() > 1.05
-
-
-def test_refusals():
-    start = PLANE.format(mode="FOUR 0") + SOIL + SIGNAL + LAYER
-    for call, text in (
-        ("DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER'", "MODE FOUR"),
-        ("DECONV T1 FON1 M1 'BIAIS' ACC1 5. 20.", "HORI or VERT"),
-        ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "the entry 1 is missing"),
-    ):
-        assert text in refused(start + f"T2 = {call} ;")
 
 
 @pytest.mark.parametrize(("cells", "too_coarse"), [(4, True), (5, False)])

@@ -1,13 +1,19 @@
 """DEDU: copies that follow some nodes, or go through the map between two meshes."""
 
+from ssilang.kernel.elements.results import supports
 from ssilang.kernel.fields.deformed import displacements, moving_components
+from ssilang.kernel.matrices.relations import blocked
+from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.changes.transform import NodeCopier, followed, mapping_between
 from ssilang.kernel.mesh.generators.sweep import corresponding_nodes
+from ssilang.kernel.statics.mesh_adaptation import UNKNOWNS, adapted
 from ssilang.operators.mesh.copies.images import GEOMETRIC, Copier
 from ssilang.operators.mesh.copies.maps import rotation_matrix
+from ssilang.operators.mesh.metrics import metric_at
 from ssilang.operators.prelude import *
 
 _EVEN = flag("even", "REGU", en="inner nodes then go to the mean of their neighbours")
+_SHARE = Range(0.0, 1.0)
 _BEFORE = arg("before", "MAILLAGE", en="mesh before")
 _AFTER = arg("after", "MAILLAGE", en="mesh after, of the same structure")
 _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="objects to copy")
@@ -34,10 +40,41 @@ def dedu(
 
 @dedu.form(said("ADAP"))
 def dedu_adap(
-    call: Call, mesh: Mesh | None = Opt("MAILLAGE", en="linear surfaces or volumes")
-) -> NoReturn:
-    """To a metric: its functional is not published."""
-    raise call.error("operators.mesh.functional-not-published")
+    call: Call,
+    mesh: Mesh = Arg("MAILLAGE", en="surfaces in the plane, or volumes"),
+    conditions: Matrix | None = Opt("RIGIDITE", en="conditions; without, its boundary stays"),
+    imposed: NodeField | None = Opt("CHPOINT", en="their values", unit="m"),
+    metric: CellField | NodeField | None = Key(
+        "METR", "MCHAML", "CHPOINT", en="metric G11 G21 G22 ... in length^-2"
+    ),
+    space: Model | str | None = Opt("MMODEL", "MOT", en="of the metric"),
+    density: NodeField | None = Key("DENS", "CHPOINT", en="sizes wanted", unit="m"),
+    theta: float = Key("THET", "FLOTTANT", default=0.2, range=_SHARE, en="regular against equal"),
+    most: int = Key("NITM", "ENTIER", default=40, range=POSITIVE, en="most steps"),
+    accelerated: bool = Key("ACVG", "LOGIQUE", default=True, en="accepted, without effect"),
+    axis: int | None = Key("IDIR", "ENTIER", en="the one direction of the motion", range=POSITIVE),
+    solving: Table | None = Key("TINV", "TABLE", en="accepted, without effect"),
+) -> NodeField:
+    """Displacement that makes cells regular and equal in a metric."""
+    d = workspace(call.session).dimension
+    if mesh.dimension != d:
+        raise MeshError("kernel.mesh.cells-type-cannot-follow", cell_type=mesh.blocks[0].cell_type)
+    if conditions is None:
+        skin = contour(mesh) if d == 2 else envelope(mesh)
+        rows = blocked(mesh.nodes, skin.sorted_node_ids, UNKNOWNS[:d])
+        conditions = Matrix(mesh.nodes, (), (rows,))
+    if isinstance(metric, CellField):
+        if not isinstance(space, Model):
+            raise call.missing(("MMODEL",))
+        metric = supports.nodal_of_cells(space, metric, "MOYE")
+    if density is not None:
+        name = next(iter(density.components))
+        ids = mesh.sorted_node_ids
+        metric = NodeField.of(mesh.nodes, ids, {"G": density.values_at(name, ids) ** -2}, "DIFFUS")
+    tables = [b.connectivity for b in mesh.blocks]
+    metrics = [metric_at(call, t, 1.0 if metric is None else metric).mean(axis=1) for t in tables]
+    directions = tuple(range(d)) if axis is None else (axis - 1,)
+    return adapted(mesh, metrics, theta, conditions, imposed, directions, most)
 
 
 @dedu.form()

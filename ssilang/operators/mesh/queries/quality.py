@@ -2,6 +2,7 @@
 
 from ssilang.kernel.mesh.combine import without_duplicates
 from ssilang.kernel.mesh.queries import quality
+from ssilang.operators.mesh.metrics import METRIC, metric_at
 from ssilang.operators.prelude import *
 
 _MEASURES: dict[str, tuple[tuple[str, ...], Callable[[FloatArray], FloatArray]]] = {
@@ -27,49 +28,27 @@ def indi(
     return CellField(blocks, "SCALAIRE")
 
 
-@indi.form(said("TOPO"))
+@indi.form(said("TOPO"), METRIC)
 def topological(
     call: Call,
     mesh: Mesh = Arg("MAILLAGE", en="triangles or tetrahedra"),
-    metric: float | NodeField | None = Opt(
-        "FLOTTANT",
-        "CHPOINT",
-        en="length wanted, or metric G (G11 G21 G22 ...) in length^-2",
-        range=POSITIVE,
-    ),
     listed: bool = Flag("LISTREEL", en="a list is given"),
+    **read: Any,
 ) -> CellField | ListReel:
     """Quality of cells, in a metric."""
     kinds = {b.cell_type for b in mesh.blocks}
     if len(mesh.blocks) != 1 or not kinds <= {"TRI3", "TET4"}:
         raise call.error("operators.mesh.simplices-wanted", mesh)
     cells = mesh.blocks[0]
-    wanted: FloatArray | None = None
-    if isinstance(metric, NodeField):
-        wanted = _metric(call, cells, metric, workspace(call.session).mode.dimension)
-    elif metric is not None:
-        wanted = np.broadcast_to(np.eye(3) / metric**2, (len(cells), 3, 3))
-    values = quality.quality_in_metric(cells.coordinates, wanted)
+    wanted, x = None, cells.coordinates
+    if read["metric"] is not None:
+        wanted = metric_at(call, cells.connectivity, read["metric"]).mean(axis=1)
+        x = x[..., : wanted.shape[-1]]
+    values = quality.quality_in_metric(x, wanted)
     if listed:
         return ListReel(values)
     block = CellFieldBlock(cells, {"SCAL": values[:, None]}, "GRAVITE")
     return CellField((block,), "SCALAIRE")
-
-
-def _metric(call: Call, cells: CellBlock, field: NodeField, dimension: int) -> FloatArray:
-    """Mean over the nodes of each cell of the metric (n, 3, 3)."""
-    names = {(i, j): f"G{i + 1}{j + 1}" for i in range(dimension) for j in range(i + 1)}
-    if "G" in field.components:
-        names = {(i, i): "G" for i in range(dimension)}
-    missing = [n for n in names.values() if n not in field.components]
-    if missing:
-        raise call.error("operators.mesh.metric-incomplete", field, missing=missing)
-    nodes = cells.connectivity
-    M = np.zeros((len(nodes), 3, 3))
-    for (i, j), name in names.items():
-        values = field.values_at(name, nodes.ravel()).reshape(nodes.shape).mean(axis=1)
-        M[:, i, j] = M[:, j, i] = values
-    return M
 
 
 def _block(call: Call, cells: CellBlock, words: list[str]) -> CellFieldBlock:

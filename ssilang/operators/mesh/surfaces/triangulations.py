@@ -2,14 +2,15 @@
 
 from ssilang.kernel.mesh.combine import poi1
 from ssilang.kernel.mesh.generators.sweep import cone, stitch
-from ssilang.kernel.mesh.queries.measure import cell_measures, enclosed_area, enclosed_volume
-from ssilang.kernel.mesh.queries.quality import quality_in_metric
+from ssilang.kernel.mesh.queries.measure import enclosed_area, enclosed_volume
 from ssilang.kernel.mesh.surfaces import constrained
 from ssilang.kernel.mesh.surfaces.charts import plane_chart
 from ssilang.kernel.mesh.surfaces.surface import contour_cells, contour_chart_data, fill_surface
 from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
 from ssilang.kernel.mesh.surfaces.voronoi import OUTSIDE, VoronoiPartition, voronoi_partition
 from ssilang.kernel.mesh.volumes.volume import fill_volume
+from ssilang.operators.mesh.changes.remeshed import INTERPOLATED, changed
+from ssilang.operators.mesh.metrics import METRIC, REPORT, report_mesh
 from ssilang.operators.prelude import *
 
 
@@ -40,16 +41,14 @@ def _of_given_points(mesh: Mesh, ws: Workspace) -> Mesh:
     return Mesh.of(mesh.nodes, "TRI3", ids[table], ws.colour)
 
 
-@tria.form(said("TOPO"))
+@tria.form(said("TOPO"), METRIC, REPORT, INTERPOLATED)
 def tria_topo(
     call: Call,
     session: Session,
     boundary: Mesh = Arg("MAILLAGE", en="closed plane lines of SEG2, or a closed surface of TRI3"),
     points: str = Choice(("AJNO", "NOAJ"), default="AJNO", en="with new points inside, or without"),
-    parameters: Table | None = Opt(
-        "TABLE", en="gets 'curtopo', 'dvol', 'nnul', 'miq', 'moq' and 'maq'"
-    ),
-) -> Mesh:
+    **said: Any,
+) -> Mesh | tuple[Mesh, NodeField]:
     """Fill a boundary with simplices."""
     ws = workspace(session)
     plane = boundary.dimension == 1
@@ -62,25 +61,11 @@ def tria_topo(
     else:
         chart = plane_chart(*contour_chart_data(boundary))
         made = fill_surface(boundary, chart, "TRI3", ws.colour)
-    if parameters is not None:
-        wanted = enclosed_area(boundary) if plane else enclosed_volume(boundary)
-        (block,) = made.blocks
-        measures, quality = cell_measures(block), quality_in_metric(block.coordinates, None)
-        told: dict[str, Any] = {
-            "curtopo": made,
-            "dvol": float(measures.sum()) - abs(wanted),
-            "nnul": int((measures <= _FLAT * measures.mean()).sum()),
-            "miq": float(quality.min()),
-            "moq": float(quality.mean()),
-            "maq": float(quality.max()),
-        }
-        for name, value in told.items():
-            parameters.set(Mot(name), value)
+    if said["metric"] is not None:
+        return changed(call, made, boundary, points == "AJNO", said)
+    wanted = enclosed_area(boundary) if plane else enclosed_volume(boundary)
+    report_mesh(said["report"], made, wanted)
     return made
-
-
-_FLAT = 1e-11
-"""Share of the mean cell below which one counts as flat."""
 
 
 @operator("RAFT", family="mesh")
