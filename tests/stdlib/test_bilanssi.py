@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import ran
 
 from ssilang.cli.run import RunOptions, run_text
 
@@ -164,32 +164,6 @@ def test_floor_spectra_are_broadened_and_have_the_ground_added(tmp_path):
     table = (tmp_path / "footing.csv").read_text()
     assert "RENVERSEMENT" in table.splitlines()[0]
     assert len(table.splitlines()) == 82
-
-
-@pytest.mark.parametrize(
-    ("text", "code"),
-    [
-        ("V . 'DEBUT' = 9. ;", "stdlib.bilanssi-no-instants"),
-        ("V . 'CAPACITE' = -1. ;", "entry-out-of-range"),
-        (
-            "W = TABL ; W . 1 = TABL ; W . 1 . 'TEMP' = 0. ; V . 'RESULTATS' = W ;"
-            "W . 1 . 'CONTRAINTES' = T . 'CONTRAINTES' . 1 ;"
-            "W . 1 . 'DEPL' = REDU (T . 'DEPLACEMENTS' . 1) F ;",
-            "operators.dynamics.footing-not-kept",
-        ),
-        ("V . 'MODELE' = MODE S MECANIQUE ELASTIQUE BARR ;",
-         "operators.dynamics.footing-without-joints"),
-        (
-            "S2 = DROI 2 (9. 0.) (10. 0.) ; M2 = MODE (RACC 1.E-3 (S2 PLUS (0. 0.)) S2) MECANIQUE"
-            " ELASTIQUE JOINT_SDM JOI2 ; V . 'MODELE' = M ET M2 ;"
-            f"V . 'CARACTERISTIQUES' = A ET (MATE M2 'KN' {K} 'KS' {K}) ;",
-            "operators.dynamics.several-footings",
-        ),
-    ],
-)  # fmt: skip
-def test_what_has_no_verdict_is_refused_by_name(text, code):
-    result = failed(STRIP + PUSH + text + "R = @BILANSSI V ;")
-    assert result.errors[0].code == code
 
 
 def test_dead_load_and_missing_weight_are_told():

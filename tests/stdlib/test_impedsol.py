@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, finder, ran
+from script_runs import finder, ran
 from together import together
 
 G, VS, B = 2.0e7, 100.0, 2.0  # density 2000 kg/m3
@@ -171,29 +171,6 @@ def test_an_embedded_disc_couples_by_the_height_at_which_it_is_pushed():
     find = finder(text + "X = R . 'COUPLAGE' . 'UX' ; Y = R . 'COUPLAGE' . 'UY' ;")
     expected = 8 * G * B / 1.7 * 2.5 * B * (0.4 * 1.5 - 0.03)  # the higher the deeper
     assert (find("X"), find("Y")) == pytest.approx((expected, expected))
-
-
-SQUARE = {"FORME": "'RECTANGLE'", "DEMI_LONGUEUR": B, "DEMI_LARGEUR": B}
-ROUND = {"FORME": "'DISQUE'", "RAYON": B}
-
-
-@together(
-    "entries, code",
-    [
-        ({**SQUARE, "EPAISSEUR": 8.0}, "no-layer"),
-        ({**SQUARE, "FORMULE": "'KAUSEL'"}, "formula-of-shape"),
-        ({"FORME": "'RECTANGLE'", "DEMI_LARGEUR": B}, "size-missing"),
-        ({"FORME": "'BANDE'", "DEMI_LARGEUR": B}, "size-missing"),
-        ({**ROUND, "RAYON": -1.0}, "entry-out-of-range"),
-        ({**ROUND, "ENFONCEMENT": 2.0, "FORMULE": "'CONES'"}, "no-embedment"),
-        ({**ROUND, "ENFONCEMENT": 2.0, "FREQUENCES": "(PROG 1. 2.)"}, "static"),
-        ({**ROUND, "EPAISSEUR": 8.0, "ENFONCEMENT": 9.0}, "rests-on-rock"),
-        ({**ROUND, "AMORTISSEMENT": 0.05}, "damping-at-zero"),
-    ],
-)
-def test_what_no_formula_has_is_refused_by_name(entries, code):
-    result = failed(script(0.3, **entries))
-    assert result.errors[0].code.removeprefix("stdlib.impedsol-") == code
 
 
 def test_ranges_are_told():

@@ -103,9 +103,11 @@ def contact(
     if friction is not None and friction["law"] == "FROCABLE":
         if slave is None:
             raise call.missing(("MAILLAGE",))
-        return cable_model(call, mesh, cables, slave, ws)
-    sides = sides_in(call, mesh) if slave is None else [(mesh, slave, method)]
-    return contact_model(call, sides, friction is not None, ws)
+        made = cable_model(call, mesh, cables, slave, ws)
+    else:
+        sides = sides_in(call, mesh) if slave is None else [(mesh, slave, method)]
+        made = contact_model(call, sides, friction is not None, ws)
+    return Model(tuple(replace(z, constituent=wish.constituent) for z in made.zones))
 
 
 @MODE.form()
