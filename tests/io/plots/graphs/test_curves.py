@@ -141,6 +141,7 @@ def test_names_stand_over_the_curves_or_beside_them_where_they_are_many(count: i
 def test_names_stand_where_they_are_put_and_not_of_bars_alone() -> None:
     options = CurveOptions(legend="XY", legend_at=(1.5, 2.0), y_title_at_end=True)
     (axes,) = draw_curves(curve(0), options).axes
+    assert (axes.get_xlim(), axes.get_ylim()) != ((0.0, 1.0), (0.0, 1.0))
     at = axes.get_legend().get_bbox_to_anchor().p0
     np.testing.assert_allclose(at, axes.transData.transform((1.5, 2.0)))
     assert (axes.yaxis.label.get_ha(), axes.xaxis.label.get_ha()) == ("right", "center")
