@@ -183,10 +183,7 @@ def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list
         return sums
     if isinstance(start, int) and isinstance(step, int):
         return [start + step * i for i in range(1, count + 1)]
-    values: FloatArray = np.arange(1.0, count + 1)
-    values *= step
-    values += start
-    return values
+    return _evenly(_as_written(start), _as_written(step), count)
 
 
 def integer_steps(start: int, step: int, end: int) -> list[int]:
@@ -227,9 +224,20 @@ def real_steps(start: float, step: float, end: float, ratio: float | None = None
     if ratio is not None:
         return _geometric_steps(start, step, end, ratio)
     count = max(round(distance / step), 1)
-    values: list[float] = (start + distance * np.arange(1, count + 1) / count).tolist()
+    first, last = _as_written(start), _as_written(end)
+    values: list[float] = _evenly(first, (last - first) / count, count).tolist()
     values[-1] = end
     return values
+
+
+def _as_written(value: float) -> np.longdouble:
+    """A real to more digits than it has: 0.1 and not the nearest double."""
+    return np.longdouble(repr(float(value)))
+
+
+def _evenly(first: np.longdouble, step: np.longdouble, count: int) -> FloatArray:
+    """Reals behind the first, the doubles nearest to what is written: 0.3 behind 0.1 and 0.2."""
+    return (first + step * np.arange(1, count + 1)).astype(float)
 
 
 def _geometric_steps(start: float, step: float, end: float, ratio: float) -> list[float]:
