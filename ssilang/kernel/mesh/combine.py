@@ -1,6 +1,7 @@
 """Meshes as sets of cells: union, intersection, symmetric difference, duplicates."""
 
 from collections.abc import Callable, Sequence
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +46,39 @@ def union(*meshes: Mesh, as_given: bool = False) -> Mesh:
                 if not as_given and _continues(block, mine):
                     pair = (block, mine)
                 blocks[block.cell_type] = join_blocks(pair)
-        result = Mesh(result.nodes, tuple(b for b in blocks.values() if len(b)))
+        made = tuple(b for b in blocks.values() if len(b))
+        result = Mesh(result.nodes, made, _outer_sides(result, other) if len(made) == 1 else ())
     return result
+
+
+def _outer_sides(first: Mesh, second: Mesh) -> tuple[Mesh, ...]:
+    """Sides of two surfaces of four sides that have one in common, none of others.
+
+    Side 1 faces the common one in the first, side 3 in the second; the lateral ones go on.
+    """
+    if not len(first.sides) == len(second.sides) == 4:
+        return ()
+    mine, other = ([_along(s) for s in m.sides] for m in (first, second))
+    for i, j in product(range(4), range(4)):
+        if mine[i] and mine[i] in (other[j], other[j][::-1]):
+            break
+    else:
+        return ()
+    right, left = (first.sides[(i + k) % 4] for k in (3, 1))
+    on = [(j + 1) % 4, (j + 3) % 4]
+    if not {mine[(i + 3) % 4][0], mine[(i + 3) % 4][-1]} & {other[on[0]][0], other[on[0]][-1]}:
+        on.reverse()
+    after, before = (second.sides[k] for k in on)
+    facing = first.sides[(i + 2) % 4], second.sides[(j + 2) % 4]
+    return facing[0], union(right, after), facing[1], union(before, left)
+
+
+def _along(side: Mesh) -> list[int]:
+    """Nodes of a line of one block in order."""
+    if len(side.blocks) != 1:
+        return []
+    table = side.blocks[0].connectivity
+    return [*table[:, :-1].ravel().tolist(), int(table[-1, -1])]
 
 
 def gathered(meshes: Sequence[Mesh]) -> Mesh:
