@@ -219,7 +219,7 @@ def _of_loads(
             seen = zone_field(zone, value)
             if len(seen.names) != 1:
                 raise call.error("operators.statics.pressure-has-one-component", value)
-            values = seen.raw(seen.names[0])[0]
+            values = seen.at(seen.names[0], "NOEUD")
         else:
             values = np.full((len(zone.cells), 1), float(value))
         blocks.append(zone.block({label: values}, "NOEUD"))
