@@ -36,7 +36,7 @@ def enve(
     if mesh.blocks and mesh.dimension < 2:
         call.warn("operators.mesh.no-volume", mesh)
     if mesh.dimension < 3:
-        skin = boundary.lone_cells(mesh)
+        skin = boundary.lone_cells(mesh, mesh.dimension)
     else:
         faces = boundary.envelope(orientation.orient(mesh, 3) if inwards else mesh)
         skin = Mesh(faces.nodes, tuple(orientation.flip(b) for b in faces.blocks))
