@@ -24,11 +24,11 @@ server get a process of their own, since its tests speak to a server that import
 `--ran DATA` asks the suite itself. DATA is what coverage kept of a run of it, with a context a test
 (`pytest --cov --cov-context=test`): of tests, those that ran the lines are tried (first those that
 ran what fewest did, of an `if` what stands in it) and those near that DATA, being older, does not
-know; a line that none ran is a survivor. Where `SHARED` or fewer ran them, others may use what
-these made and kept (caches, fixtures of a session): behind them all tests of their files and the
-nearest are tried. Compiled functions are not seen that way, nor what only an import runs: these
-stay with the nearest. DATA of an earlier state of the project serve with `--of COMMIT`: lines are
-looked up where they stood then, and what is newer stays with the nearest.
+know. Where `SHARED` or fewer ran them, others may use what these made and kept (caches, fixtures of
+a session): behind them all tests of their files and the nearest are tried. Compiled functions are
+not seen that way, nor what only an import or a child of a test runs: these stay with the nearest.
+DATA of an earlier state of the project serve with `--of COMMIT`: lines are looked up where they
+stood then, and what is newer stays with the nearest.
 
 mutmut keeps all mutants of a function in one file behind a switch, where compiled code would keep
 the first that ran and whatever it calls would be compiled anew; cosmic-ray changes tokens and has
@@ -676,13 +676,11 @@ def try_all(
             others = [f for f in tests if f not in own]
             tests = [*(f for f in tests if f in own), *sorted(own - set(tests)), *others]
         idle = none
-        if data and ran is not None and not 0 < len(ran) <= SHARED:
+        if data and ran and len(ran) > SHARED:
             idle = data.known - ran
         reason = same.get((fault.path, fault.old.strip(), fault.new.strip()))
         if reason or not fault.source() or not tests:
             tell(fault, f"equivalent: {reason}" if reason else "gone" if tests else NONE)
-        elif data and not data.commit and ran is not None and not own:
-            tell(fault, "passed: no test runs it")
         else:
             words = frozenset(re.findall("[a-z]+", fault.path[len("ssilang/") : -len(".py")]))
             words |= {name.lower() for name in callers.names(fault) if name.isupper()}

@@ -40,6 +40,18 @@ def remembered(name: str, state: str, make: Callable[[], Any]) -> Any:
     return json.loads(text)[1]  # as it will be read: tuples are lists
 
 
+def tables_of(path: Path) -> Any:
+    """What a file of TOML holds; only the first start after a change of it takes the text apart."""
+
+    def read() -> Any:
+        import tomllib
+
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+
+    found = path.stat()
+    return remembered(path.name, f"{found.st_mtime_ns} {found.st_size}", read)
+
+
 def _keep(path: Path, text: str) -> None:
     """Write the file whole or not at all; where that fails it is made each time."""
     part = path.with_suffix(f".{os.getpid()}")

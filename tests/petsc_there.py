@@ -9,8 +9,13 @@ from pathlib import Path
 
 COMMAND = os.environ.get("SSILANG_TEST_PETSC", "mpirun -n 2 /usr/bin/python3")
 DEBIAN = "/usr/lib/petscdir/petsc*/*-real/lib/python3/dist-packages"
-# a machine for tests may have one core, and be used by its root alone
-MPI = {"OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+# a machine for tests may have one core, and be used by its root alone; Open MPI leaves the others a
+# second to end when a rank is lost
+MPI = {
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_odls_base_sigkill_timeout": "0",
+}
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 

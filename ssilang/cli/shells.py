@@ -2,7 +2,10 @@
 
 import argparse
 from collections.abc import Callable
+from pathlib import Path
 from typing import TextIO
+
+from ssilang.remembered import tables_of
 
 ENDINGS = ("ssi", "dgibi")
 """Of scripts, which are offered before other files."""
@@ -60,64 +63,22 @@ def options_of(parser: argparse.ArgumentParser) -> Options:
 
 def _bash(options: Options, commands: dict[str, str]) -> str:
     cases = "\n".join(f'    {name}) options="{" ".join(o)}" ;;' for name, o in options.items())
-    return f"""\
-# ssilang completion bash > ~/.local/share/bash-completion/completions/ssilang
-_ssilang() {{
-  local current="${{COMP_WORDS[COMP_CWORD]}}" command="${{COMP_WORDS[1]}}" options=""
-  case "$command" in
-{cases}
-  esac
-  COMPREPLY=()
-  if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "{" ".join(commands)}" -- "$current"))
-  elif [ "$command" = help ] && [ "${{current#-}}" = "$current" ]; then
-    COMPREPLY=($(compgen -W "$(ssilang completion words)" -- "${{current^^}}"))
-    return
-  fi
-  if [ "${{current#-}}" != "$current" ]; then
-    COMPREPLY=($(compgen -W "$options" -- "$current"))
-    return
-  fi
-  local file
-  while IFS= read -r file; do
-    case "$file" in {" | ".join(f"*.{e}" for e in ENDINGS)}) COMPREPLY+=("$file") ;;
-      *) [ -d "$file" ] && COMPREPLY+=("$file/") ;;
-    esac
-  done < <(compgen -f -- "$current")
-}}
-complete -o nospace -F _ssilang ssilang
-"""
+    scripts = " | ".join(f"*.{e}" for e in ENDINGS)
+    return _filled("bash", cases=cases, commands=" ".join(commands), scripts=scripts)
 
 
 def _zsh(options: Options, commands: dict[str, str]) -> str:
     described = "\n".join(f"    {_quoted(f'{n}:{_plain(h)}')}" for n, h in commands.items())
     told = {n: (_quoted(f"{o}[{_plain(h)}]") for o, h in own.items()) for n, own in options.items()}
     cases = "\n".join(f"    {name}) options=({' '.join(all_)}) ;;" for name, all_ in told.items())
-    return f"""\
-#compdef ssilang
-# ssilang completion zsh > a folder of $fpath, as _ssilang
-_ssilang() {{
-  local -a commands options
-  commands=(
-{described}
-  )
-  local scripts='*.({"|".join(ENDINGS)})'
-  if (( CURRENT == 2 )); then
-    _describe command commands
-    _files -g "$scripts"
-    return
-  fi
-  case "$words[2]" in
-{cases}
-  esac
-  if [[ "$words[2]" == help && "$PREFIX" != -* ]]; then
-    compadd -M 'm:{{a-z}}={{A-Z}}' -- ${{(f)"$(ssilang completion words)"}}
-  else
-    _arguments -s $options "*:file:_files -g \\"$scripts\\""
-  fi
-}}
-_ssilang "$@"
-"""
+    return _filled("zsh", cases=cases, commands=described, endings="|".join(ENDINGS))
+
+
+def _filled(shell: str, **parts: str) -> str:
+    text: str = tables_of(Path(__file__).with_suffix(".toml"))[shell]
+    for name, part in parts.items():
+        text = text.replace(f"@{name}@", part)
+    return text
 
 
 def _fish(options: Options, commands: dict[str, str]) -> str:

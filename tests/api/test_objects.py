@@ -12,6 +12,8 @@ from together import together
 
 import ssilang
 import ssilang.api
+from ssilang.api.html import html_of
+from ssilang.kernel.curves.curve import Curve
 
 
 def exact(t):
@@ -55,6 +57,19 @@ def test_what_is_not_there_is_refused_with_what_is_near(swing, asked, said):
     with pytest.raises(ssilang.Error) as caught:
         swing.history(*asked)
     assert said in str(caught.value)
+
+
+@together("tables, said", [(0, "no table of results"), (1, ""), (2, "T1 and T2")])
+def test_results_that_are_meant_are_the_only_ones(tables, said):
+    text = "T{0} = TABL ; T{0} . 'TEMPS' = TABL ; T{0} . 'TEMPS' . 0 = 0. ; "
+    for word in ("DEPLACEMENTS", "VITESSES"):
+        text += f"T{{0}} . '{word}' = TABL ; T{{0}} . '{word}' . 0 = MANU 'CHPO' P 1 'UX' 7. ; "
+    r = ssilang.run("OPTI DIME 2 ; P = 1. 0. ; " + "".join(map(text.format, (1, 2)[:tables])))
+    if not said:
+        assert r.history("DEPL", "UX", "P").y.tolist() == [7.0]
+        return
+    with pytest.raises(ssilang.Error, match=said):
+        r.history("DEPL", "UX", "P")
 
 
 def test_two_nodes_at_one_place_are_told_apart():
@@ -263,6 +278,15 @@ def test_views_give_numbers_in_their_own_order():
     with pytest.raises(ssilang.Error, match="component"):
         r["C"].values("Q", 2)
     assert r["R"].tolist() == [3.0, -1.25]
+    assert r.evaluate("S POIN 'PROC' (4. 0.)").node == 3
+    alone = r.evaluate("MANU 'CHML' (MODE (MANU 'TRI3' (0. 0.) (1. 0.) P) 'MECANIQUE') 'A' 2.")
+    assert {*alone.mesh.cells} == {"TRI3"}
+    assert html_of(Curve(())) == ""
+    html = r._repr_html_()
+    assert f"{r.seconds:.2f} s</th>" in html
+    rows = re.findall("<tr><td>(.*?)</td><td>(.*?)</td></tr>", html)
+    assert [name for name, _ in rows] == list(r)
+    assert (dict(rows)["P"], dict(rows)["E"]) == ("POINT", "EVOLUTIO")
     assert ssilang.api.objects.held(Path("a") / "b") == "a/b"
 
 
@@ -305,6 +329,9 @@ def test_views_of_mixed_data_keep_what_belongs_together():
     html = r["T"]._repr_html_()
     assert re.findall("<td>(.*?)</td>", html)[14:18] == ["8", "64", "13", "169"]
     assert "... 4 ..." in html
+    shown = re.findall("<td>(.*?)</td>", r.evaluate("U / 3.")._repr_html_())
+    assert shown[:6] == ["3", "4", "0", "0", "1.66667", "-0.333333"]
+    assert shown[6:] == ["4", "4", "2", "0", "", "0.666667", "6", "7", "0", "0", "1", ""]
 
 
 def test_results_by_hand_are_in_the_order_of_time():

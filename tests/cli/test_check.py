@@ -84,6 +84,7 @@ def errors(source: Source) -> list[str]:
         ("L = MOTS 'UX' ; M = EXTR L 1 ; X = M EGA 'UX' ; MESS X ;", "unread-operator"),
         ("L = MOTS 'UX' ; X = EXTR L 1 EGA 'UX' ; MESS X ;", "unread-operator"),
         ("SI FOO ; FINSI ;", "unknown-operator"),
+        ("X = ((ABSENT ET 1) . 'A') ; MESS X ;", "unread-operator"),
     ],
 )
 def test_finds(text, code):
@@ -342,6 +343,7 @@ def test_an_operator_out_of_scope_is_named_with_its_subject():
         "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
         f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
         "X = 0. ; T = TABL ; SI (X > 0.) ; T . 'REDUCTION' = X ; FINSI ; DYNAMIC T ;",
+        "REPE B 2 ; SI (&B EGA 2) ; Y = XYZ + 1. ; MESS Y ; FINSI ; REST ; FIN B ;",
     ],
 )
 def test_raises_no_false_alarm(text):
@@ -410,6 +412,7 @@ _CURVE = "(PROG 1. 2.) {} (PROG 3. 4.) ; LIST E ; "
         "U = MANU CHML S EIXX 1. GIXY 2. ; LIST U ;",
         "ROSE1 = 1. ; MESS ROSE1 ; T = S COUL ROSE ; LIST T ; OPTI COUL VERT ;",
         "OPTI MODE PLAN GENE ; B = BLOQ RX UZ RY (S POIN 1) ; LIST B ;",
+        "NOTRON = 3. ; L = MOTS NORTON ; MESS L NOTRON ;",
     ],
 )
 def test_words_of_operators_are_no_misspelt_names(text):

@@ -91,7 +91,10 @@ MASS_ON_A_SPRING = OSCILLATOR + "T2 = DYNAMIC T1 ;\n"
 def test_verbose_runs_say_by_which_method_motions_are_calculated(ssilang, script):
     deck = script(MASS_ON_A_SPRING)
     assert "compiled" not in ssilang("run", deck).err
-    assert "DYNAMIC: compiled, all modes: linear but" in ssilang("run", deck, "-v").err
+    said = ssilang("run", deck, "-v").err
+    told = [line[:11] for line in said.split("\n")]
+    assert told == ["DYNAMIC: co", "0 files in ", ""]
+    assert "DYNAMIC: compiled, all modes: linear but" in said
     assert (
         "DYNAMIC: compilé, tous les modes : linéaire"
         in ssilang("run", deck, "-v", "--lang", "fr").err

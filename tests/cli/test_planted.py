@@ -133,7 +133,7 @@ def test_the_second_compiler(folder: Path) -> None:
     code = (
         "import time; from ssilang.kernel.base.compiled import beside, ALLOWED; "
         "ALLOWED.add('beside'); beside.free_cores = lambda: 2; beside.BESIDE._start(); "
-        "time.sleep(2.0); assert beside.BESIDE._process.poll() is None"
+        "time.sleep(1.0); assert beside.BESIDE._process.poll() is None"
     )
     done = start(folder, sys.executable, "-P", "-c", code, PYTHONPATH="")
     assert ran(folder) == []

@@ -18,7 +18,8 @@ def test_starters_are_listed_written_and_never_replaced(ssilang, tmp_path):
     assert listed.code == 0
     assert [line.split()[0] for line in listed.out.splitlines()] == sorted(starters())
     deck = tmp_path / "mine.ssi"
-    assert ssilang("new", "oscillator", str(deck)).code == 0
+    made = ssilang("new", "oscillator", str(deck))
+    assert (made.code, str(deck) in made.out) == (0, True)
     assert deck.read_bytes() == starters()["oscillator"].read_bytes()
     deck.write_text("mine")
     again = ssilang("new", "oscillator", str(deck))

@@ -12,11 +12,12 @@ import meshio
 import numpy as np
 import pytest
 from PIL import Image, ImageSequence
+from pyvista import Plotter
 from script_runs import ran
 
 from ssilang.cli.main import main
 from ssilang.io.errors import InputError
-from ssilang.io.viewer import Series, Wish, chosen_file, draw
+from ssilang.io.viewer import Series, Wish, _common_range, chosen_file, draw
 from ssilang.system import CAN_FORK
 from tests.report.test_strangers_folder import grid_of
 from tests.windows import needs_window
@@ -101,12 +102,30 @@ def test_components_have_their_names(results: Path, tmp_path: Path) -> None:
 
 
 @needs_window
-def test_a_gif_holds_all_instants(results: Path, tmp_path: Path, small: None) -> None:
+def test_a_gif_holds_all_instants(
+    results: Path, tmp_path: Path, small: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(Plotter, "add_text", lambda self, text, **how: said.append(text))
     draw(results / "one", tmp_path / "x.gif", Wish())
     with Image.open(tmp_path / "x.gif") as movie:
         frames = [np.asarray(f.convert("L"), dtype=float) for f in ImageSequence.Iterator(movie)]
     assert len(frames) == 3
     assert np.abs(frames[0] - frames[2]).max() > 60
+    assert said == [f"beam.vtkhdf   t = 0.{k}   x 10" for k in (1, 2, 3)]
+    draw(results / "one", tmp_path / "x.gif", Wish(scale=0.0))
+    assert said[3:] == [f"beam.vtkhdf   t = 0.{k}" for k in (1, 2, 3)]
+    with Image.open(tmp_path / "x.gif") as movie:
+        frames = [np.asarray(f.convert("RGB"), float) for f in ImageSequence.Iterator(movie)]
+    yellow = [(f[60:, :250, :2].min(axis=2) > f[60:, :250, 2] + 150.0).any() for f in frames]
+    assert yellow == [False, False, True]  # where the largest value of all instants is
+
+
+def test_colours_of_instants_have_a_common_range() -> None:
+    """Of numbers alone: an instant may have none, and pictures have colours of their own."""
+    values = [np.array([1.0, np.nan, 3.0]), None, np.full((2, 3), 9.0), np.array([-2.0])]
+    assert _common_range(values) == (-2.0, 3.0)
+    assert _common_range([None, np.array([np.nan])]) is None
 
 
 @needs_window

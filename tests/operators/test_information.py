@@ -1,12 +1,14 @@
 """INFO, NOTI, AIDE, SOUC, DATE."""
 
+import time
 from datetime import datetime
 from types import SimpleNamespace
 
 from script_runs import ran
 from together import together
 
-from ssilang.cli.run import run_text
+from ssilang.cli.run import execute, run_text
+from ssilang.language.text.source import Source
 from ssilang.operators.session import clock
 
 
@@ -55,6 +57,26 @@ def test_calls_of_operators_are_counted_from_zero_on(tmp_path):
     counts = [line.split() for line in result.output.splitlines()]
     assert counts == [["PROG", "1"], ["TEMP", "2"], ["LECT", "3"]]
     assert result.session.root.find("X") >= 0
+
+
+def test_processor_time_counts_from_the_start_of_the_process(tmp_path):
+    before = time.process_time()
+    used = ran("X = TEMP 'CPU' ;", tmp_path).session.root.find("X") / 1000.0
+    assert before - 1e-3 <= used <= time.process_time() + 1e-3
+
+
+def test_clocks_count_from_the_start_from_zero_and_from_the_last_call(monkeypatch, tmp_path):
+    session = ran("", tmp_path).session
+    wall, cpu = iter([2.0, 2.5, 3.0, 10.0, 10.5, 12.0]), iter([1.0, 5.0, 7.0, 7.2, 7.5, 9.0])
+    ticks = {"perf_counter": lambda: session.started + next(wall), "process_time": cpu.__next__}
+    monkeypatch.setattr(clock, "time", SimpleNamespace(**ticks))
+    said = "A = TEMP 'HORL' ; B = TEMP 'CPU' ; TEMP 'ZERO' ; C = TEMP 'HORL' ; D = TEMP 'CPU' ;"
+    execute(session, Source("said", said + " T = TEMP 'NOEC' ;"))
+    assert [session.root.find(n) for n in "ABCD"] == [2000, 5000, 7000, 500]
+    table = [session.root.find("T").get(n) for n in ("TEMPS_HORLOGE", "TEMPS_CPU")]
+    assert [(t.get("INITIAL"), t.get("DERNIER_APPEL")) for t in table] == [
+        (12000, 1500), (9000, 1500)
+    ]  # fmt: skip
 
 
 def test_assi_runs_the_phrase_that_follows(tmp_path):

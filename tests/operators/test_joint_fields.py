@@ -33,15 +33,18 @@ def test_coordinates_of_the_points_of_joints(found, statement):
 
 def test_open_points_are_found(found):
     """The upper side turned about (0, 0) by 0.1 and pushed down by 0.15: open where x > 1.5."""
-    points, x, gap, cells, direct = found(
+    points, x, gap, cells, direct, off = found(
         JOINT + "U = NOMC 'UY' ((0.1 * (COOR 1 L2)) - 0.15) ; E = EPSI M U ; "
         "P = EXCO 'DRN' (CHAN 'CHPO' M E 'SUPP') 'SCAL' ; O = P POIN 'SUPERIEUR' 0. ; "
         "N = NBNO O ; X = MINI (COOR 1 O) ; G = MAXI P ; "
         "C = NBEL (E ELEM 'SUPERIEUR' 0. 'AVEC' (MOTS 'DRN')) ; "
-        "D = NBNO (E POIN 'SUPERIEUR' 0. 'AVEC' (MOTS 'DRN')) ;",
-        "N", "X", "G", "C", "D",
+        "D = NBNO (E POIN 'SUPERIEUR' 0. 'AVEC' (MOTS 'DRN')) ; "
+        "Q = EXCO 'DRN' (CHAN 'CHPO' M E) 'SCAL' ; "
+        "R = MAXI (Q - ((0.1 * (COOR 1 J)) - 0.15)) 'ABS' ;",
+        "N", "X", "G", "C", "D", "R",
     )  # fmt: skip
     assert points == direct == 3
     assert x == pytest.approx(GAUSS[3])
     assert gap == pytest.approx(0.1 * GAUSS[-1] - 0.15)
     assert cells == 2
+    assert off < 1e-14

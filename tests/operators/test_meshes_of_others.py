@@ -11,6 +11,8 @@ from meshio import _mesh
 from together import together
 
 from ssilang.cli.run import RunOptions, RunResult, run_file
+from ssilang.io.errors import InputError
+from ssilang.io.mesh_files import abaqus
 from ssilang.kernel.mesh.changes.degree import middle_places
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.values import Table
@@ -251,6 +253,27 @@ def test_an_abaqus_deck_that_is_not_read_says_why(
     (tmp_path / "m.inp").write_text(ABAQUS.replace(old, new))
     (tmp_path / "more.inc").write_text("*NSET, NSET=top\n3, 4, 6\n")
     assert said in run("OPTI DIME 2 ; T = LIRE 'm.inp' ;", tmp_path).message
+
+
+@together("most, last, said", [
+    ((5, 0), 2, ""), ((4, 0), 2, r"\*ELSET near"), ((0, 2), 2, ""), ((0, 1), 2, r"\*ELSET near"),
+    ((9, 9), 3, ""), ((9, 9), 4, "FAR, GENERATE"),
+])  # fmt: skip
+def test_members_of_sets_are_counted(
+    most: tuple[int, int], last: int, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two of one set, and again with one more in the set that names it: five, of three nodes."""
+    monkeypatch.setattr(abaqus, "_MOST", most)
+    rows = ["*NODE", "1,", "2, 1.", "3, 2.", "*NSET, NSET=near", "FAR", "3"]
+    rows += ["*NSET, NSET=far, GENERATE", f"1, {last}"]
+    (tmp_path / "m.inp").write_text("\n".join(rows))
+    if said:
+        with pytest.raises(InputError, match=said):
+            abaqus.read_abaqus(tmp_path / "m.inp", Path)
+    else:
+        found = abaqus.read_abaqus(tmp_path / "m.inp", Path)
+        nodes = {name: part.nodes.tolist() for name, part in found.parts.items()}
+        assert nodes == {"near": [0, 1, 2], "far": [0, 1, 2][:last]}
 
 
 # ---- out and back --------------------------------------------------------------------------------

@@ -7,8 +7,9 @@ import pytest
 from script_runs import failed, ran
 from together import together
 
+from ssilang.kernel.plasticity.following import Split
 from ssilang.language.say.diagnostics import sentence
-from ssilang.operators.statics.path_following import ends_of, strain_points
+from ssilang.operators.statics.path_following import AutomaticControl, ends_of, strain_points
 
 ES, HEIGHT, SPAN = 2.1e11 * 0.05, 1.0, 10.0
 TRUSS = """
@@ -87,6 +88,18 @@ def test_greatest_strain_controls_where_the_script_has_no_autopilo(tmp_path):
     strain = np.maximum(fall, np.abs(fall - elastic)) * HEIGHT / 101.0
     np.testing.assert_allclose(strain[:-1], 1e-3, rtol=1e-6)
     assert factors.min() < -1.9
+
+
+def test_a_norm_that_is_another_backwards_is_met_both_ways():
+    class Lopsided(AutomaticControl):
+        def _norm(self, total, elastic):
+            return max(total[0], -3.0 * total[0])
+
+    none, unit = np.zeros(1), np.ones(1)
+    control = Lopsided(None, None, 0.6, lambda: unit, None)
+    for known in (0.0, 0.06):
+        found = control(Split(none, known * unit, none, unit), 0.5)
+        assert found == pytest.approx([0.3 - known, -0.1 - known])
 
 
 def test_one_step_in_so_many_is_saved_and_a_path_too_long_ends_with_a_warning(tmp_path):
@@ -198,6 +211,27 @@ def test_where_a_strain_is_never_reached_it_is_the_least_of_the_greatest(seed):
     assert ends_of(a, b, least - 0.5 * size) == pytest.approx([meet[greatest.argmin()]])
     for x in ends_of(a, b, least + 0.5 * size):
         assert (a + x * b).max() == pytest.approx(least + 0.5 * size)
+
+
+@together(
+    "norm, known, wanted",
+    [
+        (lambda v: 2.0 * v[0] - v[1], [0.0, 0.0], [0.5]),
+        (lambda v: 2.0 * v[0] - v[1], [0.2, 0.3], [0.45]),
+        (lambda v: np.abs(v).max(), [0.0, 0.0], [1.0, -1.0]),
+        (lambda v: np.abs(v).max(), [0.2, 0.3], [1.3, -0.7]),
+    ],
+)
+def test_a_norm_that_changes_its_sign_has_one_step_and_another_two(norm, known, wanted):
+    class Control(AutomaticControl):
+        def _norm(self, total, elastic):
+            return norm(total) + 0.0 * elastic[0]
+
+    control = Control(None, None, 2.0, lambda: np.array([7.0]), None)
+    split = SimpleNamespace(
+        du=np.array(known) - 1.0, rest=np.ones(2), unit=np.array([0.5, -1.0]), x=4.0
+    )
+    assert control(split, 0.5) == pytest.approx(wanted)
 
 
 def test_strains_of_a_zone_alone_control_where_a_zone_is_given(tmp_path):

@@ -26,7 +26,7 @@ from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.language import vocabulary
 from ssilang.language.registry import find_operator, keywords_of
 from ssilang.language.say.reference import operator_page, page_text
-from ssilang.language.vocabulary.examples import EXAMPLES, example
+from ssilang.language.vocabulary.examples import example, examples
 from ssilang.language.vocabulary.terms import UNITS, Option, Quantity, Range
 from ssilang.messages.message import teller
 from ssilang.operators.loader import load_operators
@@ -141,9 +141,9 @@ def test_one_meaning_has_one_unit_in_each_zone():
     assert words.parameter("PHI", slips).unit == "deg"
 
 
-@together("key", EXAMPLES)
+@together("key", examples())
 def test_examples_run(key, tmp_path):
-    ran(EXAMPLES[key], output_directory=tmp_path)
+    ran(examples()[key], output_directory=tmp_path)
 
 
 @together("kind", ["law", "element"])

@@ -276,6 +276,7 @@ def test_intensities_are_those_known_else_what_was_swept(tmp_path):
 @pytest.mark.parametrize("record", ["MOTION", "SEED"])
 def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path, monkeypatch, record):
     """A number may choose the record, too: PGA stays then, other intensities do not."""
+    at = int(record != "MOTION")  # the second footing's
     rng = np.random.default_rng(6)
     rows, spectra = suite(n=5, scales=[2, 1]), rng.lognormal(size=(10, 4))
     for number, row in enumerate(rows):
@@ -291,11 +292,13 @@ def test_floor_spectra_are_fractiles_of_the_runs_by_what_was_set(tmp_path, monke
         verdict = {"area": 1.0, "capacity": None, "friction": None, "peaks": {}, "left": {}}
         told = {"version": "", "deck": "", "seconds": 1.0, "files": [], "figures": [],
                 "warnings": [], "errors": [],
-                "statistics": {"verdicts": [{**verdict, "floors": [floor]}]}}  # fmt: skip
+                "statistics": {"verdicts": [{**verdict, "floors": [floor] * (k == at)}
+                                            for k in range(at + 1)]}}  # fmt: skip
         (folder / "summary.json").write_text(json.dumps(told))
     (tmp_path / "runs" / "r10" / "summary.json").write_text("{")
     (chart,) = floor_charts(made, TOLD)
     assert "1 run at other frequencies left out" in chart.title
+    assert ("footing 2" in chart.title) == bool(at)
     lines = {line.name: line.y for line in chart.lines}
     assert list(lines) == [
         "AG = 2, median of 4", "AG = 2, 16 %", "AG = 2, 84 %",

@@ -17,7 +17,7 @@ from ssilang.cli.run import write_report
 from ssilang.io.atomic import inside
 from ssilang.report import scenes
 from ssilang.report.page import page_of
-from ssilang.report.results import read_results
+from ssilang.report.results import read_results, tables_of
 from ssilang.system import CAN_FORK
 from tests.report.test_report_file import Sections, page
 
@@ -311,6 +311,28 @@ def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> Non
     put(tmp_path, whole(rocking), rocking)
     (tmp_path / "top.csv").write_text('a;b\n1;"' + "2" * 200_000)
     assert read_results(tmp_path).tables == {}
+    (tmp_path / "up.csv").write_text("a;b\n1;2\n3;4")
+    (found,) = tables_of([tmp_path / n for n in ("top.csv", "top.txt", "up.csv")], []).values()
+    assert {name: column.tolist() for name, column in found.items()} == {"a": [1, 3], "b": [2, 4]}
+
+
+def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path: Path) -> None:
+    pa, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    given = {
+        "x": {"t": [1, 2], "b": [0.5, -3.5]},
+        "v": {"t": [1, 2]},
+        "y": {"t": [1], "b": [2.5]},
+        "z": {"t": [1, 2], "b": ["c", "d"]},
+    }
+    for name, columns in given.items():
+        parquet.write_table(pa.table(columns), tmp_path / f"{name}.parquet")
+    (tmp_path / "cut.parquet").write_bytes((tmp_path / "x.parquet").read_bytes()[:-9])
+    paths, unread = [tmp_path / f"{n}.parquet" for n in ("v", "y", "z", "cut", "gone", "x")], []
+    found = tables_of(paths, unread)
+    assert unread == ["cut.parquet", "gone.parquet"]
+    shown = {n: {k: v.tolist() for k, v in columns.items()} for n, columns in found.items()}
+    assert shown == {"x.parquet": given["x"]}
+    assert [*shown["x.parquet"]] == ["t", "b"]
 
 
 @together("name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"])

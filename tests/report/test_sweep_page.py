@@ -17,7 +17,7 @@ from ssilang.cli.sweeping.histories import join_histories
 from ssilang.cli.sweeping.pool import run_alone
 from ssilang.cli.sweeping.sweep import SweepOptions, sweep
 from ssilang.report import sweep_page
-from ssilang.report.sweep_table import read_sweep
+from ssilang.report.sweep_table import KEPT, edited, read_sweep
 
 DECK = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; AG = 1. ; NAME = 'a' ;
@@ -128,6 +128,9 @@ def test_an_edited_table_is_told(made, tmp_path):
     table.write_text(table.read_text("utf-8").replace(was, "9876.5", 1), "utf-8")
     assert main(["report", str(folder)]) == 0
     assert "1 row of sweep.csv (1) is not what the run reported" in page.read_text("utf-8")
+    rows = read_sweep(folder).rows
+    (folder / "runs" / rows[1]["folder"] / KEPT).write_text("{}")
+    assert edited(read_sweep(folder)) == [rows[0]["run"], rows[1]["run"]]
 
 
 def test_a_run_from_python_has_its_page():

@@ -28,7 +28,11 @@ def ordinates(row, name):
 
 
 BY_BASIS = "T . 'BASE_MODALE' = B1 ; T . 'GYROSCOPIQUE' = G1 ;"
-PROJECTED = "T . 'BASE_MODALE' = B1 ; T . 'GYRO_PROJ' = PJBA B1 G1 ;"
+PROJECTED = (
+    "T . 'BASE_MODALE' = B1 ; T . 'GYRO_PROJ' = 0.75 * (PJBA B1 G1) ; "
+    "T . 'CORI_PROJ' = 0.25 * (PJBA B1 G1) ; T . 'MASS_PROJ' = PJBA B1 M1 ; "
+    "T . 'RIGI_PROJ' = PJBA B1 K1 ; T . 'MASSE' = 9. * M1 ; T . 'RIGIDITE' = 9. * K1 ;"
+)
 AT_EACH_SPEED = "T . 'NMODES' = 2 ; T . 'FREQ_PROCHE' = 1. ; T . 'GYROSCOPIQUE' = G1 ;"
 
 
@@ -44,7 +48,8 @@ def test_gyroscopic_coupling_splits_the_frequencies(way):
         np.testing.assert_allclose(ordinates(row, "FREQUENCE_MODULE"), np.abs(frequencies))
 
 
-def test_rotating_damping_makes_the_shaft_unstable():
+@pytest.mark.parametrize("projected", [False, True])
+def test_rotating_damping_makes_the_shaft_unstable(projected):
     """With damping c and the circulation w c, decay turns to growth above w = sqrt(k/m)."""
     script = (
         DISC
@@ -52,7 +57,12 @@ def test_rotating_damping_makes_the_shaft_unstable():
         + (
             "C1 = 0.004 ; T . 'AMORTISSEMENT' = CHAN 'TYPE' (K1 * C1) 'AMORTISS' ;"
             f"T . 'KROTATIF' = MANU 'RIGI' P1 N 'ANTI' (PROG 0. {0.004 * STIFFNESS} 0.) ;"
-            "CAMPBELL T (PROG 0. 19. 21.) ;"
+            + projected
+            * (
+                "T . 'AMOR_PROJ' = PJBA B1 (T . 'AMORTISSEMENT') ; "
+                "T . 'KROT_PROJ' = PJBA B1 (T . 'KROTATIF') ; T . 'KROTATIF' = 9. * K1 ; "
+            )
+            + "CAMPBELL T (PROG 0. 19. 21.) ;"
         )
     )
     least = np.min([ordinates(row, "AMORTISSEMENT") for row in rows(script)], axis=0)
@@ -60,12 +70,17 @@ def test_rotating_damping_makes_the_shaft_unstable():
     assert least[1] > 0 > least[2]
 
 
-def test_centrifugal_stiffness_goes_with_the_square_of_the_speed():
-    script = (
-        DISC
-        + AT_EACH_SPEED.replace("T . 'GYROSCOPIQUE' = G1 ;", "")
-        + ("T . 'KCENT' = K1 * -1.E-4 ; T . 'KSIGMA' = K1 * 3.E-4 ; CAMPBELL T (PROG 0. 10. 40.) ;")
-    )
+@pytest.mark.parametrize(
+    "way",
+    [
+        AT_EACH_SPEED.replace("T . 'GYROSCOPIQUE' = G1 ;", "")
+        + "T . 'KCENT' = K1 * -1.E-4 ; T . 'KSIGMA' = K1 * 3.E-4 ; ",
+        "T . 'BASE_MODALE' = B1 ; T . 'KCEN_PROJ' = PJBA B1 (K1 * -1.E-4) ; "
+        "T . 'KSIG_PROJ' = PJBA B1 (K1 * 3.E-4) ; ",
+    ],
+)
+def test_centrifugal_stiffness_goes_with_the_square_of_the_speed(way):
+    script = DISC + way + "CAMPBELL T (PROG 0. 10. 40.) ;"
     exact = np.sqrt(STIFFNESS / INERTIA * (1 + 2e-4 * SPEEDS**2)) / (2 * np.pi)
     np.testing.assert_allclose(ordinates(rows(script)[3], "FREQUENCE_REELLE"), exact)
 

@@ -66,13 +66,15 @@ def test_stresses_of_layers_are_those_of_one_bent_and_pulled_section():
              "FIBRE_MOYENNE", 1),
             ("P = (T . 'MAILLAGE_FIBRE_INFERIEURE' . 1) POIN 'PROC' (1. 0.5 1.) ; A3",
              "VOLUMIQUE", "'TOTAL'"),
+            ("P = (T . 'MAILLAGE_FIBRE_INFERIEURE' . 2) POIN 'PROC' (1. 0.5 1.) ; A4",
+             "FIBRE_INFERIEURE", 2),
         )
     )  # fmt: skip
-    top, middle, bottom = found(script, "A1", "A2", "A3")
+    top, middle, bottom, joint = found(script, "A1", "A2", "A3", "A4")
     # at the node in the middle of the length; equal nodal forces are not quite a uniform load
     n, m = 1e5, 2e4 * 1.0
-    for stress, z in ((top, 0.15), (middle, -0.1), (bottom, -0.15)):
-        assert abs(stress - n / 0.3) == pytest.approx(abs(m * z / (0.3**3 / 12)), rel=1e-2)
+    for stress, z in ((top, 0.15), (middle, -0.1), (bottom, -0.15), (joint, -0.05)):
+        assert abs(stress - n / 0.3) == pytest.approx(abs(m * z / (0.3**3 / 12)), rel=2e-2)
         assert (stress - n / 0.3) * z < 0  # lifting the end pulls the lower side
 
 
@@ -81,10 +83,12 @@ def test_motion_of_faces_is_that_of_the_shell_and_its_rotation():
         "P = (T . 'MAILLAGE_FIBRE_SUPERIEURE' . 2) POIN 'PROC' (2. 0.5 1.) ; Q = S POIN 'PROC' "
         "(2. 0.5 0.) ; X = EXTR (T . 'DEPLACEMENTS_VOLUMIQUE' . 5 . 'TOTAL') 'UX' P ; "
         "Y = EXTR U 'UX' Q ; R = EXTR U 'RY' Q ; "
+        "P = (T . 'MAILLAGE_FIBRE_MOYENNE' . 1) POIN 'PROC' (2. 0.5 0.) ; "
+        "Z = EXTR (T . 'DEPLACEMENTS_FIBRE_MOYENNE' . 5 . 1) 'UX' P ; "
     )  # fmt: skip
-    x, y, r = found(script, "X", "Y", "R")
+    x, y, r, z = found(script, "X", "Y", "R", "Z")
     assert abs(r) > 1e-6
-    assert x == pytest.approx(y + 0.15 * r, rel=1e-9)
+    assert (x, z) == pytest.approx((y + 0.15 * r, y - 0.1 * r), rel=1e-9)
 
 
 def test_relations_tie_the_solid_to_the_shell():
@@ -100,16 +104,3 @@ def test_relations_tie_the_solid_to_the_shell():
         np.testing.assert_allclose(
             y.values_at(name, ids), w.values_at(name, ids), atol=1e-9 * scale
         )
-
-
-def test_second_call_keeps_the_meshes_and_takes_new_fields():
-    script = QUADS + LOADED + CALL + (
-        "V1 = V ; D1 = T . 'DEPLACEMENTS_VOLUMIQUE' . 5 . 'TOTAL' ; "
-        "T . 'DEPLACEMENTS' . 6 = 2. * U ; V = COQ2MAS M A T ; "
-        "D2 = T . 'DEPLACEMENTS_VOLUMIQUE' . 6 . 'TOTAL' ; X = MAXI 'ABS' ((2. * D1) - D2) ; "
-        "Y = MAXI 'ABS' D2 ; "
-    )  # fmt: skip
-    first, second, x, y = found(script, "V1", "V", "X", "Y")
-    assert set(first.sorted_node_ids) == set(second.sorted_node_ids)
-    assert y > 0
-    assert x == pytest.approx(0.0, abs=1e-12 * y)

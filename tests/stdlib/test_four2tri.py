@@ -41,12 +41,15 @@ def test_fields_in_space(n, upright):
     call = f"T . 'ANGLES' = {angles} FOUR2TRI T {n} ; M = T . 'MAILLAGE_3D' ;"
     if n == 3:
         scalars = PLANE.replace("CHPO_SYME", "CHAMPS_POINTS_SYMETRIQUES")
+        scalars = scalars.replace("CHPO_ANTI", "CHAMPS_POINTS_ANTISYMETRIQUES")
         call = f"MO = MODE S1 'MECANIQUE' 'ELASTIQUE' ; M = FOUR2TRI MO T {n} {angles}"
     script = scalars + (
         f"T . 'REDRESSE' = {'VRAI' if upright else 'FAUX'} ; T . 'ELIM' = 1.E-8 ; {call}"
         "U = T . 'DEPLACEMENTS_3D' . 1 ; A = T . 'CHPO_SYME_3D' . 1 ; B = T . 'CHPO_ANTI_3D' . 1 ;"
         "H = T . 'ANGLE_3D' ;"
     )
+    if n == 3:
+        script = script.replace("T . 'CHPO_", "T . 'CHAMPS_POINTS_")
     result, points = solved(script)
     x, y, z = points.T if upright else (points[:, 0], -points[:, 2], points[:, 1])
     r, t = np.hypot(x, y), np.arctan2(y, np.where(np.hypot(x, y) > 1e-9, x, 1))

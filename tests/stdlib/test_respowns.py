@@ -11,16 +11,6 @@ MODULATION = (
 )
 
 
-def test_the_power_found_gives_the_spectrum_back():
-    script = MODULATION + (
-        "R0 = PRNS S0 MM LB LT 'TPLU' 5. 'NBIN' 4 ; T1 = TABL ; T1 . 'TTRS' = LT ;"
-        "T1 . 'TPLU' = 5. ; T1 . 'NBIN' = 4 ; T1 . 'JHAN' = 2 ; T1 . 'EMAX' = 5.E-3 ;"
-        "S1 = RESPOWNS R0 MM LB T1 ; R1 = PRNS S1 MM LB LT 'TPLU' 5. 'NBIN' 4 ;"
-    )
-    asked, made = found(script, "R0", "R1")
-    np.testing.assert_allclose(made.parts[0].ordinates, asked.parts[0].ordinates, rtol=0.03)
-
-
 def test_words_stand_in_any_order():
     script = MODULATION + (
         "A = PRNS S0 MM LB 0.02 LT 'DEPL' 'FREQ' 'NBPR' 4 'TPLU' 3. ROUG ;"

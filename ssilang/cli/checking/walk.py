@@ -19,7 +19,7 @@ from ssilang.cli.checking.usage import (
     unused_names,
 )
 from ssilang.cli.checking.words import misspelt_words
-from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import COLOURS
 from ssilang.language import vocabulary
 from ssilang.language.cast3m import cast3m_words
 from ssilang.language.registry import OPERATORS, find_operator, keywords_of

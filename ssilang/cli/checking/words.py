@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache, lru_cache
 
 from ssilang.cli.checking.usage import statements_of
-from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import COLOURS
 from ssilang.language import registry, vocabulary
 from ssilang.language.say.errors import SsiError
 from ssilang.language.search import VERY_LIKE, nearest, slips

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ssilang.io.archive.classes import NODE_FIELDS, class_named, packing_named, saved_fields
 from ssilang.io.archive.container import DAMAGES, Archive, Record
 from ssilang.io.errors import InputError
-from ssilang.io.plots.palette import NAMES
+from ssilang.io.plots.palette import COLOURS
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.mesh.cells import find_cell_type
@@ -241,7 +241,7 @@ def _cell_block(values: Mapping[str, Any]) -> str:
     if raw.ndim != 2 or raw.shape[1] != kind.n_nodes:
         return "raw"
     colours = values["colours"]
-    known = colours.shape == raw.shape[:1] and _between(colours, len(NAMES))
+    known = colours.shape == raw.shape[:1] and _between(colours, len(COLOURS))
     return "" if known else "colours"
 
 
@@ -267,7 +267,7 @@ def _curve_part(values: Mapping[str, Any]) -> str:
     x, y = values["abscissas"], values["ordinates"]
     if x.ndim != 1 or x.shape != y.shape:
         return "ordinates"
-    if not 0 <= values["colour"] < len(NAMES):
+    if not 0 <= values["colour"] < len(COLOURS):
         return "colour"
     named = ("words", "abscissa_words")
     return next((n for n in named if len(values.get(n) or x) != len(x)), "")

@@ -21,46 +21,20 @@ if TYPE_CHECKING:
     from ssilang.io.plots.stage import Stage
 
 DPI = 150
-_STYLE: dict[str, Any] = {
-    "font.family": "DejaVu Sans",
-    "font.size": 10.0,
-    "axes.titlesize": 12.0,
-    "axes.titleweight": "bold",
-    "axes.titlepad": 10.0,
-    "axes.labelsize": 10.5,
-    "axes.linewidth": 0.8,
-    "axes.edgecolor": "#4a4f57",
-    "axes.labelcolor": "#1b1f24",
-    "axes.formatter.use_mathtext": True,
-    "axes.formatter.limits": (-3, 4),
-    "xtick.color": "#4a4f57",
-    "ytick.color": "#4a4f57",
-    "xtick.direction": "out",
-    "ytick.direction": "out",
-    "xtick.labelsize": 9.0,
-    "ytick.labelsize": 9.0,
-    "grid.color": "#d5d9de",
-    "grid.linewidth": 0.6,
-    "legend.frameon": True,
-    "legend.framealpha": 0.92,
-    "legend.edgecolor": "#d5d9de",
-    "legend.fontsize": 9.0,
-    "lines.linewidth": 1.6,
-    "lines.markersize": 5.5,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "ssilang",
-}
+_STYLE = Path(__file__).with_name("pictures.mplstyle")
 
 
 def _style() -> dict[Any, Any]:
     """Settings of pictures; a `matplotlibrc` of the folder may be anybody's, and calls LaTeX."""
-    if not os.path.isfile("matplotlibrc"):
-        return _STYLE
     import matplotlib as mpl
+
+    own = mpl.rc_params_from_file(_STYLE, use_default_template=False)
+    if not os.path.isfile("matplotlibrc"):
+        return own
     from matplotlib.style.core import STYLE_BLACKLIST
 
     plain = {k: v for k, v in mpl.rcParamsDefault.items() if k not in STYLE_BLACKLIST}
-    return plain | _STYLE
+    return plain | own
 
 
 @contextmanager

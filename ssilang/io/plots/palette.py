@@ -1,6 +1,6 @@
 """Cast3M's colours: names in order of their numbers, and the shades used on white paper.
 
-A mesh or a curve holds the index into `NAMES` (0 = DEFA, black on white here). Saturated screen
+A mesh or a curve holds the index into `COLOURS` (0 = DEFA, black on white here). Saturated screen
 colours are toned so that lines and words stay readable in print; the hue is the name's.
 """
 
@@ -39,7 +39,7 @@ _SHADES: dict[str, str] = {
     "CARA": "#c4843f",
     "INDI": "#4b2a8c",
 }
-NAMES: tuple[str, ...] = tuple(_SHADES)
+COLOURS: tuple[str, ...] = tuple(_SHADES)
 
 # used one after the other where a drawing holds several curves without a colour of their own
 CYCLE: tuple[str, ...] = ("BLEU", "ROUG", "VERT", "ORAN", "VIOL", "TURQ", "BRUN", "ROSE", "GRIS")
@@ -57,9 +57,9 @@ def shade(colour: int | str, ink: bool = False) -> str:
     """
     if isinstance(colour, str):
         colour = index_of(colour)
-    if not 0 <= colour < len(NAMES):
-        raise OutputError("io.colour-number-not", colour=colour, n_names=len(NAMES) - 1)
-    return _SHADES["DEFA" if ink and NAMES[colour] == "BLAN" else NAMES[colour]]
+    if not 0 <= colour < len(COLOURS):
+        raise OutputError("io.colour-number-not", colour=colour, n_names=len(COLOURS) - 1)
+    return _SHADES["DEFA" if ink and COLOURS[colour] == "BLAN" else COLOURS[colour]]
 
 
 def index_of(name: str) -> int:
@@ -72,5 +72,5 @@ def index_of(name: str) -> int:
     """
     key = name.strip().upper()[:4]
     if key not in _SHADES:
-        raise OutputError("io.no-colour", name=name, names=NAMES)
-    return NAMES.index(key)
+        raise OutputError("io.no-colour", name=name, names=COLOURS)
+    return COLOURS.index(key)

@@ -13,7 +13,7 @@ from typing import Any
 
 from ssilang.language.search import LIKE, nearest_names
 from ssilang.language.vocabulary.terms import Option, Quantity, Unit, Word, read_range
-from ssilang.remembered import remembered
+from ssilang.remembered import tables_of
 
 __all__ = [
     "KINDS", "WORDS_OF", "Option", "Quantity", "Unit", "Word", "all_meanings", "find", "full_name",
@@ -40,17 +40,8 @@ def words(kind: str) -> tuple[Word, ...]:
     """All words of a list."""
     if kind not in KINDS:
         raise KeyError(kind)
-    path = Path(__file__).with_name(f"{kind}s.toml")
-    found = path.stat()
-    rows = remembered(f"{kind}s", f"{found.st_mtime_ns} {found.st_size}", lambda: _rows(path))
+    rows = tables_of(Path(__file__).with_name(f"{kind}s.toml"))["word"]
     return tuple(_word(kind, row) for row in rows)
-
-
-def _rows(path: Path) -> Any:
-    """The tables of a file, one a word."""
-    import tomllib
-
-    return tomllib.loads(path.read_text(encoding="utf-8"))["word"]
 
 
 def _word(kind: str, row: dict[str, Any]) -> Word:

@@ -1,6 +1,6 @@
 """Curves in EXTR DIME CHAN ORDO MAXI MINI COPI ET and in signs."""
 
-from ssilang.io.plots.palette import NAMES
+from ssilang.io.plots.palette import COLOURS
 from ssilang.kernel.curves.algebra import combined, is_complex
 from ssilang.kernel.waves.shaken import GRAVITIES
 from ssilang.operators.curves.words import CURVE, read_colour
@@ -152,8 +152,8 @@ def _between(
 
 def _colour(call: Call, curve: Curve, place: int | None) -> Mot | ListMots:
     if place is None:
-        return ListMots([NAMES[p.colour] for p in curve.parts])
-    return Mot(NAMES[numbered(call, curve, place).colour])
+        return ListMots([COLOURS[p.colour] for p in curve.parts])
+    return Mot(COLOURS[numbered(call, curve, place).colour])
 
 
 _PARTS: dict[str, Any] = {

@@ -1,6 +1,6 @@
 """TFR TFRI FILT HANN COMT TOTE FDT: signals in time and frequency."""
 
-from ssilang.io.plots.palette import NAMES
+from ssilang.io.plots.palette import COLOURS
 from ssilang.kernel.curves.algebra import complex_values, is_complex
 from ssilang.kernel.records import signals
 from ssilang.operators.curves.words import *
@@ -46,7 +46,7 @@ def tfr(
     lowest: float,
     highest: float,
     colour: str | None = COLOUR,
-    second_colour: str | None = Choice(NAMES, en="colour of the second curve"),
+    second_colour: str | None = Choice(COLOURS, en="colour of the second curve"),
 ) -> Curve:
     """Transform signals."""
     _check_power(call, power)

@@ -2,7 +2,7 @@
 
 import re
 
-from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.kernel.waves.shaken import strong_frequency
 from ssilang.operators.prelude import *
 
@@ -15,7 +15,7 @@ __all__ = [
 CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples show, they do
 CURVE = arg("curve", "EVOLUTIO", en="curves")
 RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")
-COLOUR = choice("colour", NAMES, en="colour")
+COLOUR = choice("colour", COLOURS, en="colour")
 LIMITS = (
     key(
         "lowest",
@@ -115,7 +115,7 @@ def check_together(call: Call, first: Curve, second: Curve) -> None:
 
 def read_colour(call: Call) -> int | None:
     """Index of the colour word that stands next, None if there is none."""
-    word = call.keyword(NAMES)
+    word = call.keyword(COLOURS)
     return None if word is None else index_of(word)
 
 
@@ -126,7 +126,7 @@ def read_colours(call: Call) -> list[int]:
         return [single]
     if call.operands and isinstance(call.operands[0].value, ListMots):
         words = call.operands[0].value.values
-        if words and all(w.strip().upper()[:4] in NAMES for w in words):
+        if words and all(w.strip().upper()[:4] in COLOURS for w in words):
             call.used.append(call.operands.pop(0))
             return [index_of(w) for w in words]
     return []

@@ -1,8 +1,7 @@
 """DEFO VECT ANNO: shapes, arrows and texts for TRAC; COUL of them and of curves; their unions."""
 
 from ssilang.io.plots.labels import PLACES, Annotation, Category, Tag
-from ssilang.io.plots.palette import NAMES, index_of
-from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.kernel.fields import deformed
 from ssilang.operators.dispatch import COUL, EXTR, union
 from ssilang.operators.prelude import *
@@ -222,6 +221,6 @@ def _colour(call: Call, given: str | int) -> int:
     """Index of a colour given by name, or by its number from 1 (negative: the default)."""
     if isinstance(given, str):
         return index_of(given)
-    if given > len(NAMES):
-        raise call.error("operators.drawing.colour-number", given, count=len(NAMES), given=given)
+    if given > len(COLOURS):
+        raise call.error("operators.drawing.colour-number", given, count=len(COLOURS), given=given)
     return max(given - 1, 0)

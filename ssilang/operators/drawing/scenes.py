@@ -7,8 +7,7 @@ from ssilang.io.plots.animation import animation_frames, save_animation
 from ssilang.io.plots.composition import Composition, Subjects, compose
 from ssilang.io.plots.labels import Annotation
 from ssilang.io.plots.layers import PictureOptions
-from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.io.plots.palette import index_of
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.io.plots.scene import draw_scene
 from ssilang.io.plots.values import VON_MISES
 from ssilang.io.plots.view import DEFAULT_DIRECTION, Plane, View, plane_view, view_along

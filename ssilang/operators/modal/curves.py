@@ -193,12 +193,8 @@ def _projected(call: Call, colours: list[int]) -> Curve:
 
 def _lists_before_table(call: Call) -> bool:
     """Whether a list of integers stands before the table of the basis."""
-    for operand in call.operands:
-        if isinstance(operand.value, Table):
-            return False
-        if isinstance(operand.value, ListEnti):
-            return True
-    return False
+    found = (o.value for o in call.operands if isinstance(o.value, Table | ListEnti))
+    return isinstance(next(found, None), ListEnti)
 
 
 evol.KINDS["RECO"] = _recombined

@@ -3,7 +3,7 @@
 Tables of HBM, CONTINU and HBM_POST: results asked for, curves, entries by number.
 """
 
-from ssilang.io.plots.palette import NAMES, index_of
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.kernel.continuation import expansion
 from ssilang.kernel.continuation.expansion import Names, names_of
 from ssilang.kernel.continuation.harmonics import basis_at
@@ -45,7 +45,7 @@ def _numbered(entries: Entries, index: str) -> Iterator[tuple[Entries, str]]:
 def _drawn(own: Entries, component: str) -> tuple[Table, str, int]:
     name = str(own.table.get("COULEUR") or "").strip().upper()[:4]
     title = str(own.get("TITRE") or component).rstrip()
-    return own.table, title, (index_of(name) if name in NAMES else 0)
+    return own.table, title, (index_of(name) if name in COLOURS else 0)
 
 
 def _asked(entries: Entries, own: Entries, place: str) -> Asked:

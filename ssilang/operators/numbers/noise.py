@@ -1,7 +1,6 @@
 """BRUI: random values."""
 
-from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.io.plots.palette import index_of
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.operators.prelude import *
 
 

@@ -2,8 +2,7 @@
 
 import sys
 
-from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.io.plots.palette import index_of
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC

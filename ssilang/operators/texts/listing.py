@@ -1,6 +1,6 @@
 """LIST: what objects hold, in readable lines."""
 
-from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import COLOURS
 from ssilang.language.text.tree import print_items
 from ssilang.language.values import Objet, Texte
 from ssilang.operators.dispatch import LISTINGS, listing

@@ -118,8 +118,10 @@ def test_the_command_writes_checks_and_shows(ssilang, tmp_path):
     deck.write_bytes("X=1;\r\n* caf\u00e9\r\nMESS   X;\r\n".encode("latin-1"))
     checked = ssilang("format", "--check", str(deck))
     assert (checked.code, "would be laid out" in checked.out) == (1, True)
-    shown = ssilang("format", "--diff", str(deck))
-    assert "+X = 1 ;" in shown.out
+    for words in (["--diff"], ["--check", "--diff"]):
+        shown = ssilang("format", *words, str(deck))
+        assert "+X = 1 ;" in shown.out
+        assert (shown.code, "would be laid out" in shown.out) == (1, False)
     assert deck.read_bytes().startswith(b"X=1;")
     done = ssilang("format", str(deck))
     assert done.code == 0
@@ -136,7 +138,8 @@ def test_unsound_scripts_are_refused_and_left(ssilang, tmp_path):
     assert refused.code == 1
     assert "parenthesis" in refused.err
     assert deck.read_text() == "X=(1;\n"
-    assert ssilang("format", str(tmp_path / "none.ssi")).code == 2
+    absent = ssilang("format", str(tmp_path / "none.ssi"))
+    assert (absent.code, "none.ssi" in absent.err) == (2, True)
 
 
 @pytest.mark.parametrize("depth", [300, 5_000])

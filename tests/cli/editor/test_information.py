@@ -156,11 +156,14 @@ def test_parameters_offered_are_those_of_the_model_and_say_what_is_needed():
     assert bar["RHO"].detail == "Density (kg/m3)"
     assert joint["KN"].detail.endswith("(obligatoire)")
     assert (bar["SECT"].text, bar["SECT"].kind) == ("'SECT'", "word")
+    spring = offered("S = MODE N 'IMPEDANCE' 'ELASTIQUE' ; A = MATE S '")
+    assert {"RAID", "MASS", "AMOR"} <= set(spring)
+    assert not {"YOUN", "KN"} & set(spring)
     every = offered("A = MATE X '")
     assert {"YOUN", "SECT", "KN"} <= set(every)
 
 
-def test_files_offered_are_those_of_the_folder_and_one_below(tmp_path):
+def test_files_offered_are_those_of_the_folder_and_one_below(tmp_path, monkeypatch):
     for name in ("b.csv", "a.msh", ".hidden", "in/c.at2", "in/deep/d.csv"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("")
@@ -169,6 +172,9 @@ def test_files_offered_are_those_of_the_folder_and_one_below(tmp_path):
     assert list(files) == ["a.msh", "b.csv", "in/c.at2"]
     assert files["in/c.at2"].text == "'in/c.at2'"
     assert not [c for c in offered("X = MOT '", path=tmp_path / "d").values() if c.kind == "file"]
+    monkeypatch.setattr("ssilang.cli.editor.complete._MOST_FILES", 2)
+    few = offered("X = LIRE 'FER' '", path=tmp_path / "deck.ssi").values()
+    assert [c.label for c in few if c.kind == "file"] == ["a.msh", "b.csv"]
 
 
 def test_a_name_is_offered_with_what_it_is_and_where_it_began():

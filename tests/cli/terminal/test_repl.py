@@ -164,6 +164,9 @@ def test_readline_gets_candidates_and_history(monkeypatch, tmp_path):
     assert calls["read_history_file"] == left[0][1] == tmp_path / "ssilang/history"
     assert left[0][0] is fake.write_history_file
     assert calls["set_history_length"] == 5000
+    monkeypatch.delenv("XDG_STATE_HOME")
+    monkeypatch.setattr("pathlib.Path.home", lambda: tmp_path)
+    assert repl.history_file() == tmp_path / ".local/state/ssilang/history"
     monkeypatch.setenv("XDG_STATE_HOME", "/dev/null")  # nothing can be kept
     calls.clear()
     assert repl.line_editor(offered) is input

@@ -89,6 +89,14 @@ def test_parameters_that_are_objects(tmp_path: Path) -> None:
     assert np.array_equal(back[0, 0].coordinates, [1.0, 0.0, 0.0])
 
 
+def test_scalars_of_arrays_come_back_as_those_of_python(tmp_path: Path) -> None:
+    given = {"A": np.float64(0.1), "B": np.int32(-7), "C": np.bool_(True), "D": np.str_("x")}
+    saved(tmp_path / "s", **given)
+    back = restored(tmp_path / "s", NodeTable())
+    assert back == {"A": 0.1, "B": -7, "C": True, "D": "x"}
+    assert {type(v) for v in back.values()} == {float, int, bool, str}
+
+
 def test_pickled_arrays_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "s"
     write_archive(path, [], [], [Record("", {"X": ["a", 0]})], {})

@@ -70,6 +70,7 @@ def test_two_records_of_one_file(tmp_path):
         ("# time (s)\tEW in mm\tNS (m/s2)\n0 \t1\t2\t\n0.005\t3\t-4\n0.009\t5\t6\n",
          [("DEPL", 1e-3), ("ACCE", 1.0)]),
         ("0. 1. 2\n5D-3 3. -4\n9D-3 5. 6", [("ACCE", 1.0), ("ACCE", 1.0)]),
+        ('"t";"u (cm)";vel;;\n0;1;2;\n.005;3;-4; ;\n.009;5;6', [("DEPL", 0.01), ("VITE", 1.0)]),
     ],
 )  # fmt: skip
 def test_tables_by_their_titles(tmp_path, text, columns):
@@ -78,6 +79,7 @@ def test_tables_by_their_titles(tmp_path, text, columns):
     assert [(m.quantity, m.in_si) for m in found] == columns
     assert [m.values.tolist() for m in found] == [[1, 3, 5], [2, -4, 6]]
     for motion in found:
+        assert '"' not in motion.event
         assert motion.times == pytest.approx([0, 0.005, 0.009])
 
 

@@ -177,6 +177,17 @@ def test_abaqus_deck_line_by_line(tmp_path: Path, plane: str, names: tuple[str, 
     }
 
 
+def test_points_of_a_part_are_nodes_of_an_abaqus_set(tmp_path: Path) -> None:
+    cells = {"POI1": np.array([[8], [2], [5]]), "SEG2": np.array([[0, 4]])}
+    parts = {
+        "AT": Part({"POI1": np.array([2, 0])}, np.array([1])),
+        "L": Part({"SEG2": np.array([0])}),
+    }
+    write_mesh_file(tmp_path / "m.inp", FileMesh(POINTS, cells, parts), 2, "CPE")
+    lines = (tmp_path / "m.inp").read_text().splitlines()
+    assert lines[-4:] == ['*NSET, NSET="AT"', "2, 6, 9", '*ELSET, ELSET="L"', "1"]
+
+
 @together(
     "ending, cells, part, code",
     [

@@ -13,12 +13,12 @@ from together import together
 
 from ssilang.io.plots.bands import choose_levels
 from ssilang.io.plots.cutting import nodal_means
-from ssilang.io.plots.faces import add_bands, add_faces, add_points, band_values
+from ssilang.io.plots.faces import add_bands, add_faces, add_points, add_section, band_values
 from ssilang.io.plots.layers import Layer, PictureOptions
 from ssilang.io.plots.palette import index_of, shade
 from ssilang.io.plots.patches import all_faces, pieces, visible_faces
 from ssilang.io.plots.values import values_on
-from ssilang.io.plots.view import plane_view
+from ssilang.io.plots.view import Plane, plane_view
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
@@ -186,6 +186,55 @@ def test_bands_lie_where_the_field_has_their_values(mesh: Mesh, iso: str) -> Non
         if p[4] == 1 and p[3] < 1.0 and p[2] is not None and p[2][3] == 0.55
     ]
     assert len(rims) == 3
+
+
+@together("iso", ["", "SURFACE", "LIGNE", "SULI"])
+def test_what_a_plane_cuts_has_the_colours_of_cells_or_of_values(iso: str) -> None:
+    """Two bricks of 2 and 1 beside a wall, cut at a quarter; one corner has no value."""
+    table = NodeTable()
+    xs, levels = (0, 2, 3), choose_levels(np.array([-4.0, 3.0]), count=7)
+    table.add(np.array([(x, y, z) for x in xs for y in (0, 1) for z in (0, 1)], float))
+    table.add(np.array([(x, 2, z) for x in xs for z in (0, 1)], float))
+    first = np.array([0, 4, 6, 2, 1, 5, 7, 3])
+    cells = [("CUB8", first, "ROUG"), ("CUB8", first + 4, "DEFA"),
+             ("QUA4", [12, 14, 15, 13], "VERT"), ("TRI3", [14, 16, 17], "DEFA")]  # fmt: skip
+    blocks = [CellBlock.make(table, k, np.array([n]), index_of(c)) for k, n, c in cells]
+    known = np.array([i for i in range(18) if i != 11])
+    given = NodeField.of(table, known, {"T": linear(table.coordinates[known])})
+    layer = Layer(Mesh(table, tuple(blocks)), field=given if iso else None, component="T")
+    plane = Plane.through(*np.array([(5, 1, 0.25), (0, 0, 0.25), (0, 3, 0.25)]))
+    recorder = Recorder()
+    add_section(recorder, layer, plane, levels if iso else None, PictureOptions(iso=iso))
+    faces = [p for p in recorder.polygons if len(p[0]) > 2]
+    cut = [p for p in recorder.polygons if p[3] > 1.0]
+    ends = sorted([sorted(p[0].tolist()) for p in cut])
+    assert ends == [[[0, 2], [2, 2]], [[2.25, 2], [3, 2]]]
+    if not iso:
+        inks = {c: 0.25 + 0.75 * np.array(to_rgb(shade(c))) for c in ("ROUG", "VERT")}
+        inks["DEFA"] = 0.25 + 0.75 * np.array([0.72, 0.76, 0.81])
+        for of, rows in (
+            ("ROUG", faces[:2]),
+            ("DEFA", faces[2:]),
+            ("VERT", cut[:1]),
+            ("DEFA", cut[1:]),
+        ):
+            for p in rows:
+                np.testing.assert_allclose([p[1], p[2]], [[*inks[of], 1.0]] * 2)
+        assert [sum(size(p[0]) for p in rows) for rows in (faces[:2], faces[2:])] == [2.0, 1.0]
+        assert {p[3:] for p in faces} | {p[3:] for p in cut} == {(0.35, 0, ""), (1.8, 0, "")}
+        return
+    for p in cut:
+        assert p[3:] == (3.2, 3, "")
+        np.testing.assert_allclose(p[2], levels.rgba(linear(p[0]).mean(keepdims=True))[0])
+    assert sum(size(p[0]) for p in faces) == pytest.approx(0.0 if iso == "LIGNE" else 2.0)
+    middles = (levels.bounds[1:] + levels.bounds[:-1]) / 2
+    for points, ink, *_, light in faces:
+        row = int(np.argmin(np.abs(levels.rgba(middles) - ink).sum(axis=1)))
+        assert levels.bounds[row] - 1e-6 <= linear(points).min()
+        assert linear(points).max() <= levels.bounds[row + 1] + 1e-6
+        assert not light
+    lines = [p for p in recorder.polygons if p[3] == 1.0]
+    assert bool(lines) == (iso != "SURFACE")
 
 
 @pytest.mark.parametrize("support", ["NOEUD", "GRAVITE", "RIGIDITE", "MASSE"])

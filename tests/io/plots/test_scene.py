@@ -1,6 +1,7 @@
 """Pictures of meshes and fields, looked at pixel by pixel."""
 
 import io
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
@@ -128,9 +129,15 @@ def test_no_legend_on_demand() -> None:
 
 def test_numbers_of_nodes_and_cells() -> None:
     mesh = grid(2)
-    options = PictureOptions(node_numbers=True, cell_numbers=True)
-    texts = [t.get_text() for t in draw_scene((Layer(mesh),), (), options).axes[0].texts]
-    assert sorted(map(int, texts)) == sorted([*range(1, 10), *range(1, 5)])
+    mesh.nodes.coordinates[mesh.nodes.coordinates[:, 0] == 1.0, 0] = 4.0
+    named = ("low", Mesh.of(mesh.nodes, "SEG2", np.array([[0, 1], [1, 2]])))
+    options = PictureOptions(node_numbers=True, cell_numbers=True, labels=(named,))
+    texts = draw_scene((Layer(mesh),), (), options).axes[0].texts
+    found = sorted((*np.round(t.get_position(), 9).tolist(), t.get_text()) for t in texts)
+    xs = (0, 0.5, 4)
+    wanted = [(xs[i], j / 2, str(3 * j + i + 1)) for j in range(3) for i in range(3)]
+    wanted += [((0.25, 2.25)[i], j / 2 + 0.25, str(2 * j + i + 1)) for j in (0, 1) for i in (0, 1)]
+    assert found == sorted([*wanted, (1.5, 0, "low")])
 
 
 def test_deformed_shape_stands_before_its_initial_outline() -> None:
@@ -159,6 +166,11 @@ def test_components_have_a_panel_each() -> None:
     figure = draw_scene(made.layers, (), None, None, made.components)
     titles = [a.get_title() for a in figure.axes]
     assert titles[:2] == ["UX", "UY"]
+    options = PictureOptions(date=True, notes=("of",))
+    views = (plane_view(),) * 3
+    figure = draw_scene(made.layers, views, options, None, ("UX",))
+    assert [a.axison for a in figure.axes[:4]] == [True, True, True, False]
+    assert re.fullmatch(r"of   \d{4}(-\d\d){2} \d\d:\d\d", figure.get_supxlabel())
 
 
 def test_a_field_that_is_not_a_number_is_still_drawn() -> None:
@@ -343,16 +355,36 @@ def test_von_mises_of_a_uniform_stress() -> None:
     assert np.allclose(values_on(faces, stress, VON_MISES), exact)
 
 
-def test_values_at_integration_points_are_extended_to_the_nodes() -> None:
+@together("mesh, kind", [(grid(1), "QUA4"), (cube(1), "CUB8")])
+def test_values_at_integration_points_are_extended_to_the_nodes(mesh: Mesh, kind: str) -> None:
+    """Linear values and the products of their axes are kept."""
     from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 
-    mesh = grid(1)
-    element = ELEMENTS["QUA4"]
-    points = support_rule("QUA4", "STRESSES").points
-    s = CellFieldBlock(mesh.blocks[0], {"T": (1 + 2 * points[:, 0])[None]}, "STRESSES", "QUA4")
-    (faces,) = visible_faces(mesh)
-    exact = 1 + 2 * element.reference_cell.nodes[:, 0]
-    assert np.allclose(values_on(faces, CellField((s,)), "T")[0], exact)
+    def values(x: np.ndarray) -> np.ndarray:
+        products = x[:, 0] * (7 * x[:, -1] - 3 * x[:, 1]) + 4 * x.prod(axis=1)
+        return 1 + 2 * x[:, 0] + 5 * x[:, -1] + products
+
+    given = values(support_rule(kind, "STRESSES").points)[None]
+    field = CellField((CellFieldBlock(mesh.blocks[0], {"T": given}, "STRESSES", kind),))
+    exact = values(ELEMENTS[kind].reference_cell.nodes)
+    for faces in visible_faces(mesh):
+        assert np.allclose(values_on(faces, field, "T")[0], exact[faces.local])
+
+
+def test_values_along_a_joint_are_the_same_on_both_sides() -> None:
+    from ssilang.kernel.elements.catalog import support_rule
+
+    table = NodeTable()
+    ids = table.add(np.array([(x, y) for y in (0.0, 0.5) for x in (-1.0, 1.0)]))
+    joint = Mesh.of(table, "RAC2", ids[None, :])
+    (xi,) = support_rule("JOI2", "MASSE").points.T
+    given = CellFieldBlock(joint.blocks[0], {"T": (3 + 2 * xi)[None]}, "MASSE", "JOI2")
+    assert len(xi) > 1
+    sides = visible_faces(joint)
+    assert {n for faces in sides for n in faces.nodes.ravel().tolist()} == {*ids.tolist()}
+    for faces in sides:
+        found = values_on(faces, CellField((given,)), "T")
+        assert np.allclose(found, 3 + 2 * table.coordinates[faces.nodes, 0])
 
 
 def test_principal_strokes_of_a_shear() -> None:

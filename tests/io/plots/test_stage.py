@@ -93,6 +93,31 @@ def test_the_nearer_of_two_squares_is_seen_and_where_it_is(stage: Stage) -> None
     assert list(above.shows(middle, near, bounds)) == [False, True, True]
 
 
+def test_dots_and_arrows_in_space_stand_where_they_are_in_their_inks(stage: Stage) -> None:
+    """A dot of 14.4 points is a tenth of the sheet of two inches, lit; a stroke has 1.8 points."""
+    bounds, areas = np.array([[-1.0, -1], [2, 2]]), []
+    for heads in (False, True):
+        painter = Painter(view_along(np.array([0.0, 0, 1])))
+        colours = [(0.0, 0.8, 0, 1), (0.0, 0, 0.8, 1)]
+        painter.add_dots(np.array([(0.5, 0, 0), (1.25, -0.25, 1)]), colours, 14.4)
+        start, step = np.array([[-0.5, 1, 0]]), np.array([[2.0, 0.5, 0]])
+        painter.add_arrows(start, step, (0.8, 0, 0, 1), heads)
+        with drawing(2, 2) as figure:
+            axes = figure.add_axes((0, 0, 1, 1))
+            image = painter.photograph(axes, stage, bounds, False).image[::-1]
+        for part, middle, extent in (
+            (0, (0.5, 1.25), (2.0, 0.5)), (1, (0.5, 0), (0.3, 0.3)), (2, (1.25, -0.25), (0.3, 0.3)),
+        ):  # fmt: skip
+            own = image[..., part] > np.delete(image, part, axis=2).max(axis=2) + 40.0
+            areas.append(9.0 * own.mean())
+            for found, at, size in zip(np.nonzero(own)[::-1], middle, extent, strict=True):
+                place = 3.0 * found / len(image) - 1.0
+                assert (place.min() + place.max()) / 2 == pytest.approx(at, abs=0.03)
+                assert np.ptp(place) == pytest.approx(size, abs=0.06)
+    assert areas[0] == pytest.approx(np.hypot(2.0, 0.5) * 3.0 * 1.8 / 144.0, rel=0.2)
+    assert areas[3] > 1.3 * areas[0]
+
+
 def test_a_stage_that_was_closed_opens_again_and_looks_for_depths_on_demand(stage: Stage) -> None:
     red, made = (1.0, 0, 0, 1), []
     for deep in (True, False):

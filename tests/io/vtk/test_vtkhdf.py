@@ -23,7 +23,7 @@ from ssilang.io.vtk.grid import ORDERS
 from ssilang.io.vtk.growing import GrowingFile
 from ssilang.io.vtk.hdf5 import BRANCHES
 from ssilang.io.vtk.labels import Labels, labels_of
-from ssilang.io.vtk.vtkhdf import VtkHdfWriter
+from ssilang.io.vtk.vtkhdf import VtkHdfWriter, _link_names
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.cells import CELL_TYPES
@@ -446,3 +446,10 @@ def test_the_smallest_named_set_names_a_cell(tmp_path: Path) -> None:
     assert labels_of(mesh, {"group": {}}) == Labels()
     growing = {"group": {"ONE": turned, "LEFT": left, "ALSO": left, "ALL": whole}}
     assert labels_of(mesh, growing).numbers["group"].tolist() == [2, 2, 1, 4, 4]
+
+
+def test_parts_have_names_of_their_own_that_a_path_can_have() -> None:
+    names = ("a/b", "a.b", "Assembly", "", "a_b", "_")
+    made = _link_names(names)
+    assert [*made] == [*names]
+    assert [*made.values()] == ["a_b", "a_b_", "Assembly_", "_", "a_b__", "__"]

@@ -11,6 +11,7 @@ from together import together
 
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.impact import ImpactRule
+from ssilang.kernel.contact.modified_mass import without_contact_mass
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
 
@@ -136,3 +137,16 @@ def test_what_sticks_has_no_slip_and_the_smallest_change_of_the_mass_else():
     for before, after in zip(rates, (motion.v, motion.a), strict=True):
         pushes = np.linalg.solve(held @ (held.T / mass[:, None]), held @ before)
         np.testing.assert_allclose(after, before - held.T @ pushes / mass, atol=1e-12)
+
+
+def test_mass_is_taken_off_all_that_touches_and_goes_by_statics_to_its_neighbours():
+    """A chain of springs whose second and fourth masses touch, and a mass that no spring holds."""
+    k = np.array([3.0, 5.0, 2.0, 7.0])
+    D = np.diff(np.eye(5, 6), axis=0)
+    V = np.random.default_rng(1).random((6, 6))
+    G = np.array([[0, 2.0, 0, 0, 0, 0], [0, -1.0, 0, 3.0, 0, 0], [0, 0, 0, 1.0, 0, 1.0]])
+    T = np.eye(6)
+    T[1] = np.array([k[0], 0, k[1], 0, 0, 0]) / (k[0] + k[1])
+    T[3] = np.array([0, 0, k[2], 0, k[3], 0]) / (k[2] + k[3])
+    given = (sp.csr_array(A) for A in (V @ V.T, D.T * k @ D, G))
+    np.testing.assert_allclose(without_contact_mass(*given).toarray(), T.T @ V @ V.T @ T)

@@ -6,19 +6,26 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.sparse import csr_array
+from together import together
 
 from ssilang.kernel.base.errors import ConvergenceError
-from ssilang.kernel.continuation.arc import Lengths, Tracer
+from ssilang.kernel.continuation.arc import Lengths, Point, Tracer
 from ssilang.kernel.continuation.expansion import FrequencyProblem
 from ssilang.kernel.continuation.harmonics import (
     ONE,
     LinkForces,
     Oscillators,
     basis_of,
+    crossing,
     monodromy,
     unstable,
 )
-from ssilang.kernel.continuation.response import FreeMotion, forced_response, normal_mode
+from ssilang.kernel.continuation.response import (
+    FreeMotion,
+    _perturbation,
+    forced_response,
+    normal_mode,
+)
 from ssilang.kernel.modal import link_laws as law
 from ssilang.kernel.modal.links import Link, link_arrays
 from ssilang.kernel.stepping.problem.loading import Loading
@@ -135,6 +142,23 @@ def test_exponents_are_those_that_perturbations_of_the_motion_show():
         assert unstable(np.array([-1.0, 0.5j + 1.6 * ONE]) * scale, scale)
 
 
+@together(
+    "grown, kind",
+    [
+        ([1e-3], "BP"),
+        ([1e-3 + 0.6j, 1e-3 - 0.6j], "PD"),
+        ([1e-3 - 0.2j, 1e-3 + 0.2j], "NS"),
+        ([], ""),
+    ],
+)
+def test_what_crosses_the_axis_is_named_whatever_has_grown_before(grown, kind):
+    calm = np.array([-0.3, -0.2 + 0.1j])
+    before = np.array([0.4 + 0.5j, *calm])
+    after = np.array([0.4 + 0.5j, *grown, *calm])
+    assert crossing(before, after, (1.1, 1.2)) == kind
+    assert crossing(after, before, (1.2, 1.1)) == kind
+
+
 def test_monodromy_is_what_a_period_makes_of_each_perturbation():
     rng, w, angles = np.random.default_rng(5), 1.3, 2 * np.pi * np.arange(32) / 32
     M, *parts = rng.standard_normal((7, 2, 2)) + 2.0 * np.eye(2)
@@ -148,6 +172,27 @@ def test_monodromy_is_what_a_period_makes_of_each_perturbation():
     run = solve_ivp(rates, (0, 2 * np.pi / w), np.eye(4).ravel(), rtol=1e-11, atol=1e-12)
     wanted = run.y[:, -1].reshape(4, 4)
     np.testing.assert_allclose(monodromy(M, C, K, w), wanted, atol=1e-6 * np.abs(wanted).max())
+
+
+def test_a_perturbation_is_after_a_period_what_it_was_times_its_growth():
+    class Rubbing:
+        def at(self, q, v):
+            slopes = (-0.9 * q**2 - 0.8 * q * v, -0.4 * q**2)
+            return -0.3 * q**3 - 0.4 * q**2 * v, *(s[:, :, None] * np.eye(2) for s in slopes)
+
+    M, w, Q = np.diag([1.0, 2.0]), 1.3, np.zeros((29, 2))
+    C, K = np.array([[0.1, 0.05], [0.02, 0.3]]), np.array([[2.0, -0.5], [-0.5, 3.0]])
+    system = Oscillators(M, C, K, basis_of(14, 128), Rubbing(), np.zeros((29, 2)))
+    Q[1:3] = [[0.8, -0.3], [0.2, 0.5]]
+    point = Point(Q.ravel(), w, np.zeros(0), system.at(Q.ravel(), w)[1])
+    _, fq, fv = system.sampled(Q, w)
+    period = monodromy(M, C - fv, K - fq, w)
+    for growth in system.exponents(Q, w).tolist():
+        shape = _perturbation(system, point, growth).reshape(29, 2)
+        place, speed = system.basis.values[0] @ shape, w * system.basis.rates[0] @ shape
+        state = np.concatenate([place, speed + growth * place])
+        after = np.exp(growth * 2 * np.pi / w) * state
+        np.testing.assert_allclose(period @ state, after, atol=1e-6 * np.abs(state).max())
 
 
 def test_normal_mode_of_a_cubic_spring_has_the_period_of_the_elliptic_integral():

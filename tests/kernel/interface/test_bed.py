@@ -33,6 +33,7 @@ from ssilang.kernel.interface.response import (
 )
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping.problem.plausibility import overloads
 
 B, L, R, C = 4.0, 6.0, 2.0, 5e4
 STRIP = {"KN": 8e7, "KS": 4e7, "LARG": B}
@@ -523,6 +524,27 @@ def test_a_rectangle_turned_under_its_weight_about_either_axis_meets_its_effecti
     assert -found[2] == pytest.approx(weight, rel=1e-6)
     assert abs(found[axis]) == pytest.approx(weight * arm / 2 * 0.7, rel=1e-2)
     assert abs(found[7 - axis]) < 1e-6 * abs(found[axis])  # nothing about the other axis
+
+
+@together("held, tied, told", [(False, False, 2), (True, False, 1), (False, True, 0)])
+def test_bodies_on_one_footing_that_nothing_else_holds_are_looked_at(held, tied, told):
+    """Two footings under two bodies; where a spring or both hold one, who bears is not known."""
+    bench = Bench()
+    soils, tops = ([bench.node(x, y) for x in (0.0, 9.0)] for y in (-1.0, 0.0))
+    bench.joint("SEG2", [*zip(soils, tops, strict=True)], "JOI1", "MACRO_SEMELLE", **STRIP, COHE=C)
+    for soil in soils:
+        bench.fix(soil, "UX", "UY", "RZ")
+    if held:
+        bench.spring(1e3, tops[0])
+    if tied:
+        bench.relate([(1.0, "UY", tops[0]), (-1.0, "UY", tops[1])])
+    capacity = FACTORS["strip"] * C * B
+    pressing = [1.3 * capacity, 1.7 * capacity]
+    weight = bench.field(*((n, "FY", -p) for n, p in zip(tops, pressing, strict=True)))
+    found = overloads(bench.problem(np.array([0.0, 1.0]), bench.load(weight)), np.array([1.0]))
+    assert [f.node for f in found] == tops[2 - told :]
+    assert [f.pressing for f in found] == pytest.approx(pressing[2 - told :])
+    assert [f.capacity for f in found] == pytest.approx([capacity] * told)
 
 
 @together("vertical, arm", [(1.3, 0.0), (0.6, 0.3 * B)])

@@ -31,7 +31,8 @@ def strip(
 ) -> Bench:
     """A line of joints in three zones, upper side first, walked so that it opens upwards."""
     bench = Bench() if bench is None else bench
-    x = np.linspace(left, left + width, cells + 1)
+    s = np.linspace(0.0, 1.0, cells + 1)
+    x = left + width * (s + 0.05 * s * (s - 1.0))
     upper = [bench.node(v, 0.0) for v in x]
     lower = [bench.node(v, 0.0) for v in x]
     sides = [[upper[i], upper[i + 1], lower[i], lower[i + 1]] for i in range(cells)]
@@ -109,6 +110,13 @@ def test_a_rigid_strip_that_lifts_off(ratio: float) -> None:
     assert found.moment[0] == pytest.approx([moment], rel=3e-3)
 
 
+def test_a_cell_half_open_says_the_pressure_of_its_points() -> None:
+    theta, shut = 1e-3, 0.65  # the bed is pressed from the left over this width
+    found = turned(problem_of(strip(4)), theta * (WIDTH / 2 - shut), 0.0, about_z=theta)
+    first = 0.5 * WIDTH * (0.25 - 0.05 * 0.25 * 0.75) * (1.0 - 3**-0.5)
+    assert found.pressure[0] == pytest.approx(K * theta * (shut - first))
+
+
 @together("soil_first", [False, True])
 def test_a_raft_in_space_turned_about_y(soil_first: bool) -> None:
     """The same per unit length, times its length; nothing about x."""
@@ -180,16 +188,16 @@ def test_a_ring_does_not_turn() -> None:
 
 def test_pairs_on_a_line_turn_about_the_line_across() -> None:
     """In space they have one axis, whichever side of a pair is named first."""
-    for first in (0, 1):
+    for first, side in ((0, 1.0), (1, 1.0), (0, -1.0)):
         bench = Bench(Mode.THREE_DIMENSIONAL)
-        places = ((-3.0, -4.0), (0.0, 0.0), (6.0, 8.0))
+        places = ((-3.0, -4.0 * side), (0.0, 0.0), (6.0, 8.0 * side))
         pairs = [[bench.node(*p, z) for z in (-1.0, 0.5)] for p in places]
         bench.joint("SEG2", [p[::-1] if first else p for p in pairs], "JOI1", KN=K, KS=K)
         problem = problem_of(bench)
         (footing,) = footings_of(interface_of(problem), problem.numbering)
-        np.testing.assert_allclose(footing.centre, [1.0, 4 / 3, 0.5], atol=1e-12)
+        np.testing.assert_allclose(footing.centre, [1.0, 4 / 3 * side, 0.5], atol=1e-12)
         np.testing.assert_allclose(np.abs(footing.axes), [[0.8, 0.6, 0.0]], atol=1e-12)
-        assert footing.axes[0, 0] * footing.axes[0, 1] < 0.0
+        assert side * footing.axes[0, 0] * footing.axes[0, 1] < 0.0
         moved = np.cross(footing.axes[0], footing.places - footing.centre)[:, 2]
         u = np.zeros(len(footing.unknowns))
         up = np.array(problem.numbering.unknowns)[problem.numbering.codes[footing.unknowns]] == "UZ"
@@ -214,6 +222,15 @@ def test_a_macro_element_tells_its_law() -> None:
     assert (loads.force[0], loads.moment[0], loads.rotation[0]) == (9e4, -7e3, 2e-3)
     assert (loads.share[0], loads.opening[0]) == pytest.approx((0.625, 3e-3))
     assert loads.pressure[0] == pytest.approx(K / WIDTH * 5e-3)
+    space = Bench(Mode.THREE_DIMENSIONAL)
+    ends = [space.node(0.0, 0.0, 0.0), space.node(0.36, 0.48, 0.8)]
+    space.joint("SEG2", [ends], "JOI1", law="MACRO_DISQUE", KN=K, KS=K, RAYO=WIDTH)
+    for node in ends:
+        space.mass(1.0, node, ("UX", "UY", "UZ", "RX", "RY", "RZ"))
+    problem = space.problem(np.array([0.0, 1e-3]))
+    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    np.testing.assert_allclose(footing.axes @ [0.36, 0.48, 0.8], 0.0, atol=1e-15)
+    np.testing.assert_allclose(footing.axes @ footing.axes.T, np.eye(2), atol=1e-15)
 
 
 def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() -> None:

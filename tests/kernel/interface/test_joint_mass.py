@@ -1,5 +1,7 @@
 """The mass of a joint's own matter, shared by both sides; the moduli of two points."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from references.assembled import Bench
@@ -8,7 +10,7 @@ from together import together
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.interface.family import displacement_names
+from ssilang.kernel.interface.family import displacement_names, rotational_stiffness
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
@@ -56,7 +58,7 @@ def test_two_points_push_by_their_moduli_along_and_about_their_own_axes(mode, ki
     else:
         D = np.diag(np.diag(D))
         names = ("KN", "KS", "QS") if d == 2 else ("KN", "KS1", "KS2", "QN", "QS1", "QS2")
-        given = dict(zip(names, np.diag(D), strict=True))
+        given = dict(zip(names, np.diag(D), strict=True)) | {"FRIC": 30.0}
     axes = np.linalg.qr(rng.standard_normal((d, d)))[0]
     axes[-1] *= np.linalg.det(axes)
     given |= {f"V{k + 1}{c}": axes[k, i] for k in range(d - 1) for i, c in enumerate("XYZ"[:d])}
@@ -73,3 +75,8 @@ def test_two_points_push_by_their_moduli_along_and_about_their_own_axes(mode, ki
     local = np.concatenate([axes @ jump, turn if d == 2 else axes @ turn])
     found = np.einsum("ci,cij,cj->c", v, block.values, v)
     np.testing.assert_allclose(found, local @ D @ local, rtol=1e-12)
+    if not kind:  # the turns alone, beside a law of the displacements
+        law = ("ELASTIQUE", "ORTHOTROPE", "PLASTIQUE", "COULOMB")
+        block = rotational_stiffness(replace(zone, behaviour=law), bench.characteristics)
+        found = np.einsum("ci,cij,cj->c", v, block.values, v)
+        np.testing.assert_allclose(found, local[d:] @ D[d:, d:] @ local[d:], rtol=1e-12)

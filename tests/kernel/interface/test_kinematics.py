@@ -76,6 +76,23 @@ def test_jumps_at_nodes_and_in_the_middle_are_those_of_the_sides_there(element, 
     assert made.weights.sum() == pytest.approx(AREA[face] * 3.0 ** (d - 1))
 
 
+@together("turned", [False, True])
+def test_at_its_nodes_a_bent_joint_has_the_frames_of_its_nearest_points(turned):
+    x = np.array([[0.0, 0.0], [1.2, 0.8], [2.0, 2.4]])[:: -1 if turned else 1]
+    bench = Bench()
+    sides = [bench.node(*p) for _ in range(2) for p in x]
+    zone = bench.joint("RAC3", sides, "JOI3", KN=5.0, KS=2.0)
+    own = zone_field(zone, bench.characteristics)
+    joints = joint_cells(zone, own)
+    places = joints.shape @ x
+    nearest = np.linalg.norm(x[:, None] - places, axis=2).argmin(axis=1)
+    assert len({*nearest}) > 1
+    made = JointFamily().strain_operator(zone, own, "NOEUD", slice(None)).matrix[0]
+    for move in np.eye(2):
+        found = (made @ np.concatenate([np.tile(move, 3), np.zeros(6)])).T
+        np.testing.assert_allclose(found, joints.frames[0, nearest] @ move, atol=1e-15)
+
+
 @together("element, rule", CASES)
 def test_uniform_jump_gives_uniform_traction_and_its_resultant(element, rule):
     zone, material, x, R = one_joint(element, rule)

@@ -109,6 +109,7 @@ def test_a_rigid_body_with_rotations_follows_its_master(dim, mode):
     table, ids = cloud(6, dim)
     names, turns = make.translations(mode), make.rotations(mode)
     rows, numbering = rows_of(tied.rigid_with_rotations(table, ids[:3], ids[3:], names, turns))
+    assert numbering.size == 6 * len(names) + 3 * len(turns)
     motions = rigid_motions(numbering)[:, [0, 1, 5] if dim == 2 else slice(None)]
     np.testing.assert_allclose(rows.C @ motions, 0.0, atol=1e-12)
     assert len(free_space(rows.C)) == motions.shape[1]

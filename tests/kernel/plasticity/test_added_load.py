@@ -24,8 +24,8 @@ def test_tangent_of_a_load_on_neighbours(n):
     rows, columns = np.concatenate([np.arange(n)] * 2), np.concatenate([np.arange(n), after])
     half = sp.csr_array((np.ones(2 * n), (rows, columns)), shape=(n, n))
     pattern = sp.csr_array((half + half.T) > 0)
-    u = rng.uniform(1, 2, n)
-    bulk = loaded_bulk(Bulk((), (), n), law, np.full(n, 1e-6), 1e-6, pattern, "")
+    u, shifts = rng.uniform(1, 2, n), 1e-6 * rng.uniform(0.5, 2, n)
+    bulk = loaded_bulk(Bulk((), (), n), law, shifts, 1e-6, pattern, "")
     answer = bulk.respond(bulk.begin((), u, 2.0), np.zeros(n), 2.0)
     exact = np.zeros((n, n))
     exact[np.arange(n), np.arange(n)] = -2 * size * u[after]

@@ -24,8 +24,9 @@ def test_shocks_are_found_wherever_they_begin(first):
     np.testing.assert_allclose(mean, [(4 - 3) / 2, (-2 + 6) / 2, (1 + 0) / 2])
 
 
-def test_a_shock_longer_than_its_recording_is_one():
-    y = np.array([0.0, 5.0, 5.0, 5.0, 5.0, 0.0, 0.0, 3.0, 3.0, 0.0, 0.0, 0.0])
+@together("rest", [[5.0, 5.0, 0.0, 0.0], [5.0, 0.0], [0.0]])
+def test_a_shock_longer_than_its_recording_is_one(rest):
+    y = np.pad([0.0, 5.0, 5.0, *rest, 3.0, 3.0], (0, 7 - len(rest)))
     _, mean = mean_shock(T, y, 50.0, 0.5, None)
     np.testing.assert_allclose(mean, [4.0, 4.0])
     _, mean = mean_shock(T, y, 50.0, 0.5, 1)
@@ -53,9 +54,19 @@ def test_an_envelope_has_the_energy_of_the_signal_on_each_interval():
     assert places[-1] == x[-1]
     line = np.interp(x, places, values)
     ends = np.searchsorted(x, places)
+    assert len(ends) > 11  # some are shortened
+    assert set(range(0, 301, 30)) <= set(ends.tolist())
     for begin, end in pairwise(ends):
         part = slice(begin + 1, end + 1)
         assert np.sum(line[part] ** 2) == pytest.approx(np.sum(y[part] ** 2), rel=1e-9)
+
+
+@together("size", [1.0, 0.1, 0.3, 0.7, 1.1])
+def test_a_line_that_falls_to_nought_is_its_own_envelope(size):
+    x = np.arange(4.0)
+    places, values = energy_envelope(x, size * (3.0 - x), 1)
+    assert places.tolist() == [0.0, 3.0]
+    np.testing.assert_allclose(values, [3.0 * size, 0.0], atol=1e-7)
 
 
 @together("times, duration", [(T, 0.0), (T, -1.0), (np.zeros(12), 1.0)])

@@ -45,7 +45,7 @@ def march(x, force, losses, stiffness):
     return np.maximum(level * np.exp(h), 0.0)
 
 
-@together("slip", [0.0, 5e-4, 5e-3, 0.02])
+@together("slip", [0.0, 5e-4, 5e-3, 0.02, 0.06])
 @together("pulled", [(True, False), (False, True), (True, True)])
 def test_tensions_are_those_of_the_march_from_each_end_that_is_pulled(slip, pulled):
     losses = Losses(0.2, 0.01, slip, 0.5, 1.6e9, 2.0)

@@ -84,6 +84,7 @@ def test_the_table_prints_a_line_a_rule_in_order():
         rule.name for rule in RULES
     ]
     assert all(line.endswith(rule.when) for line, rule in zip(lines, RULES, strict=True))
+    assert len({len(line) - len(rule.when) for line, rule in zip(lines, RULES, strict=True)}) == 1
 
 
 @together("rule", RULES)

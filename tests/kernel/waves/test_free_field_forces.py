@@ -206,17 +206,18 @@ def test_cells_that_are_kept_keep_their_own_matrices():
     np.testing.assert_array_equal(kept.values, values[1:])
 
 
-@together("axis, wanted", [(None, (0.2, 1.5, 2)), (0, (0.3, 2.5, 2))])
+@together("axis, wanted", [(None, (0.2, 1.5, 3)), (0, (0.3, 2.5, 3))])
 def test_cells_that_have_yielded_count_where_the_nodes_take_their_motion(axis, wanted):
     """Those of these nodes alone, or those at their heights, whatever nodes they have."""
     b = Bench()
     n = [b.node(float(i), 0.0) for i in range(5)]
     cells = CellBlock.make(b.table, "SEG2", np.array([n[:2], n[1:3], n[2:4], n[3:]]))
     strain = np.array([[0.1, 0.0], [0.0, 0.2], [0.3, 0.0], [0.9, 0.9]])
-    others = CellBlock.make(b.table, "SEG2", np.array([n[:2]]))
+    others, less = (CellBlock.make(b.table, "SEG2", np.array([n[k : k + 2]])) for k in (0, 1))
     blocks = (
         CellFieldBlock(others, {"VAIR": np.ones((1, 2))}, "STRESSES", "BARR"),
         CellFieldBlock(cells, {PLASTIC: strain}, "STRESSES", "BARR"),
+        CellFieldBlock(less, {PLASTIC: np.full((1, 2), 0.05)}, "STRESSES", "BARR"),
     )
     nodes = np.array(n[:3]) if axis is None else np.array([n[1], n[3]])
     found = yielded(CellField(blocks), nodes, axis)

@@ -112,10 +112,6 @@ def _at_multiplier(
     return Ends(p, pc, tried / (1 + 6 * c.shear * phi / c.square), v, phi)
 
 
-def _surface(c: Clay, e: Ends) -> FloatArray:
-    return e.shear**2 / c.square + e.pressure * (e.pressure - e.limit)
-
-
 def _slopes(c: Clay, e: Ends) -> tuple[FloatArray, FloatArray]:
     """Derivatives of v and of the surface by phi."""
     push = 2 * e.pressure - e.limit
@@ -135,7 +131,7 @@ def _returned(c: Clay, reach: FloatArray, limit: FloatArray, tried: FloatArray) 
     phi = np.zeros(n)
     for _ in range(2 * TURNS):
         ends = _at_multiplier(c, phi, reach, limit, tried, v)
-        v, rest = ends.lost, _surface(c, ends)
+        v, rest = ends.lost, ends.shear**2 / c.square + ends.pressure * (ends.pressure - ends.limit)
         done = np.abs(rest) <= PRECISION * size
         if done.all():
             break

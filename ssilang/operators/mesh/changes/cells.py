@@ -1,7 +1,6 @@
 """Cells of meshes: CHAN MANU, colours by COUL AFCO, and RAFF to sizes wanted."""
 
-from ssilang.io.plots.palette import NAMES as COLOURS
-from ssilang.io.plots.palette import index_of
+from ssilang.io.plots.palette import COLOURS, index_of
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.matrices.relations import joined, rows_from_table
 from ssilang.kernel.mesh.boundary import edges, faces

@@ -1,6 +1,6 @@
 """What a mesh holds: NBEL NBNO MESU, REFE for its names; how points and meshes are listed."""
 
-from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import COLOURS
 from ssilang.kernel.mesh.queries import measure
 from ssilang.operators.dispatch import listing
 from ssilang.operators.prelude import *

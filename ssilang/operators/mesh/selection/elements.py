@@ -1,6 +1,6 @@
 """ELEM: cells picked from a mesh, or by the values of a field in cells."""
 
-from ssilang.io.plots.palette import NAMES as COLOURS
+from ssilang.io.plots.palette import COLOURS
 from ssilang.kernel.mesh import combine
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.changes.local_refinement import TIE, is_tie, parted

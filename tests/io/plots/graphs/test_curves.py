@@ -9,13 +9,14 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
 from matplotlib.mathtext import MathTextParser
 from together import together
 
 from ssilang.io.errors import OutputError
 from ssilang.io.plots.figure import Pictures, slug
-from ssilang.io.plots.graphs.curves import CurveOptions, draw_curves
-from ssilang.io.plots.graphs.line_style import parse_style
+from ssilang.io.plots.graphs.curves import CurveOptions, draw_bars, draw_curves
+from ssilang.io.plots.graphs.line_style import Line, LineStyle, parse_style
 from ssilang.io.plots.markup import to_mathtext
 from ssilang.io.plots.palette import shade
 from ssilang.kernel.curves.curve import Curve, CurvePart
@@ -33,6 +34,15 @@ def test_titles_are_those_of_the_first_curve() -> None:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time", "u")
     assert figure.get_suptitle() == "A title"
     assert axes.get_legend() is None
+
+
+def test_bars_that_are_their_own_outline_are_filled() -> None:
+    figure = Figure()
+    panel, x, y = figure.subplots(), np.array([1.0, 1, 4, 4]), np.array([0.0, 3, 3, 0])
+    draw_bars(panel, Line(0, x, y, "#123456", "b", LineStyle(), 1.0))
+    ((filled,), (rim,)) = panel.patches, panel.lines
+    assert filled.get_xy()[:4].tolist() == rim.get_xydata().tolist() == np.c_[x, y].tolist()
+    assert (to_hex(filled.get_facecolor()), rim.get_color()) == ("#123456", "#123456")
 
 
 def test_titles_of_the_options_come_first() -> None:
@@ -234,6 +244,18 @@ def test_loops_have_no_differences() -> None:
     t = np.linspace(0.0, 6.0, 50)
     parts = tuple(CurvePart(np.cos(t), a * np.sin(t)) for a in (1.0, 1.001))
     assert len(draw_curves(Curve(parts), CurveOptions(difference=True)).axes) == 1
+
+
+@together("shift, frames", [(2.9, 2), (3.1, 1), (-2.9, 2), (-3.1, 1)])
+def test_curves_that_share_less_than_half_have_no_differences(shift: float, frames: int) -> None:
+    t = np.linspace(0.0, 6.0, 61)
+    parts = (CurvePart(t, np.sin(t)), CurvePart(t + shift, np.cos(t + shift)))
+    figure = draw_curves(Curve(parts), CurveOptions(difference=True))
+    assert len(figure.axes) == frames
+    if frames == 2:
+        x, y = figure.axes[1].lines[1].get_data()
+        assert (x.min(), x.max()) == pytest.approx((max(shift, 0.0), 6.0 + min(shift, 0.0)))
+        assert np.allclose(y, np.cos(x) - np.sin(x))
 
 
 def test_a_legend_says_what_looks_alike_once() -> None:

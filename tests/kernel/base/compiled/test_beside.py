@@ -16,7 +16,7 @@ from numba.core import types
 from together import together
 
 from ssilang.kernel.base.compiled import PLAIN, beside, calls, compiler
-from ssilang.kernel.base.compiled.apart import apart, seldom
+from ssilang.kernel.base.compiled.apart import apart, later, seldom
 from ssilang.kernel.base.compiled.beside import Beside, task_of, tasks_ahead, title
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.factors.kept import new_factors
@@ -71,6 +71,8 @@ def chosen(x: float, often: bool) -> float:
 
 @pytest.mark.skipif(PLAIN, reason="plain numba compiles in one process")
 def test_what_few_runs_enter_is_not_compiled_beside_them(monkeypatch):
+    marks = [(f.expected, f.later) for f in (half, twice, third)]
+    assert marks == [(True, False), (False, False), (True, True)]
     told = []
     monkeypatch.setattr(calls.BESIDE, "tell", lambda name, task: told.append(name))
     monkeypatch.setattr(chosen, "name", None)  # nothing is kept
@@ -96,7 +98,7 @@ def test_each_function_is_compiled_by_one_of_the_two(tmp_path):
         assert mine
 
 
-@apart
+@later
 @compiled
 def third(x: float) -> float:
     return x / 3.0
@@ -109,7 +111,7 @@ def test_a_run_that_waits_compiles_what_it_needs_and_nobody_has_begun(tmp_path, 
     monkeypatch.setattr(beside, "_make", lambda module, name, *kind: made.append(name))
     names = {f: title(f.__module__, f.name, "float64") for f in (half, twice, third)}
     for function, name in names.items():
-        task = task_of(function.__module__, function.name, "float64", (), function is third)
+        task = task_of(function.__module__, function.name, "float64", (), function.later)
         run._needed.append((name, task))
     with other.taking("f(int)"), other.taking(names[half]), run.taking("f(int)") as mine:
         assert not mine

@@ -6,10 +6,11 @@ import pytest
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.family import Layout
-from ssilang.kernel.elements.loads.follower import pressure_stiffness
+from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.loads.loads import pipe_pressure, pressure_vectors, shell_load
 from ssilang.kernel.elements.results.tensors import section_equivalent
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
@@ -105,12 +106,16 @@ SIDES = [
 ]
 
 
+@pytest.mark.parametrize("nodal", [True, False])
 @pytest.mark.parametrize(("make", "names"), [s[1:] for s in SIDES], ids=[s[0] for s in SIDES])
-def test_follower_matrix_is_the_derivative_of_the_forces(make, names):
+def test_follower_matrix_is_the_derivative_of_the_forces(make, names, nodal):
     zone = make()
     table = zone.cells.nodes
-    values = np.ones((1, zone.cells.kind.n_nodes))
-    p = CellField((CellFieldBlock(zone.cells, {"P": values}, "NOEUD", zone.element),))
+    values = 1.0 + np.arange(zone.cells.kind.n_nodes)
+    if nodal:
+        p = NodeField.of(table, zone.cells.connectivity[0], {"T": values}, "DIFFUS")
+    else:
+        p = CellField((CellFieldBlock(zone.cells, {"P": values[None]}, "NOEUD", zone.element),))
     block = pressure_stiffness(zone, p, unsymmetric=True)
     layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
     step, rng = 1e-6, np.random.default_rng(5)
@@ -128,6 +133,44 @@ def test_follower_matrix_is_the_derivative_of_the_forces(make, names):
     product = block.values[0] @ layout.gather(motion)[0]
     expected = change[zone.cells.connectivity[0]].ravel()
     np.testing.assert_allclose(product, expected, atol=1e-8)
+
+
+@pytest.mark.parametrize(("make", "names"), [s[1:] for s in SIDES], ids=[s[0] for s in SIDES])
+def test_sides_that_move_in_a_pressure_that_grows_feel_its_change(make, names):
+    zone, d = make(), len(names)
+    at, x = zone.cells.connectivity[0], zone.cells.coordinates[0]
+    u = np.random.default_rng(2).normal(size=(len(at), d))
+    motion = field(zone, **{n: (lambda x, i=i: u[:, i]) for i, n in enumerate(names)})
+    along = np.array([0.3, -1.2, 2.0])
+    ways = {None: np.array([x[0, 1] - x[1, 1], x[1, 0] - x[0, 0]])} if d == 2 else {}
+    for way in (*ways, along):
+        own = along[:d] if way is along else ways[way]
+        grown = 2.5 * (u @ own)[None] / np.linalg.norm(own)
+        p = CellField((CellFieldBlock(zone.cells, {"P": grown}, "NOEUD", zone.element),))
+        forces = pressure_vectors(zone, p)
+        block = gradient_stiffness(zone, 2.5, way, unsymmetric=True)
+        layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+        wanted = np.stack([forces.components["F" + n[1]].values[at] for n in names], axis=1)
+        np.testing.assert_allclose(block.values[0] @ layout.gather(motion)[0], wanted.ravel())
+
+
+def test_pressure_on_a_cone_that_moves_and_turns_as_a_whole_goes_with_it():
+    """In harmonic 1: nothing for a motion across the axis, each force turned for a turn."""
+    zone = _line(Mode.FOURIER)
+    zone.options["harmonic"] = 1
+    p = field(zone, P=lambda x: 1.0 + x[:, 0] - 2.0 * x[:, 1])
+    block = pressure_stiffness(zone, p, unsymmetric=True)
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    x = zone.cells.coordinates[0]
+    r, z = x[:, 0], x[:, 1]
+    still = pressure_vectors(_line(Mode.AXISYMMETRIC), p)
+    fr, fz = (0.5 * still.components[n].values for n in ("FR", "FZ"))  # cos^2 around
+    turned = np.stack([fz, -fr, -fz], axis=1)
+    for u, wanted in (((1 + 0 * r, 0 * r, -1 + 0 * r), 0 * turned), ((z, -r, -z), turned)):
+        own = dict(zip(("UR", "UZ", "UT"), u, strict=True))
+        motion = field(zone, **{n: (lambda x, c=c: c) for n, c in own.items()})
+        found = block.values[0] @ layout.gather(motion)[0]
+        np.testing.assert_allclose(found.reshape(2, 3), wanted, atol=1e-12)
 
 
 @pytest.mark.parametrize(("follows", "share"), [(False, 4), (True, 3)], ids=["dead", "follows"])

@@ -136,15 +136,16 @@ def test_tractions_work_on_the_sides_of_all_bodies(mode, given):
     named = [("F" if given == "forces" else "U") + n[1] for n in b.names]
     value = NodeField.of(b.nodes, b.ids, dict(zip(named, q.T, strict=True)), "DIFFUS")
     table, inner = b.sides()
-    thick = np.array([0.4, 0.7]) if mode is Mode.PLANE_STRESS else np.ones(2)
-    owner = [0, 0, 1, 1, 0]
+    thick = np.array([0.4, 0.4, 0.7, 0.9]) if mode is Mode.PLANE_STRESS else np.ones(5)
     expected = sum(
-        thick[owner[k]] * np.linalg.norm(n) * ((N @ q[side]) @ (N @ b.v[side]))
+        thick[k] * np.linalg.norm(n) * ((N @ q[side]) @ (N @ b.v[side]))
         for k, (side, centre) in enumerate(zip(table, inner, strict=True))
         for N, n in b.points(side, centre)
     )
-    blocks = [CellFieldBlock(z.cells, {"DIM3": np.full((len(z.cells), 1), t)}, "GRAVITE")
-              for z, t in zip(b.zones, thick, strict=True)]  # fmt: skip
+    blocks = [
+        CellFieldBlock(z.cells, {"DIM3": t[:, None]}, "GRAVITE")
+        for z, t in zip(b.zones, (thick[:1], thick[2:4]), strict=True)
+    ]
     material = CellField(tuple(blocks), "CARACTERISTIQUES")
     traction = np.array([0.3, -0.8, 1.1]) if given == "vector" else value
     found = loads.traction(b.model, b.mesh(table), traction, material)
@@ -158,19 +159,18 @@ def test_volume_forces_work_on_all_bodies(mode, cells):
     b = Bodies(mode)
     q = np.random.default_rng(2).uniform(1, 2, (len(b.ids), 2))
     names = ["F" + n[1] for n in b.names]
-    thick = np.array([0.4, 0.7]) if mode is Mode.PLANE_STRESS else np.ones(2)
+    thick = np.array([0.4, 0.7, 0.9]) if mode is Mode.PLANE_STRESS else np.ones(3)
     material = CellField(
-        tuple(CellFieldBlock(z.cells, {"DIM3": np.full((len(z.cells), 1), t)}, "GRAVITE")
-              for z, t in zip(b.zones, thick, strict=True)), "CARACTERISTIQUES",
+        tuple(CellFieldBlock(z.cells, {"DIM3": t[:, None]}, "GRAVITE")
+              for z, t in zip(b.zones, (thick[:1], thick[1:]), strict=True)), "CARACTERISTIQUES",
     )  # fmt: skip
     expected = 0.0
-    for table, t in (([[0, 1, 2, 3]], thick[0]), ([[1, 4, 2], [4, 5, 2]], thick[1])):
-        for cell in table:
-            space = Bodies(Mode.PLANE_STRAIN)
-            space.space = True  # the rule of a face, in the plane
-            space.mode = mode
-            for N, n in space.points(cell, np.array([0.0, 0.0, -1.0])):
-                expected += t * np.linalg.norm(n) * ((N @ q[cell]) @ (N @ b.v[cell]))
+    for cell, t in zip(([0, 1, 2, 3], [1, 4, 2], [4, 5, 2]), thick, strict=True):
+        space = Bodies(Mode.PLANE_STRAIN)
+        space.space = True  # the rule of a face, in the plane
+        space.mode = mode
+        for N, n in space.points(cell, np.array([0.0, 0.0, -1.0])):
+            expected += t * np.linalg.norm(n) * ((N @ q[cell]) @ (N @ b.v[cell]))
     if cells:
         density = CellField(tuple(
             CellFieldBlock(z.cells, {n: q[z.cells.connectivity, i] for i, n in enumerate(names)},
@@ -203,6 +203,25 @@ def test_volume_forces_that_name_nothing_or_stand_on_no_body_are_refused():
         loads.pipe_pressure(b.model, CellField((), ""))
 
 
+def test_volume_forces_of_two_plates_are_those_of_their_matter():
+    """Linear densities on triangles: the mean of their corners times area and thickness."""
+    b = Bodies(Mode.PLANE_STRAIN)
+    cells = b.zones[1].cells
+    zone = Zone(cells, "MECANIQUE", ELASTIC, "DKT", Mode.THREE_DIMENSIONAL)
+    thick = np.array([[0.3], [0.5]])
+    material = CellField((CellFieldBlock(cells, {"EPAI": thick}, "GRAVITE", "DKT"),))
+    names = ("FX", "FY", "FZ")
+    q = np.random.default_rng(4).uniform(1, 2, (len(b.ids), 3))
+    density = NodeField.of(b.nodes, b.ids, dict(zip(names, q.T, strict=True)), "DIFFUS")
+    found = loads.body_force(Model((zone,)), density, material)
+    corners = b.x[cells.connectivity]
+    sides = corners[:, 1:] - corners[:, :1]
+    area = 0.5 * np.abs(np.cross(sides[:, 0], sides[:, 1]))[:, 2]
+    wanted = (area * thick[:, 0]) @ q[cells.connectivity].mean(axis=1)
+    got = [found.components[n].values.sum() for n in names]
+    np.testing.assert_allclose(got, wanted)
+
+
 @together("mode", [Mode.PLANE_STRAIN, Mode.THREE_DIMENSIONAL])
 def test_sides_loaded_by_a_field_are_the_outer_ones_that_it_covers(mode):
     b = Bodies(mode)
@@ -217,6 +236,12 @@ def test_sides_loaded_by_a_field_are_the_outer_ones_that_it_covers(mode):
     line = CellBlock.make(b.nodes, "SEG2", b.ids[[[1, 2]]])  # of a field in cells: its own, once
     held = [CellFieldBlock(line, {n: np.ones((1, 1))}, "NOEUD", "") for n in ("A", "B")]
     assert loads.loaded_faces(b.model, CellField(tuple(held), "")).blocks == (line,)
+    cells = b.zones[0].cells  # of a field in the model's cells: where it is not nought
+    sucked = np.where(np.isin(cells.connectivity, b.ids[on]), -b.p[cells.connectivity], 0.0)
+    nodal = loads.on_sides(b.model, CellField((CellFieldBlock(cells, {"P": sucked}, "NOEUD"),)))
+    at = b.ids[np.intersect1d(on, cells.connectivity)]
+    assert sorted(nodal.node_ids.tolist()) == at.tolist()
+    np.testing.assert_allclose(nodal.values_at("P", at), -b.p[at])
 
 
 # --- what a field in cells says on a zone --------------------------------------------------

@@ -33,6 +33,22 @@ def test_functions_are_positive_inside_and_the_excess_is_the_distance_beyond_a_s
     assert len({*polygon_excess(n, 1.7 * middles).argmax(axis=1)}) == n
 
 
+@together("n", sorted(SIDES.values()))
+def test_rules_have_the_area_the_centre_and_the_second_moments_of_a_polygon(n: int) -> None:
+    corners = regular_polygon(n)
+    after = np.roll(corners, -1, axis=0)
+    areas = 0.5 * (corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0])
+    sums = np.stack([corners, after, corners + after])
+    moments = np.einsum("n,kni,knj->ij", areas / 12.0, sums, sums)
+    for rule in (quadrature(f"polygon{n}", n), quadrature(f"polygon{n}", 7 * n)):
+        assert rule.weights.sum() == pytest.approx(areas.sum())
+        assert rule.weights @ rule.points == pytest.approx(np.zeros(2), abs=1e-14)
+        squares = np.einsum("p,pi,pj->ij", rule.weights, rule.points, rule.points)
+        assert squares == pytest.approx(moments, abs=1e-14)
+    one = quadrature(f"polygon{n}", 1)
+    assert (*one.points[0], one.weights[0]) == pytest.approx((0.0, 0.0, areas.sum()))
+
+
 def test_gauss_theorem_holds_in_a_crooked_polygon() -> None:
     """Area by the shoelace formula; the integral of a linear field's gradient times anything."""
     corners = regular_polygon(6) + 0.15 * np.random.default_rng(3).normal(size=(6, 2))

@@ -14,6 +14,8 @@ from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.loads import shell_load
 from ssilang.kernel.elements.results.skin import shell_skin, shell_tensor
 from ssilang.kernel.elements.results.tensors import section_equivalent
+from ssilang.kernel.elements.shells.shell_section import moduli_on_mesh
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
@@ -379,6 +381,21 @@ def test_strip_off_its_mesh_bends_when_pulled_along_the_mesh(element):
         aligned = slice(0, 8)  # cells whose own x is the strip's
         np.testing.assert_allclose(stress["N11"][aligned].mean(), 1 / b, rtol=0.02)
         np.testing.assert_allclose(np.abs(stress["M11"][aligned]).mean(), e / b, rtol=0.02)
+
+
+@together("size", [6, 8])
+def test_moduli_on_a_mesh_off_the_middle_surface_give_forces_that_are_in_balance(size):
+    zone = flat_zone("DST", 1, 1.0, 1.0)[0]
+    rng, e = np.random.default_rng(2), np.array([0.03, -0.05])[:, None, None]
+    mat = material(zone, EXCE=0.0)
+    mat.blocks[0].components["EXCE"] = e[:, :, 0]
+    root, strain = rng.normal(size=(2, 1, size, size)), rng.normal(size=(2, size, 1))
+    D, middle = root @ root.mT, strain.copy()
+    middle[:, :3] += e * strain[:, 3:6]
+    forces = D[:, 0] @ middle
+    forces[:, 3:6] += e * forces[:, :3]
+    found = moduli_on_mesh(D, zone, zone_field(zone, mat))
+    np.testing.assert_allclose(found[:, 0] @ strain, forces)
 
 
 def test_strip_off_its_mesh_buckles_as_if_it_lay_there_when_its_ends_may_not_turn():

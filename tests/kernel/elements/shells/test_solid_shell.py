@@ -7,8 +7,9 @@ from scipy.sparse.linalg import spsolve
 from together import together
 
 from ssilang.kernel.elements import families
+from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.thermal import thermal_strain
-from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numbering_of
@@ -208,3 +209,17 @@ def test_strip_buckles_at_eulers_load():
     k, g = (assemble(m, numbering).toarray()[np.ix_(free, free)] for m in (K, G))
     load = 1 / np.linalg.eigvals(np.linalg.solve(k, -g)).real.max()
     assert load == pytest.approx(np.pi**2 * E * h**3 / 12 / (2 * L) ** 2, rel=0.01)
+
+
+def test_stresses_of_each_layer_work_on_what_turns_by_the_layer_s_share():
+    zone = bricks(2, 1, lambda s, t, z: np.column_stack([3.0 * s, 2.0 * t, 0.4 * z]))
+    _, weights = np.polynomial.legendre.leggauss(5)
+    stress = np.array([1.0, -3.0, 2.0, 5.0, 7.0]) * np.array([[1.0], [2.0]])
+    blank = families.stress(zone, material(zone, YOUN=E, NU=0.0), field(zone, UX=lambda x: x[:, 0]))
+    given = {n: stress if n == "SMXX" else 0.0 * v for n, v in blank.components.items()}
+    pressed = CellField((CellFieldBlock(zone.cells, given, blank.support, "SHB8"),))
+    block = families.geometric_stiffness(zone, pressed, material(zone, YOUN=E, NU=0.0))
+    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
+    u = layout.gather(field(zone, UZ=lambda x: x[:, 0]))
+    found = np.einsum("ci,cij,cj->c", u, block.values, u)
+    np.testing.assert_allclose(found, 1.5 * 2.0 * 0.4 * stress @ (weights / 2.0))

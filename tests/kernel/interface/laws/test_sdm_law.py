@@ -119,6 +119,9 @@ def test_too_soft_a_joint_is_refused_with_the_least_stiffness():
         check_sdm_parameters(parameters(KN=4e8, FU=1e5, GF=20.0))
     assert "5e+08" in str(error.value)
     check_sdm_parameters(parameters(KN=6e8, FU=1e5, GF=20.0))
+    brittle = [parameters(KN=kn, FU=fu) for kn, fu in ((4e8, 5e4), (9e8, 1e5), (1e7, 0.0))]
+    with pytest.raises(MaterialError, check=lambda e: e.data == {"fu": 1e5, "fu_2": 25.0}):
+        check_sdm_parameters(np.concatenate(brittle))
 
 
 @together("code, wrong", [("parameter-must", {"KN": 0.0}), ("parameter-must", {"KS1": -1.0}),

@@ -5,12 +5,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.assembled import Bench
-from references.recorder import Recorder, recorded
+from references.recorder import Recorder, assert_alike, recorded
 from together import together
 
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.curves.curve import Curve, CurvePart, Load, LoadPart
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import Term, relation_rows
 from ssilang.kernel.statics.stepping import step_statics
+from ssilang.kernel.stepping.driven import Additions
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.run import integrate
 
@@ -114,6 +117,31 @@ def test_every_scheme_keeps_the_relation(scheme):
     assert np.abs(u - newmark(times, u[0], np.zeros(2))).max() <= 0.2 * 2e-2
     if scheme.conserving:
         assert np.abs(history.imbalance).max() <= 1e-11 * history.energies[0].sum()
+
+
+def test_what_is_added_at_each_step_acts_as_what_the_problem_has():
+    """A relation with a dual and its moving value, a spring, a dashpot, a force."""
+    bench, one, two = lever()
+    bench.dashpot(90.0, two)
+    times, (link,) = np.arange(41) * 5e-3, bench.relations[-1].multipliers
+    curves = np.cos(11.0 * times), np.sin(37.0 * times)
+
+    def fields(*sizes):
+        return bench.field((one, "FY", -40.0 * sizes[0])), bench.field((int(link), "FLX", sizes[1]))
+
+    parts = zip(fields(1.0, 1e-3), curves, strict=True)
+    load = Load(tuple(LoadPart("MECA", f, Curve((CurvePart(times, x),))) for f, x in parts))
+    whole = recorded(bench.problem(times, load))
+    spring, relation = bench.stiffness_blocks.pop(), bench.relations.pop()
+    added = Matrix(bench.table, (spring,)), bench.damping, Matrix(bench.table, (), (relation,))
+    bench.damping_blocks.clear()
+
+    def driver(time, state, problem):
+        return Additions(*added, *fields(np.cos(11.0 * time), 1e-3 * np.sin(37.0 * time)))
+
+    found = recorded(bench.problem(times), driver=driver)
+    assert (whole[0].of("w") < 0.0).any()
+    assert_alike(found, whole, ("u", "v", "a", "w", "t"))
 
 
 def one_sided():

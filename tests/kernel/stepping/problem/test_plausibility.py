@@ -28,7 +28,7 @@ def swings_of(problem):
 def block(**change):
     """A body of two masses over a joint, beside it a held one; pushed by a weight and a sine."""
     given = {"side": 0.0, "weight": -100.0, "push": 0.0, "kn": 1e6, "ks": 0.0, "stop": False,
-             "size": 2.0} | change  # fmt: skip
+             "size": 2.0, "start": 0.0} | change  # fmt: skip
     b = Bench()
     low, one, two, apart = (b.node(*p) for p in ((0, -1), (0, 0), (given["size"], 0), (9, 9)))
     b.n = (low, one, two, apart)
@@ -52,7 +52,8 @@ def block(**change):
         ).parts
     if given["push"]:
         parts += b.load(b.field((two, "FX", given["push"])), T, np.sin(100 * T)).parts
-    return b, b.problem(T, Load(parts) if parts else None)
+    start = b.field((one, "UX", given["start"])) if given["start"] else None
+    return b, b.problem(T, Load(parts) if parts else None, displacement=start)
 
 
 @together(
@@ -62,6 +63,8 @@ def block(**change):
         ({"push": 50.0, "ks": 1e5}, []),
         ({"push": 50.0, "side": 1e4, "weight": 0.0}, [("UY", True)]),  # nothing presses it
         ({"push": 50.0, "side": 1e4, "weight": 100.0}, []),  # pulled off, and stands until then
+        ({"push": 50.0, "side": 1e4, "weight": 0.0, "start": 1e-3}, [("UY", True)]),
+        ({"push": 50.0, "weight": 0.0}, [("UX", False), ("UY", True)]),
         ({"stop": True, "push": 50.0}, [("UX", False)]),
         ({"stop": True, "push": 50.0, "side": 1e3}, []),
     ],
@@ -120,10 +123,16 @@ def counting(function, counted):
 
 def test_periods_are_rayleighs_of_the_static_shape(monkeypatch):
     K, M = np.array([[11e4, -8e4], [-8e4, 8e4]]), np.diag([2.0, 5.0])
-    loads = (7.0, -2.0, SINE), (1.0, 4.0, STEP), (1.0, 1.0, np.ones(41))
+    loads = (
+        (7.0, -2.0, SINE),
+        (1.0, 4.0, STEP),
+        (1.0, 1.0, np.ones(41)),
+        (1.0, 0.5, np.sin(350 * T)),
+    )
     found = [*swings_of(masses(*loads, c=60.0, v=0.3))]
-    assert [s.sudden for s in found] == [False, True, True]
-    for s, f in zip(found, ([7.0, -2.0], [1.0, 4.0], M @ [0.3, 0.6]), strict=True):
+    assert [s.sudden for s in found] == [False, True, True, True]
+    forces = [7.0, -2.0], [1.0, 4.0], [1.0, 0.5], M @ [0.3, 0.6]
+    for s, f in zip(found, forces, strict=True):
         x = np.linalg.solve(K, f)
         moved, work = x @ M @ x, x @ f
         assert s.period == pytest.approx(2 * np.pi * np.sqrt(moved / work))
@@ -163,9 +172,12 @@ def test_periods_are_rayleighs_of_the_static_shape(monkeypatch):
 
 def test_masses_alone_and_starts_against_supports():
     b = Bench()
-    n = [b.node(float(i), 0.0) for i in range(7)]
-    for node in n:
+    n = [b.node(float(i), 0.0) for i in range(10)]
+    for node in n[:7]:
         b.mass(1.0, node, ("UY",))
+    b.dashpot(4.0, n[7])
+    joined = b._block(n[8:], ["UY"] * 2, [[6.0, -6.0], [-6.0, 6.0]], "AMORTISSEMENT")
+    b.damping_blocks.append(joined)
     b.spring(2.0, n[0])
     b.relate([(1.0, "UY", n[1])])
     b.relate([(1.0, "UY", n[6])])
@@ -174,13 +186,16 @@ def test_masses_alone_and_starts_against_supports():
     fast = b.field((n[3], "UY", 0.4), (n[1], "UY", 0.0))
     load = b.load(b.field((n[4], "FY", 1.0)))
     problem = b.problem(T, load, displacement=start, velocity=fast)
-    assert masses_alone(problem).tolist() == [n[2], n[5]]
+    assert masses_alone(problem).tolist() == [n[2], n[5], n[7]]
     found = against_supports(problem)
     assert (found["DEPL"].tolist(), found["VITE"].tolist()) == ([0], [])
     fast = b.field((n[1], "UY", 0.5))
     problem = b.problem(T, load, velocity=fast)
     found = against_supports(problem)
     assert (found["DEPL"].tolist(), found["VITE"].tolist()) == ([], [0])
+    at = int(b.relations[1].multipliers[0])
+    moved = b.load(NodeField.of(b.table, np.array([at]), {"FLX": np.array([0.3])}))
+    assert against_supports(b.problem(T, moved))["DEPL"].tolist() == [1]
 
 
 def test_contact_times_are_those_of_the_mass_that_the_joints_carry():
@@ -195,3 +210,23 @@ def test_contact_times_are_those_of_the_mass_that_the_joints_carry():
     assert contact_resolution(block(stop=True)[1]) is None
     assert stiffness_contrast(problem) == pytest.approx(4e5 / 1e7)
     assert stiffness_contrast(block(stop=True)[1]) is None
+
+
+@together("normal", [(0.0, 1.0), (0.6, 0.8)])
+def test_joints_of_several_bodies_share_the_push(normal):
+    """One on fixed ground, another on one that moves: each with its part of the stiffness."""
+    b, along = Bench(), dict(zip(("V1X", "V1Y"), normal, strict=True))
+    low, one, two, three = (b.node(*p) for p in ((0, -1), (0, 0), (3, 0), (3, 1)))
+    b.fix(low)
+    for node, m, k in ((one, 2.0, 2e6), (two, 5.0, 7e6), (three, 11.0, 5e4)):
+        b.mass(m, node)
+        b.spring(k, node)
+    b.joint("SEG2", [low, one], "JOI1", KN=4e5, KS=0.0, **along)
+    b.joint("SEG2", [two, three], "JOI1", KN=1e5, KS=0.0, **along)
+    problem = b.problem(np.array([0.0, 1e-3, 4e-3, 5e-3]))
+    found = contact_resolution(problem)
+    mobility = 0.8**2 / 2.0 + 0.2**2 * (1 / 5.0 + 1 / 11.0)
+    assert found.contact_time == pytest.approx(np.pi / np.sqrt(5e5 * mobility))
+    assert found.dt == pytest.approx(3e-3)
+    if not normal[0]:
+        assert stiffness_contrast(problem) == pytest.approx(4e5 / 2e6)  # of 1/70, 1/5 and 2

@@ -13,6 +13,7 @@ from together import together
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.newmark import generalised_alpha, hht
+from ssilang.kernel.stepping.rests.reduced import run
 from ssilang.kernel.stepping.rests.reduced.basis import Basis
 from ssilang.kernel.stepping.rests.reduced.run import _PAIRS, integrate_reduced
 from ssilang.kernel.stepping.rests.reduced.trace import Difference
@@ -49,6 +50,14 @@ def test_the_estimate_holds_down_to_one_in_a_million():
     assert max(errors) <= history.reduction.estimate <= 1e-6
     velocities = relative(reduced.of("v"), whole.of("v"))
     assert velocities <= 10 * history.reduction.velocity
+
+
+def test_the_bases_used_last_are_kept():
+    problem, kept = soil_block(steps=10), run.PAIRS_KEPT
+    pairs = [run._pair_of(problem, 10.0**-k) for k in range(1, kept + 1)]
+    assert run._pair_of(problem, 0.1) is pairs[0]
+    last = run._pair_of(problem, 0.5)
+    assert [*_PAIRS.values()] == [*pairs[2:], pairs[0], last]
 
 
 def test_average_acceleration_balances_energy():
