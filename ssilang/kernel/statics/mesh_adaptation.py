@@ -51,7 +51,7 @@ def _regular(cell_type: str) -> tuple[FloatArray, FloatArray]:
 
 @dataclass(frozen=True, eq=False)
 class _Cells:
-    """A block with the metric (n_cells, d, d) of its cells, the weight theta and the power gamma."""
+    """A block with the metric (n_cells, d, d) of its cells, theta and the power gamma."""
 
     block: CellBlock
     metric: FloatArray
