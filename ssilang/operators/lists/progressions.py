@@ -6,6 +6,7 @@ from array import array
 from ssilang.operators.prelude import *
 
 _REAL = ("ENTIER", "FLOTTANT")
+_BLOCK = 100_000
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 _FREE = "its items, steps and repetitions stand in any order"
@@ -237,7 +238,11 @@ def _as_written(value: float) -> np.longdouble:
 
 def _evenly(first: np.longdouble, step: np.longdouble, count: int) -> FloatArray:
     """Reals behind the first, the doubles nearest to what is written: 0.3 behind 0.1 and 0.2."""
-    return (first + step * np.arange(1, count + 1)).astype(float)
+    made = np.empty(count)
+    for start in range(0, count, _BLOCK):  # a long row takes no more memory than its values
+        end = min(start + _BLOCK, count)
+        made[start:end] = first + step * np.arange(start + 1, end + 1)
+    return made
 
 
 def _geometric_steps(start: float, step: float, end: float, ratio: float) -> list[float]:
