@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import failed, finder, ran, refused
+from script_runs import failed, finder, ran
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -174,13 +174,6 @@ def test_unilateral_support_opens_and_closes(tmp_path):
     assert find("U1") == pytest.approx(5e-4, rel=1e-10)
     assert find("U4") == pytest.approx(1e-3, rel=1e-10)
     assert find("RE").components["FX"].values.sum() == pytest.approx(-500.0, rel=1e-9)
-
-
-@pytest.mark.parametrize(
-    "entry", ["T . 'UPDATE_LAGRANGIAN' = VRAI ;", "T . 'BLOCAGES_THERMIQUES' = 1 ;"]
-)
-def test_what_is_not_built_is_refused_by_name(entry, tmp_path):
-    assert entry.split("'")[1] in refused(BAR + entry + "PASAPAS T ;", tmp_path)
 
 
 def test_joint_of_the_wrong_unit_scale_is_reported(tmp_path):
@@ -370,18 +363,6 @@ def test_imposed_strains_press_a_held_plate(tmp_path):
     modulus = 0.25 * 1e5 / (1 - 0.3**2)
     assert stress["SMXX"] == pytest.approx(-modulus * (1e-3 + 0.3 * 2e-3), rel=1e-10)
     assert stress["SMYY"] == pytest.approx(-modulus * (2e-3 + 0.3 * 1e-3), rel=1e-10)
-
-
-def test_free_strains_that_no_body_takes_are_refused(refused):
-    large = PLATE + "T . 'GRANDS_DEPLACEMENTS' = VRAI ; "
-    warm = "T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' S 'T' 10.) EV ; PASAPAS T ;"
-    assert "the load T strains bodies without stress" in refused(large + warm)
-    assert "the load DEFI strains" in refused(large + f"T . 'CHARGEMENT' = {STRAIN} ; PASAPAS T ;")
-    wrong = STRAIN.replace("EPYY", "EPZY")
-    message = refused(PLATE + f"T . 'CHARGEMENT' = {wrong} ; PASAPAS T ;")
-    assert "this field has EPZY" in message
-    nodal = "T . 'CHARGEMENT' = CHAR 'DEFI' (MANU 'CHPO' S 'EPXX' 1.) EV ; PASAPAS T ;"
-    assert "are a field in cells" in refused(PLATE + nodal)
 
 
 def test_pressure_in_large_displacements_is_that_of_charmeca(tmp_path):
