@@ -628,7 +628,7 @@ def test_lines_that_bend_that_continue_and_that_repeat():
     edge = boundary.contour(corners).blocks[0].connectivity
     assert sorted(edge[:, 0].tolist()) == sorted(edge[:, 1].tolist())  # one loop, one sense
     assert edge[0].tolist() in ids[[[0, 2], [4, 0]]].tolist()
-    lone = boundary.lone_surfaces(Mesh(table, (
+    lone = boundary.lone_cells(Mesh(table, (
         CellBlock.make(table, "TRI3", ids[[[0, 2, 4], [4, 2, 0], [5, 4, 2]]]),
     )))  # fmt: skip
     assert lone.blocks[0].connectivity.tolist() == [ids[[5, 4, 2]].tolist()]
