@@ -29,7 +29,6 @@ import shutil
 import signal
 import sys
 import tempfile
-import tomllib
 import traceback
 import zipfile
 from collections import Counter
@@ -86,10 +85,6 @@ def decks() -> list[str]:
                 text = node.value
                 if text.count(" ;") + text.count(";\n") > 2 and "{" not in text:
                     texts.append(text)
-    table = tomllib.loads((ROOT / "tests/operators/test_scripts.toml").read_text(encoding="utf-8"))
-    for group in table.values():
-        starts = group.pop("starts", {})
-        texts += [starts.get(c.get("start"), "") + c["script"] for c in group.values()]
     return list(dict.fromkeys(texts))
 
 

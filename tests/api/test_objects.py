@@ -12,8 +12,10 @@ from together import together
 
 import ssilang
 import ssilang.api
+from ssilang.api.fields import CellFieldView
 from ssilang.api.html import html_of
 from ssilang.kernel.curves.curve import Curve
+from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 
 
 def exact(t):
@@ -99,6 +101,10 @@ def test_tables_of_results_are_made_as_far_as_they_are_asked_for(oscillator):
     held = ssilang.run("OPTI DIME 2 ; T = TABL ; T . (0 0) = 1. ; T . 'B' = 2. ; T . 3 = 4. ;")["T"]
     with pytest.raises(KeyError, match="there are 'B' and 3"):  # points are no words to try
         held["C"]
+    many = ssilang.run("T = TABL ; REPE B 21 ; T . &B = &B ; FIN B ;")["T"]
+    assert repr(many) == "<TABLE 21: 1, 2, 3, 4, 5, 6, 7, 8, ...>"
+    with pytest.raises(KeyError, match=r"19 and 20(\D|$)"):
+        many["C"]
 
 
 @pytest.mark.parametrize("touched", [False, True])
@@ -168,7 +174,7 @@ def test_meshes_and_their_fields_as_grids_of_pyvista(swing):
 def test_curves_of_several_parts_say_which(swing):
     r = ssilang.run(
         "E = EVOL 'MANU' 'LEGE' 'a' (PROG 0. 1.) (PROG 1. 2.) ; "
-        "F = EVOL 'MANU' 'LEGE' 'b' (PROG 0. 2.) (PROG 3. 4.) ; EF = E ET F ;"
+        "F = EVOL 'MANU' 'LEGE' 'b' (PROG -1. 2.) (PROG 3. 4.) ; EF = E ET F ;"
     )
     both = r["EF"]
     assert both.names == ("a", "b")
@@ -176,6 +182,7 @@ def test_curves_of_several_parts_say_which(swing):
         both.x  # noqa: B018
     assert both[1].y.tolist() == [3.0, 4.0]
     assert np.isnan(both.frame().loc[2.0, "a"])
+    assert both.frame().index.tolist() == [-1.0, 0.0, 1.0, 2.0]
     assert both._repr_png_()[:4] == b"\x89PNG"
 
 
@@ -290,6 +297,19 @@ def test_views_give_numbers_in_their_own_order():
     assert ssilang.api.objects.held(Path("a") / "b") == "a/b"
 
 
+def test_what_is_written_into_numbers_seen_leaves_the_script_as_it_is():
+    r = ssilang.run(SHOWN + "N = LECT 4 7 ;")
+    ways = [
+        lambda: r["R"], lambda: r["N"], lambda: r["E"].x, lambda: r["E"].y, lambda: r["U"]["SCAL"],
+        lambda: r["P"].coordinates, lambda: r["S"].points, lambda: r["U"].points,
+        lambda: r["C"].values("B", 2), lambda: r["T"][7],
+    ]  # fmt: skip
+    for seen in ways:
+        before = seen().tolist()
+        seen()[...] = 99
+        assert seen().tolist() == before
+
+
 MIXED = """
 OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ; Z = 9. 9. ; A = 0. 0. ; B = 4. 0. ; C = 4. 2. ; D = 0. 2. ;
 E = 7. 0. ; F = 7. 2. ; Q = MANU 'QUA4' A B C D ; R = MANU 'TRI3' B E C ; S = Q ET R ;
@@ -322,6 +342,17 @@ def test_views_of_mixed_data_keep_what_belongs_together():
     assert k.frame()["A"].max() == 7
     with pytest.raises(ssilang.Error, match="zone"):
         k["A"]
+    for zone in (0, k.zones + 1):
+        with pytest.raises(ssilang.Error, match="zone"):
+            k.values("A", zone)
+    held = {
+        "A": np.array([[1.0, 2.0, 3.0]]),
+        "B": np.array([[7.0]]),
+        "P": np.array([[r["A"].held]]),
+    }
+    both = CellFieldView(CellField((CellFieldBlock(r["Q"].held.blocks[0], held),)), "en").frame()
+    assert both.to_dict("list") == {"A": [1, 2, 3], "B": [7, 7, 7]}
+    assert both.index.tolist() == [(1, 1, 1), (1, 1, 2), (1, 1, 3)]
     assert "u" in r
     assert "NONE" not in r
     two = r.evaluate("ORDO (PROG 3. 1.) (LECT 7 8)")

@@ -41,6 +41,10 @@ def test_a_series_of_pandas_is_an_evolution_over_its_index():
     )
     assert r["B"] == 2.0
     assert r["ACCE"].series().equals(record)
+    long = ssilang.run("X = 1 ; ACCE = 0 ;", ACCE=record.rename("acceleration of the base"))["ACCE"]
+    assert (long.names, long.held.parts[0].ordinate_name) == (
+        ("acceleration of the base",), "acceleration"
+    )  # fmt: skip
 
 
 @together(

@@ -35,8 +35,12 @@ def run(folder: Path, text: str) -> dict[str, Any]:
     return made
 
 
-def test_files_figures_and_statistics_are_listed(tmp_path: Path) -> None:
+def test_files_figures_and_statistics_are_listed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ssilang.cli.summary.peak_memory", lambda: 5 * 2**18)
     made = run(tmp_path, SCRIPT)
+    assert made["peak_memory_mb"] == 1.2
     assert made["exit_code"] == 0
     assert made["deck"] == str(tmp_path / "deck.ssi")
     assert made["files"] == [{"path": "a.csv", "bytes": 8}]

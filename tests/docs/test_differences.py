@@ -64,8 +64,8 @@ STAND = {
     "No link leads": "cli/test_safety.py::test_a_link_that_leads_outside_is_refused",
     "`'VRAI'` and `'FAUX'`": "language/test_entry_checks.py::"
     "test_a_word_for_a_logical_is_told_and_taken_as_it",
-    "Under `OPTI 'MODE' 'FREQ'`": "operators/test_scripts.toml::"
-    "frequencies of the default sweep show the resonance",
+    "Under `OPTI 'MODE' 'FREQ'`": "operators/test_frequency_sweep.py::"
+    "test_frequencies_of_the_default_sweep_show_the_resonance",
     "Shells DST": "kernel/elements/shells/test_shells.py::"
     "test_plate_bent_to_a_quadratic_surface_has_the_exact_moments",
     "Plastic solids in large": "docs/test_differences.py::test_reactualise_is_half_way",

@@ -9,12 +9,14 @@ from together import together
 
 from ssilang.io import tables
 from ssilang.io.errors import InputError
-from ssilang.io.tables import Column, as_columns, csv_lines, read_csv
+from ssilang.io.tables import Column, as_columns, csv_lines, read_csv, write_parquet
 
 
 def test_titles_stand_over_columns_of_unequal_length() -> None:
     lines = csv_lines([Column("t", [0.0, 0.1]), Column("", [1, 2, 3]), Column("w", ["AB"])])
     assert lines == ["t;;w", "0.0;1;AB", "0.1;2;", ";3;"]
+    heads = [Column(t, [], "m").head for t in ("", "  thirteenletters", "a ")]
+    assert heads == ["(m)", "thirteenlett (m)", "a (m)"]
 
 
 def test_numbers_come_back_exactly(tmp_path: Path) -> None:
@@ -37,8 +39,8 @@ def test_digits_are_decimals_of_the_mantissa() -> None:
 
 def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path: Path) -> None:
     path = tmp_path / "x.csv"
-    path.write_text("time;force\n0;1.5D3\n1;-2\n")
-    assert read_csv(path, ";", 2) == [[0.0, 1500.0], [1.0, -2.0]]
+    path.write_text("time;force\n0;1.5D3\n1;-2d-1\n")
+    assert read_csv(path, ";", 2) == [[0.0, 1500.0], [1.0, -0.2]]
     with pytest.raises(InputError, match="line 1: 'time'"):
         read_csv(path)
 
@@ -85,6 +87,19 @@ def test_digits_that_python_alone_reads_are_no_number(tmp_path: Path) -> None:
     path.write_text("1;1_0\n2;3\n")
     with pytest.raises(InputError, match="1_0"):
         read_csv(path)
+
+
+def test_columns_without_a_unit_have_none_in_parquet(tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    columns = {name: np.arange(2.0) + i for i, name in enumerate("cab")}
+    write_parquet(tmp_path / "x.parquet", columns, {"a": "m", "b": ""})
+    table = parquet.read_table(tmp_path / "x.parquet")
+    assert {f.name: f.metadata for f in table.schema} == {
+        "c": None,
+        "a": {b"unit": b"m"},
+        "b": None,
+    }
+    assert table.to_pydict() == {"c": [0, 1], "a": [1, 2], "b": [2, 3]}
 
 
 @together("separator", [";", " "])

@@ -5,6 +5,7 @@ import os
 import shutil
 import socket
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from refusing import refusal
@@ -65,6 +66,14 @@ def test_files_are_read_beside_the_script_or_from_the_output(output: RunOutput) 
     assert output.source("in.csv") == output.inputs / "in.csv"
     assert output.source("../secret.csv") is None
     assert output.source("/etc/passwd") is None
+    output.directory.mkdir(parents=True)
+    for name in ("in.csv", "left.csv"):  # of an earlier run
+        (output.directory / name).write_text("2")
+    left, own = output.directory / "left.csv", output.inputs / "in.csv"
+    assert [output.source(n) for n in ("left.csv", "in.csv", "left.csv")] == [left, own, left]
+    output.wrote(left, output.directory / "b", left)
+    assert output.source("left.csv") == left
+    assert (output.read, output.files) == ([own, left], [left, output.directory / "b"])
 
 
 def test_what_the_run_wrote_is_preferred(output: RunOutput) -> None:
@@ -75,6 +84,7 @@ def test_what_the_run_wrote_is_preferred(output: RunOutput) -> None:
     found = output.source("x.txt")
     assert found is not None
     assert found.read_text() == "new\n"
+    assert output.read == []
 
 
 def test_an_allowed_folder_may_be_read_and_written(tmp_path: Path) -> None:
@@ -90,6 +100,23 @@ def test_a_file_of_another_case_is_found(output: RunOutput) -> None:
     assert output.source("mesh.sauv") == output.inputs / "mesh.sauv"  # not a folder of results
     (other / "summary.json").write_text("{}")
     assert output.source("mesh.sauv") == other / "mesh.sauv"
+    for name, age in (("a", 50), ("z", 10), ("m", 30)):
+        shutil.copytree(other, other.with_name(name))
+        when = other.stat().st_mtime - age
+        os.utime(other.with_name(name) / "mesh.sauv", (when, when))
+    shutil.rmtree(other)
+    assert output.source("mesh.sauv") == other.with_name("z") / "mesh.sauv"  # the latest
+
+
+def test_a_series_that_another_replaces_is_let_go(output: RunOutput) -> None:
+    gone: list[str] = []
+    first, second, third = (
+        SimpleNamespace(base=Path(base), release=lambda name=name: gone.append(name))
+        for name, base in (("first", "a"), ("second", "a"), ("third", "b"))
+    )
+    for series in (first, third, first, second):
+        output.keep_series(series)
+    assert (gone, [*output.series.values()]) == (["first"], [second, third])
 
 
 def test_lines_are_gathered_and_written_whole(output: RunOutput) -> None:

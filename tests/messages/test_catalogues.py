@@ -182,8 +182,11 @@ def test_every_site_gives_what_its_sentence_tells():
 def test_every_sentence_has_a_site():
     of_library = set(re.findall(r"'(stdlib\.[a-z0-9-]+)'", _library_text()))
     assert {c for c in catalogue() if c.startswith("stdlib.")} == of_library
-    of_usage = set(re.findall(r'"(cli\.[a-z-]+)"', (_ROOT / "cli" / "usage.toml").read_text()))
-    assert not set(catalogue()) - program()[1] - of_library - of_usage - named_words()
+    tables = [_ROOT / name for name in ("cli/usage.toml", "language/say/foreign.toml")]
+    of_tables = {
+        c for t in tables for c in re.findall(r"[a-z.]+(?:-[a-z]+)+", t.read_text("utf-8"))
+    }
+    assert not set(catalogue()) - program()[1] - of_library - of_tables - named_words()
 
 
 def named_words() -> set[str]:

@@ -33,6 +33,10 @@ from ssilang.messages.message import Sentence, filled, find, hint, sentence
         ("{known:?there {known:is|are} {known}|none}", {"known": ["A"]}, "en", "there is A"),
         ("{known:?there is {known}|none}", {"known": ()}, "en", "none"),
         ("{{{x}}}", {"x": 1}, "en", "{1}"),
+        ("{known:?there is {known:g}|none}", {"known": np.zeros(1)}, "en", "there is 0"),
+        ("{known:?there is {known:g}|none}", {"known": np.zeros(0)}, "en", "none"),
+        ("{x:.3g}", {"x": "w" * 50}, "en", "w" * 40),
+        ("{path}", {"path": Path("a\nb")}, "en", "a\\nb"),
     ],
 )
 def test_templates(template, data, language, told):

@@ -8,6 +8,11 @@ from ssilang.kernel.curves.cloud import inverse_distance, moving_plane, on_grid
 CLOUD = "N = NUAG 'COMP' 'X' 0. 1. 2. 'COMP' 'Y' 5. 9. 6. ; "
 
 
+def test_both_ways_to_write_a_cloud_give_the_same(found):
+    a, b = found(CLOUD + "M = NUAG 'X'*'FLOTTANT' 'Y'*'FLOTTANT' 0. 5. 1. 9. 2. 6. ;", "N", "M")
+    assert a.columns == b.columns
+
+
 def test_moving_plane_reproduces_a_plane_and_shepard_a_constant():
     points = np.array([[0.0, 0], [1, 0], [0, 1], [1, 1], [0.4, 0.7]])
     at = np.array([[0.3, 0.2], [0.9, 0.8]])

@@ -1,6 +1,18 @@
 """EVOL in its kinds, parts of curves, arithmetic, interpolation, integrals."""
 
+import pytest
 from together import together
+
+
+def test_parts_of_a_transform_are_taken_by_the_names_of_their_axes(found):
+    """A cosine of eight points: half its sum stands in the real part of its line alone."""
+    signal = "T = PROG 0. 'PAS' 0.125 0.875 ; C = EVOL 'MANU' T (COS (T * 360.)) ; "
+    real, imaginary = found(
+        signal + "F = TFR 3 C 'REIM' ; R = EXTR F 'PART REEL' ; I = EXTR F 'PART IMAG' ;", "R", "I"
+    )
+    assert real.values[1] == pytest.approx(0.5)
+    assert abs(real.values[[0, 2, 3]]).max() < 1e-12
+    assert abs(imaginary.values).max() < 1e-12
 
 
 @together(

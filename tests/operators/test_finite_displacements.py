@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from script_runs import finder, ran, refused
+from script_runs import finder, ran
 from together import together
 
 from ssilang.operators.statics.bodies import warn_of_strains
@@ -225,15 +225,6 @@ def test_each_law_is_told_of_the_strains_of_its_own_bodies(finite, word, told):
     )  # fmt: skip
     warn_of_strains(entries, find("U"))
     assert found == pytest.approx(told)
-
-
-def test_a_word_that_lagrangien_does_not_have_is_refused(tmp_path):
-    text = (
-        BARS["CUB8"]
-        + "LAST = 1.2 ; "
-        + PULLED.replace("PASAPAS T", "T . 'LAGRANGIEN' = 'EULER' ; PASAPAS T")
-    )
-    assert "'MI_PAS' | 'FIN_PAS' | 'TOTAL'" in refused(text, tmp_path)
 
 
 def test_a_yielding_body_goes_on_from_where_it_was(tmp_path):

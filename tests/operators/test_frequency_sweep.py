@@ -78,6 +78,79 @@ def test_disc_on_a_cone_is_the_disc_with_a_monkey_tail(found):
     np.testing.assert_allclose(cone, 2.0 / (stiffness - 2e6 * W**2), rtol=1e-10)
 
 
+def test_supports_react_with_both_parts(found):
+    real, other = found(
+        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ; L1 = MANU SEG2 P1 P2 ;"
+        "MO = MODE L1 MECANIQUE ELASTIQUE IMPEDANCE VOIGT (MOTS UX) ;"
+        "CA = MATE MO RAID 400. VISC 12. ; OPTI MODE FREQ ;"
+        "T1 = TABL ; T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = CA ;"
+        "B1 = BLOQ P1 UX ; T1 . 'BLOCAGES_MECANIQUES' = B1 ; T1 . 'AMORTISSEMENT' = AMOR MO CA ;"
+        "T1 . 'CHARGEMENT' = CHAR DIMP (DEPI B1 0.1) (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;"
+        "T1 . 'RIGIDITE_CONSTANTE' = APPU UX 50. P2 ;"
+        "T1 . 'TEMPS_CALCULES' = PROG 3. ; PASAPAS T1 ; R = T1 . 'REACTIONS' . 1 ;"
+        "X = EXTR R FX P1 ; Y = EXTR R IFX P1 ;",
+        "X",
+        "Y",
+    )
+    spring = 400.0 + 12.0j * 6.0 * np.pi
+    series = 1.0 / (1.0 / spring + 1.0 / 50.0)
+    assert complex(real, other) == pytest.approx(0.1 * series, rel=1e-12)
+
+
+MODES = """
+OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; A = 0. 0. ; B = 1. 0. ; L1 = DROI 1 A B ;
+M1 = MODE L1 MECANIQUE ELASTIQUE POUT ;
+C1 = MATE M1 YOUN 2.E11 NU .3 RHO 7800. SECT .01 INRZ 1.E-5 ;
+K1 = (RIGI M1 C1) ET (BLOQ DEPL ROTA A) ET (BLOQ UX B) ; G1 = MASS M1 C1 ;
+F1 = MANU 'CHPO' B 1 'FY' 1.E4 'NATURE' 'DISCRET' ; E1 = EVOL MANU (PROG 0. 1.E5) (PROG 1. 1.) ;
+OPTI MODE FREQ ; T1 = TABL ; T1 . 'RIGIDITE_CONSTANTE' = K1 ; T1 . 'MASSE_CONSTANTE' = G1 ;
+T1 . 'CHARGEMENT' = CHAR MECA F1 E1 ; T1 . 'TEMPS_CALCULES' = PROG 10. 300. ;
+T1 . 'AMORTISSEMENT' = 1.E-4 * K1 ;
+PASAPAS T1 ;
+V1 = VIBR 'SIMU' 1. 2 K1 G1 ;
+REPE I 2 ; E = V1 . 'MODES' . &I ;
+  Q = MODE (MANU POI1 (E . 'POINT_REPERE')) MECANIQUE ELASTIQUE MODAL ;
+  C = MATE Q FREQ (E . 'FREQUENCE') MASS (E . 'MASSE_GENERALISEE') DEFO (E . 'DEFORMEE_MODALE') ;
+  SI (EGA &I 1) ; MO = Q ; CA = C ; SINO ; MO = MO ET Q ; CA = CA ET C ; FINS ;
+FIN I ;
+T2 = TABL ; T2 . 'MODELE' = MO ; T2 . 'CARACTERISTIQUES' = CA ;
+T2 . 'CHARGEMENT' = CHAR MECA (PJBA F1 MO CA) E1 ; T2 . 'TEMPS_CALCULES' = PROG 10. 300. ;
+T2 . 'AMORTISSEMENT' = 1.E-4 * (RIGI MO CA) ;
+PASAPAS T2 ;
+UA = T1 . 'DEPLACEMENTS' . 2 ; UB = RECO MO CA (T2 . 'DEPLACEMENTS' . 2) ;
+X1 = EXTR UA UY B ; X2 = EXTR UA IUY B ; Y1 = EXTR UB UY B ; Y2 = EXTR UB IUY B ;
+"""
+
+
+def test_all_modes_give_the_response_of_the_whole(found):
+    x1, x2, y1, y2 = found(MODES, "X1", "X2", "Y1", "Y2")
+    assert complex(y1, y2) == pytest.approx(complex(x1, x2), rel=1e-8)
+    assert abs(x2) > 1e-3 * abs(x1)
+
+
+def test_frequencies_of_the_default_sweep_show_the_resonance(found):
+    frequencies, tip = found(
+        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; G1 = MANU POI1 P1 ;"
+        "MO = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UX) ; CA = MATE MO RAID 400. MASS 4. ;"
+        "OPTI MODE FREQ ; T1 = TABL ; T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = CA ;"
+        "T1 . 'CHARGEMENT' = CHAR MECA (MANU 'CHPO' P1 1 FX 1. 'NATURE' 'DISCRET')"
+        " (EVOL MANU (PROG 0. 2.) (PROG 1. 1.)) ; PASAPAS T1 ;"
+        "F = PROG ; U = PROG ; N = (DIME (T1 . 'TEMPS')) - 1 ;"
+        "REPE I N ; F = F ET (T1 . 'TEMPS' . &I) ;"
+        " U = U ET (EXTR (T1 . 'DEPLACEMENTS' . &I) UX P1) ; FIN I ;",
+        "F",
+        "U",
+    )
+    f, u = np.array(frequencies.values), np.array(tip.values)
+    natural = 10.0 / (2.0 * np.pi)
+    assert f[-1] == pytest.approx(2.0)
+    assert np.abs(f / natural - 1.0).min() == pytest.approx(0.002, rel=0.1)
+    middle = 0.5 * (f[1:] + f[:-1])
+    exact = 1.0 / (400.0 - 4.0 * (2.0 * np.pi * middle) ** 2)
+    away = np.abs(middle / natural - 1.0) > 0.003
+    np.testing.assert_allclose((0.5 * (u[1:] + u[:-1]))[away], exact[away], rtol=3e-3)
+
+
 TWO = """
 OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; G1 = MANU POI1 P1 ;
 MA = MODE G1 MECANIQUE ELASTIQUE IMPEDANCE (MOTS UX) {first} ; CA = MATE MA RAID 3. ;

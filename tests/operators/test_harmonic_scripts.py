@@ -107,6 +107,19 @@ def test_a_further_call_goes_on_from_the_last_solution(found):
     assert w.max() == pytest.approx(whole.max(), abs=0.06)
 
 
+def test_names_of_coefficients_follow_harmonics_and_unknowns(found):
+    text = """
+    OPTI DIME 2 ELEM SEG2 MODE PLAN ; P1 = 0. 0. ; T = TABL ; T . 'N_HARMONIQUE' = 2 ;
+    T . 'RIGIDITE_CONSTANTE' = MANU 'RIGI' P1 (MOTS 'UX' 'UY') (PROG 2. 0. 0. 3.) ;
+    T . 'AMORTISSEMENT_CONSTANT' = MANU 'RIGI' P1 (MOTS 'UX' 'UY') (PROG 0.1 0. 0. 0.1) ;
+    T . 'MASSE_CONSTANTE' = (MASS 'UX' 1. P1) ET (MASS 'UY' 1. P1) ; HBM T ;
+    """
+    T = found(text, "T")
+    names = T.get("COMPOSANTES").get("DEPLACEMENT_HBM").values
+    assert names == ["U1", "U2", "U3", "U4", "V3", "V4", "U5", "U6", "V5", "V6"]
+    assert T.get("COMPOSANTES").get("HARM_FORCE").get(2).values == ["F5", "F6", "G5", "G6"]
+
+
 # --- loads along the arc length --------------------------------------------------------------
 
 TRUSS = """

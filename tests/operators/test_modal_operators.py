@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from script_runs import found as objects
-from script_runs import ran, refused
+from script_runs import ran
 from together import together
 
 from ssilang.cli.run import run_text
@@ -236,18 +236,6 @@ def test_static_shapes_alone_condense_the_stiffness_on_their_unknowns():
     ks, kp, ms, mp = (m.blocks[0].values[0] for m in objects(script, "KS", "KP", "MS", "MP"))
     np.testing.assert_allclose(ks, kp, rtol=1e-9, atol=1e-9 * np.abs(kp).max())
     np.testing.assert_allclose(ms, mp, rtol=1e-9)
-
-
-@together(
-    "last, said",
-    [
-        ("B2 = BLOQ TS ; DEPI TS ; RESO (K1 ET B2) TS ; X = RIGI TS ;", "neither FORCE nor"),
-        (PUSH + "X = MASS TS ;", "hold no mass"),
-        (PUSH + "X = RIGI TS TS ;", "of two tables one holds modes"),
-    ],
-)
-def test_static_shapes_without_what_their_matrices_need_are_refused(last, said):
-    assert said in refused(BAND + last)
 
 
 def test_modes_are_sought_near_the_square_of_a_frequency():

@@ -25,3 +25,14 @@ def test_the_lightest_cantilever_is_found(found, method, start):
     sizes = found(CANTILEVER.format(method=method, start=start), "L1").values
     assert sizes == pytest.approx([6.016, 5.309, 4.494, 3.502, 2.153], abs=2e-3)
     assert 0.0624 * sizes.sum() == pytest.approx(1.340, abs=1e-3)
+
+
+def test_moving_asymptotes_begin_at_those_of_t0(found):
+    """Between 0 and 50 the half range around 5 leads to 0, where the deflection has no bound."""
+    script = CANTILEVER.format(method="MOV", start=5.0).replace(
+        "= 1. ; T . 'VXMAX' . &A = 10.", "= 0. ; T . 'VXMAX' . &A = 50."
+    )
+    sizes = found(
+        script.replace("T . 'VXMIN' = TABL", "T . 'T0' = 2. / 3. ; T . 'VXMIN' = TABL"), "L1"
+    ).values
+    assert sizes == pytest.approx([6.016, 5.309, 4.494, 3.502, 2.153], abs=2e-3)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from script_runs import failed, ran
+from script_runs import ran
 from together import together
 
 from ssilang.kernel.plasticity.following import Split
@@ -38,12 +38,6 @@ def truss_load(v):
     rest = np.hypot(HEIGHT, SPAN)
     length = np.hypot(HEIGHT - v, SPAN)
     return -ES * (length / rest - 1.0) * (HEIGHT - v) / length
-
-
-def refused(text, tmp_path):
-    result = failed(text, folder=tmp_path)
-    assert "defect of ssilang" not in result.message
-    return result.message
 
 
 def values(table, word):
@@ -291,38 +285,3 @@ def test_piloindi_gives_the_factor_by_itself(tmp_path):
 
 
 # --- refusals --------------------------------------------------------------------------------
-
-
-@together(
-    "entries, words",
-    [
-        ("T . 'PILOTAGE_INDIRECT' = VRAI ;", "which load is controlled"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'PILOTAGE_INDIRECT' = VRAI ;", "exclude"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'DYNAMIQUE' = VRAI ;", "static"),
-        ("T . 'AUTOMATIQUE' = VRAI ; T . 'AUTOCRIT' = -1. ;", "AUTOCRIT > 0"),
-        (
-            "T . 'PILOTAGE_INDIRECT' = VRAI ; T . 'FORCES_PILOTEES' = F1 ;",
-            "PARAMETRE_DE_PILOTAGE",
-        ),
-        (
-            "T . 'PILOTAGE_INDIRECT' = VRAI ; T . 'FORCES_PILOTEES' = F1 ; T . "
-            "'PARAMETRE_DE_PILOTAGE' = EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.) ;",
-            "does not change",
-        ),
-    ],
-)
-def test_entries_that_make_no_path_are_refused(entries, words, tmp_path):
-    text = BARS + "T . 'TEMPS_CALCULES' = PROG 0. PAS 1. 4. ; " + entries + " PASAPAS T ;"
-    assert words in refused(text, tmp_path)
-
-
-def test_a_procedure_that_gives_no_number_is_named(tmp_path):
-    text = (
-        TRUSS
-        + AUTOMATIC
-        + (
-            "DEBP AUTOPILO D1*CHPOINT D2*CHPOINT M1*MMODEL C1*MCHAML T1*TABLE ; FINP D1 ; "
-            "PASAPAS T ;"
-        )
-    )
-    assert "AUTOPILO must give one FLOTTANT" in refused(text, tmp_path)

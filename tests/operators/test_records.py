@@ -123,6 +123,17 @@ def test_response_spectrum_over_frequencies_increases_them(found):
     assert parts(b)[0][0][[0, -1]] == pytest.approx([0.04, 10])
 
 
+def test_stiff_oscillator_follows_the_ground(found):
+    script = (
+        "S = EVOL 'MANU' (PROG 0.5 2.) (PROG 1. 1.) ; "
+        "A = PSRS S 20. (PROG 0.05) (PROG 0.001) 'ACCE' ; "
+    )
+    # the acceleration of a stiff oscillator is the ground's: variance 1.5, sum of f^2 = 2.625
+    crossings = 20 * np.sqrt(2.625 / 1.5)
+    expected = np.sqrt(2 * 1.5 * np.log(crossings / np.log(2)))
+    assert parts(found(script, "A"))[0][1][0] == pytest.approx(expected, rel=1e-3)
+
+
 # ---- artificial signals
 
 
@@ -153,6 +164,17 @@ def test_artificial_signal_has_the_power_of_its_spectrum(found):
         np.testing.assert_array_equal(y, again)
     np.testing.assert_allclose(parts(c)[0][0], np.linspace(1, 4, 11))
     assert len(v.parts) == len(d.parts) == 1
+
+
+def test_perturbed_list_keeps_its_power(found):
+    made, signed = found(
+        "L = PROG 1. -2. 3. -4. 5. ; A = PERT L 'AMPL' 60. 'INIT' 5 ; B = PERT L 'INIT' 5 ;",
+        "A", "B",
+    )  # fmt: skip
+    assert np.sum(made.values**2) == pytest.approx(55.0)
+    assert list(np.sign(made.values)) == [1, -1, 1, -1, 1]
+    assert not np.allclose(np.abs(made.values), [1, 2, 3, 4, 5])
+    assert list(np.abs(signed.values)) == [1, 2, 3, 4, 5]
 
 
 # ---- wavelets

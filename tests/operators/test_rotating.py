@@ -124,6 +124,20 @@ def test_damping_that_turns_resists_nothing_when_the_body_turns_with_it(found):
     np.testing.assert_allclose(C @ v + H @ u, 0.0, atol=1e-9 * np.abs(C @ v).max())
 
 
+def test_torsion_mode_of_a_shaft_has_a_largest_rotation_of_one(found):
+    script = shaft("TIMO", 8) + (
+        "K = (RIGI M A) ET (BLOQ 'UX' 'UY' (P ET Q)) ET (BLOQ 'UZ' 'RZ' P) ; "
+        "T = VIBR 'SIMU' 393. 1 K (MASS M A) ; F = T . 'MODES' . 1 . 'FREQUENCE' ; "
+        "X = MAXI (EXCO (T . 'MODES' . 1 . 'DEFORMEE_MODALE') 'RZ') 'ABS' ; "
+        "G = T . 'MODES' . 1 . 'MASSE_GENERALISEE' ; "
+    )
+    f, x, g = found(script, "F", "X", "G")
+    speed = np.sqrt(2e11 / 2.6 / 7800)
+    assert f == pytest.approx(speed / 8, rel=0.01)  # a quarter of a wave over 2 m
+    assert x == pytest.approx(1.0)
+    assert g == pytest.approx(7800 * 4e-5 * 2 / 2, rel=0.02)
+
+
 PLATE = (
     "OPTI DIME 3 MODE TRID ELEM {cell} ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; "
     "S = L TRAN 2 (0. 0.6 0.8) ; M = MODE S MECANIQUE ELASTIQUE {element} ; "

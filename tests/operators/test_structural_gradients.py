@@ -69,3 +69,15 @@ def test_work_of_membrane_forces_is_that_on_their_strains(found, element):
     first, second = (f.blocks[0].components["SCAL"] for f in (work, product))
     assert np.abs(first).max() > 0
     np.testing.assert_allclose(first, second, rtol=1e-9)
+
+
+def test_gradient_of_a_stretched_and_turned_beam(found):
+    script = (
+        "OPTI DIME 2 ELEM SEG2 ; S = DROI 2 (0. 0.) (0. 2.) ; "
+        "M = MODE S MECANIQUE ELASTIQUE POUT ; X Y = COOR S ; "
+        "U = (NOMC 'UX' (-0.2 * Y) 'NATU' 'DIFFUS') ET (NOMC 'UY' (0.1 * Y) 'NATU' 'DIFFUS') ; "
+        "G = GRAD M U ; "
+    )
+    block = found(script, "G").blocks[0].components
+    np.testing.assert_allclose(block["UX,X"], 0.1)
+    np.testing.assert_allclose(block["UY,X"], 0.2)

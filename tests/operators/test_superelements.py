@@ -48,6 +48,16 @@ def test_condensed_part_gives_the_whole_solution(nomu, masters):
     assert reaction == pytest.approx(0.0, abs=1e-9 * size + 1e-12)
 
 
+def test_kept_conditions_can_be_loaded_afterwards():
+    """Without NOMU the imposed value goes to RESO with the rest."""
+    script = (
+        "SU = SUPE 'RIGI' (R2 ET B2) L ; U = RESO (R1 ET (EXTR SU 'RIGI')) "
+        "(F1 ET (SUPE 'CHAR' SU F2) ET D2) ; W = RESO (R1 ET R2 ET B2) (F1 ET F2 ET D2) ; "
+        "A = MAXI (ABS ((REDU U S1) - (REDU W S1))) 'AVEC' LU ;"
+    )
+    assert found(script, "A") == pytest.approx(0.0, abs=1e-11)
+
+
 def test_kept_conditions_may_be_unilateral():
     script = (
         "B3 = BLOQ 'MINI' 'UY' (COTE 1 S2) ; SU = SUPE 'RIGI' (R2 ET B3) L ; "
@@ -60,6 +70,24 @@ def test_kept_conditions_may_be_unilateral():
     assert "unilateral" in refused(
         "B3 = BLOQ 'MINI' 'UY' L ; SU = SUPE 'RIGI' 'NOMU' (R2 ET B3) L ;"
     )
+
+
+def test_condensed_mass_keeps_rigid_motions_and_bounds_the_frequency():
+    """Guyan: the total mass is kept; the first frequency comes from above, within 2 %."""
+    script = (
+        "SU = SUPE 'RIGI' R2 (L ET (COTE 3 S2)) ; MS = MASS M2 A2 ; LC MC = SUPE 'MASS' SU MS "
+        "'LCHP' ; "
+        "Q = MANU 'CHPO' (L ET (COTE 3 S2)) 1 'UX' 1. ; A = XTX Q ; A = XTMX Q MC ; "
+        "N = DIME LC ; E = 1.E9 ; "
+        "K = R1 ET (EXTR SU 'RIGI') ; MM = (MASS M1 A1) ET MC ; "
+        "T = VIBR 'PROC' (PROG 0.) K MM ; F = T . 'MODES' . 1 . 'FREQUENCE' ; "
+        "T2 = VIBR 'PROC' (PROG 0.) (R1 ET R2) ((MASS M1 A1) ET MS) ; "
+        "G = T2 . 'MODES' . 1 . 'FREQUENCE' ;"
+    )
+    mass, count, condensed, whole = found(script, "A", "N", "F", "G")
+    assert mass == pytest.approx(3.0, rel=1e-9)
+    assert count == 16
+    assert whole <= condensed <= 1.02 * whole
 
 
 CHAIN = (

@@ -18,7 +18,7 @@ from together import together
 from ssilang.cli.check import check_source
 from ssilang.cli.run import RunOptions, RunResult, run_source, run_text
 from ssilang.language.text.source import Source
-from ssilang.language.vocabulary.terms import UNITS
+from ssilang.language.vocabulary.terms import units
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, result_unit
 
 BODY = (
@@ -74,7 +74,7 @@ def test_units_of_a_system(system: str, unit: str, written: str, factor: float) 
 
 
 def test_every_unit_of_the_vocabulary_has_its_size_in_every_system() -> None:
-    for unit in UNITS:
+    for unit in units():
         assert SYSTEMS["SI"].factor(unit) == 1.0
         assert SYSTEMS["SI"].written(unit) == unit
         assert all(s.factor(unit) > 0.0 for s in SYSTEMS.values())

@@ -14,6 +14,12 @@ PLATE = (
 )
 
 
+def test_nodal_field_through_a_law(found):
+    top, names = found(PLATE + "C = VARI T E ; A = MINI C ; N = EXTR C 'COMP' ;", "A", "N")
+    assert top == pytest.approx(1e11)
+    assert [str(w) for w in names.values] == ["YOUN"]
+
+
 def test_laws_in_cells_stand_at_the_support(found):
     """The temperatures at the centres x = 0.5 and 1.5 of the two cells are 25 and 75."""
     field, given = found(

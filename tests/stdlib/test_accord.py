@@ -77,6 +77,8 @@ def test_a_suite_matched_by_wavelets_has_the_target_and_its_mean_stays_above_the
         part = table.get("SIGNAUX").get(i).parts[0]
         got.append(spectrum(part.abscissas, part.ordinates, f, 0.05, "ACCE"))
         assert np.abs(got[-1] / wanted - 1.0).max() < 0.13 / 0.95
+        told = table.get("SPECTRES").get(i).parts[0]
+        np.testing.assert_allclose([told.abscissas, told.ordinates], [f, got[-1]], rtol=1e-6)
     mean = np.mean(got, axis=0)
     assert (mean / wanted).min() > 0.95 - 1e-6
     np.testing.assert_allclose(table.get("MOYENNE").parts[0].ordinates, mean, rtol=1e-6)

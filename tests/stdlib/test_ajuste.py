@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
-from script_runs import prog, ran, refused
+from script_runs import prog, ran
 
 X = np.linspace(0.1, 3.0, 25)
 NOISE = 0.02 * np.cos(17.0 * np.arange(25) ** 2)
@@ -86,13 +86,6 @@ def test_without_nonlinear_parameters_it_is_linear_least_squares():
     found = fitted(measured, procedures=linear, kl=(0, 3))
     peer = np.linalg.lstsq(np.stack([X**0, X, X**2], axis=1), measured, rcond=None)[0]
     assert found == pytest.approx(peer, rel=1e-9)
-
-
-def test_bounds_are_wanted_for_each_parameter():
-    assert "a bound for each" in refused(
-        PLAIN + "T = TABL ; T . 'F' = PROG 1. ; T . 'K' = 2 ;"
-        "T . 'L' = 2 ; T . 'PMIN' = PROG 0. ; T . 'PMAX' = PROG 1. ; Q P = AJUSTE T ;"
-    )
 
 
 def test_further_bounds_are_told_and_left():

@@ -104,3 +104,16 @@ def test_relations_tie_the_solid_to_the_shell():
         np.testing.assert_allclose(
             y.values_at(name, ids), w.values_at(name, ids), atol=1e-9 * scale
         )
+
+
+def test_second_call_keeps_the_meshes_and_takes_new_fields():
+    script = QUADS + LOADED + CALL + (
+        "V1 = V ; D1 = T . 'DEPLACEMENTS_VOLUMIQUE' . 5 . 'TOTAL' ; "
+        "T . 'DEPLACEMENTS' . 6 = 2. * U ; V = COQ2MAS M A T ; "
+        "D2 = T . 'DEPLACEMENTS_VOLUMIQUE' . 6 . 'TOTAL' ; X = MAXI 'ABS' ((2. * D1) - D2) ; "
+        "Y = MAXI 'ABS' D2 ; "
+    )  # fmt: skip
+    first, second, x, y = found(script, "V1", "V", "X", "Y")
+    assert set(first.sorted_node_ids) == set(second.sorted_node_ids)
+    assert y > 0
+    assert x == pytest.approx(0.0, abs=1e-12 * y)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 
 from ssilang.language.say.diagnostics import sentence
 
@@ -114,14 +114,19 @@ def test_layers_given_from_the_bottom_up(direction, component):
     assert lb.values == pytest.approx(given.values, abs=1e-3)
 
 
-def test_refusals():
-    start = PLANE.format(mode="FOUR 0") + SOIL + SIGNAL + LAYER
-    for call, text in (
-        ("DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER'", "MODE FOUR"),
-        ("DECONV T1 FON1 M1 'BIAIS' ACC1 5. 20.", "HORI or VERT"),
-        ("DECONV (TABL) FON1 M1 'VERT' ACC1 5. 20.", "the entry 1 is missing"),
-    ):
-        assert text in refused(start + f"T2 = {call} ;")
+def test_accelerations_asked_for_and_given_inside():
+    surface, base = found(
+        PLANE.format(mode="FOUR 1") + SOIL + SIGNAL + LAYER
+        + "P1 = TABL ; P1 . 'ENTREE' = TABL ; P1 . 'ENTREE' . 'NATURE' = CHAI 'INSIDE' ; "
+        "P1 . 'ENTREE' . 'CONTROLE' = BOR1 POIN 'PROC' (0. -100.) ; "
+        "P1 . 1 = MANU 'POI1' (BOR1 POIN 'PROC' PA) ; P1 . 2 = BOR1 POIN 'PROC' (0. -100.) ; "
+        "T2 = DECONV T1 FON1 M1 'HORI' ACC1 5. 20. 20. 'LYSMER' P1 ; "
+        "LS = IPOL LT (T2 . 'ACCE' . 1) ; LB = IPOL LT (T2 . 'ACCE' . 2) ; LG = EXTR ACC1 'ORDO' ; "
+        "D1 = MAXI (LB - LG) 'ABS' ;",
+        "LS", "D1",
+    )  # fmt: skip
+    assert base < 1e-3
+    assert np.abs(surface.values).max() > 1.05
 
 
 @pytest.mark.parametrize(("cells", "too_coarse"), [(4, True), (5, False)])

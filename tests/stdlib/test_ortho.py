@@ -21,3 +21,18 @@ def test_axes_of_a_straight_line_are_those_of_one_direction(mode):
     )  # fmt: skip
     assert apart < 1e-12 * size
     assert mass == pytest.approx(0.0, abs=1e-9)
+
+
+def test_axes_in_space():
+    apart, size = found(
+        "OPTI DIME 3 ELEM CUB8 ; L = DROI 2 (0. 0. 0.) (1. 0. 0.) ; "
+        "S = L TRAN 1 (0. 1. 0.) ; V = S VOLU 1 'TRAN' (0. 0. 1.) ; "
+        "T = MANU 'CHPO' L 3 'TX' 0. 'TY' 0.6 'TZ' 0.8 ; "
+        "N = MANU 'CHPO' L 3 'NX' 1. 'NY' 0. 'NZ' 0. ;"
+        f"MA MO = @ORTHO V L T N 90. {VALUES} 'TRID' ; "
+        f"MB = MATE MO {NAMED} 'G23' 4.E8 'G13' 3.E8 'DIRECTION' (1. 0. 0.) (0. -0.6 -0.8) ; "
+        "X Y Z = COOR V ; U = (NOMC 'UX' (X * Z)) ET (NOMC 'UZ' (X - (Y * Z))) ; "
+        "F = (RIGI MO MB) * U ; D = MAXI (ABS (((RIGI MO MA) * U) - F)) ; G = MAXI (ABS F) ;",
+        "D", "G",
+    )  # fmt: skip
+    assert apart < 1e-10 * size

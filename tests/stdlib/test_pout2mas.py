@@ -13,6 +13,20 @@ BEAM = (
 RECTANGLE = "'SECT' 0.06 'INRY' 4.5E-4 'INRZ' 2.E-4 'TORS' 1.E-3 'VECT' (0. 0. 1.)"
 
 
+def test_rectangle_has_the_inertias_of_the_beam():
+    script = BEAM.format("POUT", RECTANGLE) + (
+        "T . 'POUTRE' . 'RECTANGULAIRE' = VRAI ; V = POUT2MAS M A 'MASSIF' T ; X = MESU V ; "
+        "N = NBEL V ; "
+    )
+    mesh, volume, n = found(script, "V", "X", "N")
+    assert volume == pytest.approx(0.06 * 2.0)  # 0.2 x 0.3
+    assert n == 4 * 2 * 3
+    places = mesh.nodes.coordinates[mesh.sorted_node_ids]
+    # VECT says that the local y is the vertical: half of 0.2 along z, half of 0.3 along x
+    np.testing.assert_allclose(places.min(axis=0), [1 - 0.15, 0.0, -0.1], atol=1e-12)
+    np.testing.assert_allclose(places.max(axis=0), [1 + 0.15, 2.0, 0.1], atol=1e-12)
+
+
 @pytest.mark.parametrize("element", ["POUT", "TIMO"])
 def test_stress_on_the_skin_is_that_of_bending_and_pulling(element):
     script = BEAM.format(element, RECTANGLE) + (
@@ -68,3 +82,43 @@ def test_pipe_and_disc_have_the_volume_of_polygons():
     assert x == pytest.approx(share * 0.1**2 * 2.0)
     x = found(disc + "V = POUT2MAS M A T ; X = MESU V ; ", "X")
     assert x == pytest.approx(share * 0.1**2 * 8)  # both ends of four beams
+
+
+FIBRES = (
+    "OPTI DIME 3 ELEM QUA4 ; S = (DROI 1 (-0.05 -0.1 0.) (0.05 -0.1 0.)) TRAN 8 (0. 0.2 0.) ; "
+    "MS = MODE S MECANIQUE ELASTIQUE PLASTIQUE PARFAIT_UNI QUAS ; "
+    "MP = MODE (MANU 'POI1' (0. 0.05 0.)) MECANIQUE ELASTIQUE POJS ; "
+    "AS = (MATE MS 'YOUN' 2.E10 'NU' 0.3 'ALPY' 1. 'ALPZ' 1. 'SIGY' 2.E7 'H' 0.) ET "
+    "(MATE MP 'YOUN' 2.E11 'NU' 0.3 'ALPY' 0. 'ALPZ' 0. 'SECT' 1.E-4) ; OPTI ELEM SEG2 ; "
+    "L = DROI 4 (0. 0. 0.) (2. 0. 0.) ; "
+    "M = MODE L MECANIQUE ELASTIQUE SECTION PLASTIQUE SECTION TIMO ; "
+    "A = MATE M 'MODS' (MS ET MP) 'MATS' AS 'VECT' (0. 1. 0.) ; "
+    "CL = BLOQ (POIN 1 L) 'DEPL' 'ROTA' ; "
+    "T = TABL ; T . 'MODELE' = M ; T . 'CARACTERISTIQUES' = A ; T . 'BLOCAGES_MECANIQUES' = CL ; "
+    "T . 'CHARGEMENT' = CHAR 'MECA' (FORC (0. 0. 5.E3) (POIN 5 L)) (EVOL 'MANU' (PROG 0. 1.) "
+    "(PROG 0. 1.)) ; T . 'TEMPS_CALCULES' = PROG 0.5 1. ; PASAPAS T ; "
+)
+
+
+def test_fibres_carry_their_stresses_to_the_sections():
+    script = FIBRES + (
+        "P = TABL ; P . 'VONS' = TABL ; P . 'VONS' . 2 = T . 'VARIABLES_INTERNES' . 2 ; "
+        "P . 'DEPLACEMENTS' = T . 'DEPLACEMENTS' ; P . 'MATS' = A ; "
+        "V = POUT2MAS M A 'GAUSS' P ; W = P . 'VONS_3D' . 2 ; "
+        "SC = (EXCO 'SMXX' W 'SCAL') ; "
+        "Q = EXCO 'YOUN' (P . 'MATS_3D' . 1) ; HI = MAXI Q ; LO = MINI Q ; "
+        "U = P . 'DEPLACEMENTS_3D' . 2 ; N = NBEL V ; "
+    )
+    w, high, low, n, mesh, u = found(script, "W", "HI", "LO", "N", "V", "U")
+    assert n == 4 * 9
+    assert (high, low) == pytest.approx((2e11, 2e10))
+    ids = mesh.sorted_node_ids
+    at = mesh.nodes.coordinates[ids]
+    assert sorted(set(np.round(at[:, 0], 9))) == pytest.approx([0.25, 0.75, 1.25, 1.75])
+    top = ids[np.argmin(np.linalg.norm(at - [1.75, 0.05, 0.1], axis=1))]
+    # elastic there: M z / I with the steel point at z = 0.05 in the concrete
+    ea, es = 2e10 * 0.02 + 2e7, 2e7 * 0.05
+    ei = 2e10 * 0.1 * 0.2**3 / 12 + 2e7 * 0.05**2 - es**2 / ea
+    stress = -2e10 * (5e3 * 0.25) / ei * (0.1 - es / ea)
+    assert w.values_at("SMXX", np.array([top]))[0] == pytest.approx(stress, rel=1e-6)
+    assert np.isfinite(u.values_at("UZ", ids)).all()

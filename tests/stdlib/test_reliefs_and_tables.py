@@ -1,7 +1,7 @@
 """TABLO2D TABLO3D MONTAGNE @AFEVOZT FILC INT_COMP @SOLVMEC."""
 
 import pytest
-from script_runs import found, ran, refused
+from script_runs import found, ran
 from together import together
 
 from tests.windows import needs_window
@@ -43,16 +43,6 @@ def test_reliefs_are_drawn_and_leave_the_options_alone(word, tmp_path):
     result, pictures = drawn(script + _SAME, tmp_path)
     assert [p.name for p in pictures] == ["0001_hill.png"]
     assert [result.session.root.find(n) for n in "ABC"] == [True, True, 2]
-
-
-@needs_window
-def test_relief_takes_a_second_field_and_an_eye(tmp_path):
-    script = (
-        "OPTI DIME 2 ELEM QUA4 ; S = ((0. 0.) DROI 3 (2. 0.)) TRAN 3 (0. 2.) ; "
-        "MONTAGNE (COOR 1 S) (COOR 2 S) S (PROG 9. 9. 9.) ;"
-    )
-    assert len(drawn(script, tmp_path)[1]) == 1
-    assert "not NONSENSE" in refused(script.replace("(PROG 9. 9. 9.)", "'NONSENSE'"))
 
 
 _CURVES = (

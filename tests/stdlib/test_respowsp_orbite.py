@@ -42,12 +42,14 @@ def test_density_is_found_where_the_spectrum_says_it():
 
 
 def test_two_dampings_are_met_together():
-    target, again = found(
+    target, again, density = found(
         NOISE + "E = PSRS S0 15. (PROG 0.02 0.1) LT 'ACCE' 'CRAM' 'PERI' ; T . 'TTRS' = LT ;"
+        "T . 'FRCO' = 21. ;"
         "S = RESPOWSP E 15. (PROG 0.02 0.1) T ;"
         "R = PSRS S 15. (PROG 0.02 0.1) LT 'ACCE' 'CRAM' 'PERI' ;",
-        "E", "R",
+        "E", "R", "S",
     )  # fmt: skip
+    assert density.parts[0].abscissas[[0, -1]] == pytest.approx([1.0 / 15.0, 21.0])
     for a, b in zip(target.parts, again.parts, strict=True):
         ratio = np.asarray(b.ordinates) / np.asarray(a.ordinates)
         assert np.sqrt(((ratio - 1) ** 2).mean()) < 0.02

@@ -47,7 +47,12 @@ def test_a_random_record_against_a_fine_quadrature():
     share = squares / squares[-1]
     for name, part in (("T5", 0.05), ("T75", 0.75), ("T95", 0.95)):
         assert table.get(name) == pytest.approx(np.interp(part, share, fine), abs=0.02)
+    for name, ends in (("D5_75", (0.05, 0.75)), ("D5_95", (0.05, 0.95))):
+        assert table.get(name) == pytest.approx(np.diff(np.interp(ends, share, fine))[0], abs=0.02)
     v = h * np.concatenate([[0.0], np.cumsum((x[1:] + x[:-1]) / 2)])
+    d = h * np.concatenate([[0.0], np.cumsum((v[1:] + v[:-1]) / 2)])
+    for name, curve in (("PGA", x), ("PGV", v), ("PGD", d)):
+        assert table.get("TEMPS").get(name) == t[np.abs(curve[::400]).argmax()]
     assert table.get("PGV") == pytest.approx(np.abs(v[::400]).max(), rel=1e-6)
     assert table.get("HUSID").parts[0].ordinates[-1] == 1.0
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 from together import together
 
 from ssilang.cli.run import run_text
@@ -270,7 +270,3 @@ def test_products_of_two_forces_are_sums_over_modes_and_directions():
     )
     result = ran(text)
     assert result.session.root.find("D") < 1e-9 * result.session.root.find("N")
-
-
-def test_walls_are_refused_by_name():
-    assert "VOILE" in refused(FRAME.format(modes=2, rule="SRSS").replace("'POTEAU'", "'VOILE'"))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.linalg import expm
-from script_runs import ran, refused
+from script_runs import ran
 
 from ssilang.kernel.records.floors import Storey, floor_spectrum
 from ssilang.kernel.records.modulated import (
@@ -94,12 +94,3 @@ def test_the_table_gives_the_spectrum(kind, power):
     np.testing.assert_allclose(b.ordinates, factors, rtol=1e-12)
     np.testing.assert_allclose(c.ordinates, deviations * factors * scale, rtol=1e-12)
     np.testing.assert_array_equal(c.abscissas, f)
-
-
-@pytest.mark.parametrize(
-    ("kind", "envelope", "start", "said"),
-    [("FORC", "PLATLIN", 2.0, "TYPSPPL"), ("ACCE", "SINUS", 2.0, "PLATLIN"),
-     ("ACCE", "PLATLIN", 9.0, "DUREE")],
-)  # fmt: skip
-def test_mistakes_are_named(kind, envelope, start, said):
-    assert said in refused(SCRIPT.format(kind=kind, envelope=envelope, start=start))

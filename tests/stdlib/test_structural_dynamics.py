@@ -59,6 +59,18 @@ def test_modal_damping_gives_each_mode_its_own():
     np.testing.assert_allclose(values[4:], 0, atol=1e-9)
 
 
+def test_modes_left_out_are_damped_by_stiffness_only_with_m_damp_k():
+    script = TWO_MASSES + (
+        "C1 = M_DAMPIN T1 (PROG 2.) K1 ; C2 = M_DAMP_K T1 (PROG 2.) K1 ;"
+        "F2 = T1 . 'MODES' . 2 . 'DEFORMEE_MODALE' ; W1 = T1 . 'MODES' . 1 . 'FREQUENCE' ;"
+        "W2 = T1 . 'MODES' . 2 . 'FREQUENCE' ; G2 = T1 . 'MODES' . 2 . 'MASSE_GENERALISEE' ;"
+        "X = XTMX F2 C1 ; Y = (XTMX F2 C2) / (4. * PI * W2 * G2) ;"
+    )
+    x, y, w1, w2 = found(script, "X", "Y", "W1", "W2")
+    assert x == pytest.approx(0, abs=1e-9)
+    assert y == pytest.approx(0.02 * w2 / w1)
+
+
 def direct(f, force, ground=False):
     """Answer of the two masses, modal damping (2, 7) per cent, by solving the full system."""
     squares, shapes = np.linalg.eig(np.linalg.solve(M, K))
@@ -126,6 +138,27 @@ def test_dampers_of_a_wall_and_of_a_base(element):
     assert values[1] == pytest.approx(4 * SHEAR + 3 * PRIMARY)
     assert values[2] == pytest.approx(0, abs=1e-6 * SHEAR)
     assert str(values[3]) == element
+
+
+def test_shear_wave_leaves_a_column_through_its_boundary():
+    """A column shaken at its top by a short pulse is at rest once the wave is gone."""
+    script = (
+        "OPTI DIME 2 MODE PLAN DEFO ELEM QUA8 ; L0 = DROI 1 (0. 0.) (1. 0.) ;"
+        "S = TRAN 40 L0 (0. -20.) ; L = COTE 3 S ; MO = MODE S 'MECANIQUE' 'ELASTIQUE' ;"
+        "MA = MATE MO 'YOUN' 5.E8 'NU' 0.25 'RHO' 2000. ;"
+        + SOIL
+        + "C = FRONABS T ; LT = PROG 0. PAS 0.001 0.15 ;"
+        "LF = (1. - (COS (LT * (360. / 0.03)))) * (LT MASQ 'INFERIEUR' 0.03) ;"
+        "D = TABL ; D . 'RIGI' = (RIGI MO MA) ET (BLOQ 'UY' S) ; D . 'MASS' = MASS MO MA ;"
+        "D . 'AMOR' = C ; D . 'TEMPS_CALCULES' = LT ; D . 'PAS_SAUVES' = 'TOUS' ;"
+        "D . 'CHAR' = CHAR 'MECA' (FORC (1.E6 0.) (POIN 1 L0)) (EVOL 'MANU' LT LF) ;"
+        "R = DYNAMIC D ; VM = 0. ; REPE B 151 ; V = ABS (EXTR (R . &B . 'VITE') 'UX' (POIN 1 L)) ;"
+        "SI (V > VM) ; VM = V ; FINSI ; FIN B ;"
+        "VF = MAXI (ABS (EXCO 'UX' (R . 151 . 'VITE'))) ;"
+    )
+    largest, left = found(script, "VM", "VF")
+    assert largest == pytest.approx(2e6 / SHEAR, rel=0.02)
+    assert left < 0.01 * largest
 
 
 @pytest.mark.parametrize("count", [3, 2])

@@ -5,7 +5,7 @@ LeGall's 5/3 filters, and Daubechies' four (low-pass sums to 1, as in Mallat 198
 
 import numpy as np
 import pytest
-from script_runs import found, prog, refused
+from script_runs import found, prog
 from together import together
 
 _APART = "(PROG 0.75 0.25 -0.125) -1 (PROG -0.5 1. -0.5) 2"
@@ -36,10 +36,29 @@ def test_signal_taken_apart_comes_back(levels):
     assert np.asarray(x.values) == pytest.approx(0.5 * np.arange(65))
 
 
-def test_details_must_fit_the_rest():
-    assert "level 1 has" in refused(
-        signal(pulse()) + f"N D R = MULTIDEC E {_APART} 2 ; M F = MULTIREC E D {_TOGETHER} ;"
+def test_straight_line_has_no_detail():
+    """The detail filter has two vanishing moments; the smoothing filter keeps a line."""
+    script = signal(np.arange(33.0)) + (
+        f"N D R = MULTIDEC E {_APART} ; L = EXTR R 'ORDO' ; A = EXTR D 'ORDO' 1 ; "
+        "X = EXTR R 'ABSC' ; B = EXTR D 'ORDO' N ;"
     )
+    n, rest, x, high = found(script, "N", "L", "X", "B")
+    assert n == 4  # 33 17 9 5 3 points
+    assert len(rest.values) == 3
+    assert list(x.values) == [0.0, 8.0, 16.0]
+    assert np.asarray(high.values)[:-1] == pytest.approx(np.zeros(16), abs=1e-12)
+
+
+def test_details_go_from_low_to_high_frequencies():
+    """An alternating signal is all in the finest level, the last curve."""
+    script = signal((-1.0) ** np.arange(33)) + (
+        f"N D R = MULTIDEC E {_APART} 2 ; A = MAXI (ABS (EXTR D 'ORDO' 1)) ; "
+        "B = MAXI (ABS (EXTR D 'ORDO' 2)) ; C = MAXI (ABS (EXTR R 'ORDO')) ;"
+    )
+    low, high, rest = found(script, "A", "B", "C")
+    assert high == pytest.approx(2.0)
+    assert low == pytest.approx(0.0, abs=1e-12)
+    assert rest == pytest.approx(0.0, abs=1e-12)
 
 
 def daubechies():

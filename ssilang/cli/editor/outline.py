@@ -145,7 +145,7 @@ def _of_word(
         return "keyword"
     if kind is not None:
         return {"procedure": "function", "parameter": "parameter"}.get(kind, "variable")  # type: ignore[return-value]
-    if before in ("_DOT", "PERCENT"):
+    if before in ("_DOT", "PERCENT", "OWN"):
         return "property"
     if word in document.procedures or find_operator(word) is not None:
         return "function"

@@ -247,17 +247,19 @@ def _documents(server: Server) -> None:
         if asked in ("en", "fr"):
             server.language = asked
 
-    @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
-    async def opened(params: lsp.DidOpenTextDocumentParams) -> None:
+    async def looked(
+        params: lsp.DidOpenTextDocumentParams
+        | lsp.DidChangeTextDocumentParams
+        | lsp.DidSaveTextDocumentParams,
+    ) -> None:
         server.look_later(params.text_document.uri)
 
-    @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
-    async def changed(params: lsp.DidChangeTextDocumentParams) -> None:
-        server.look_later(params.text_document.uri)
-
-    @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
-    async def saved(params: lsp.DidSaveTextDocumentParams) -> None:
-        server.look_later(params.text_document.uri)
+    for event in (
+        lsp.TEXT_DOCUMENT_DID_OPEN,
+        lsp.TEXT_DOCUMENT_DID_CHANGE,
+        lsp.TEXT_DOCUMENT_DID_SAVE,
+    ):
+        server.feature(event)(looked)
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
     def closed(params: lsp.DidCloseTextDocumentParams) -> None:
@@ -362,6 +364,10 @@ def _names(server: Server) -> None:
     def name_at(uri: str, position: lsp.Position) -> Occurrence | None:
         return server.document(uri).names.at(server.offset(uri, position))
 
+    def alike(uri: str, position: lsp.Position) -> list[Occurrence]:
+        name = name_at(uri, position)
+        return server.document(uri).names.alike(name) if name is not None else []
+
     def locations(uri: str, found: Iterable[Occurrence]) -> list[lsp.Location]:
         return [lsp.Location(uri, server.range(uri, o.start, o.end)) for o in found]
 
@@ -380,20 +386,16 @@ def _names(server: Server) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
         uri = params.text_document.uri
-        name = name_at(uri, params.position)
-        found = server.document(uri).names.alike(name) if name is not None else []
-        return locations(uri, (o for o in found if params.context.include_declaration or
-                               not o.defines))  # fmt: skip
+        every = params.context.include_declaration
+        return locations(uri, (o for o in alike(uri, params.position) if every or not o.defines))
 
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
     def highlight(params: lsp.DocumentHighlightParams) -> list[lsp.DocumentHighlight]:
         uri = params.text_document.uri
-        name = name_at(uri, params.position)
-        found = server.document(uri).names.alike(name) if name is not None else []
         kinds = (lsp.DocumentHighlightKind.Read, lsp.DocumentHighlightKind.Write)
         return [
             lsp.DocumentHighlight(server.range(uri, o.start, o.end), kinds[o.defines])
-            for o in found
+            for o in alike(uri, params.position)
         ]
 
     @server.feature(lsp.TEXT_DOCUMENT_PREPARE_RENAME)

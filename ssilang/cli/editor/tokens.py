@@ -179,7 +179,7 @@ def _statement(cut: Cut) -> Iterator[Name]:
     for i, token in enumerate(cut.tokens):
         depth += (token.kind == OPENS) - (token.kind == CLOSES)
         before = cut.tokens[i - 1].kind if i else ""
-        if token.kind != "WORD" or before == "PERCENT":
+        if token.kind != "WORD" or before in ("PERCENT", "OWN"):
             continue
         behind = cut.tokens[i + 1].kind if i + 1 < len(cut.tokens) else ""
         whole = before != "_DOT" and behind not in ("_DOT", "PERCENT")

@@ -12,27 +12,22 @@ from ssilang.io.errors import InputError, OutputError
 _TRUSTED = ("ssilang.kernel.", "ssilang.io.plots.labels")
 
 HOMES = {
-    "Annotation": "ssilang.io.plots.labels", "Category": "ssilang.io.plots.labels",
-    "Tag": "ssilang.io.plots.labels",
-    "Cloud": "ssilang.kernel.curves.cloud", "Curve": "ssilang.kernel.curves.curve",
-    "CurvePart": "ssilang.kernel.curves.curve", "Load": "ssilang.kernel.curves.curve",
-    "LoadPart": "ssilang.kernel.curves.curve",
-    "CellField": "ssilang.kernel.fields.cell_field",
-    "CellFieldBlock": "ssilang.kernel.fields.cell_field",
-    "NodeField": "ssilang.kernel.fields.node_field",
-    "NodeValues": "ssilang.kernel.fields.node_field",
-    "Arrows": "ssilang.kernel.fields.deformed", "ArrowPart": "ssilang.kernel.fields.deformed",
-    "Deformed": "ssilang.kernel.fields.deformed",
-    "DeformedPart": "ssilang.kernel.fields.deformed",
-    "Mode": "ssilang.kernel.materials.model", "Model": "ssilang.kernel.materials.model",
-    "Zone": "ssilang.kernel.materials.model",
-    "ElementMatrices": "ssilang.kernel.matrices.matrix",
-    "Matrix": "ssilang.kernel.matrices.matrix", "Relations": "ssilang.kernel.matrices.matrix",
-    "Numbering": "ssilang.kernel.matrices.assembly",
-    "SuperElement": "ssilang.kernel.matrices.superelement",
-    "CellBlock": "ssilang.kernel.mesh.mesh", "Mesh": "ssilang.kernel.mesh.mesh",
-    "Point": "ssilang.kernel.mesh.mesh",
-}  # fmt: skip
+    name: f"ssilang.{home}"
+    for home, names in {
+        "io.plots.labels": "Annotation Category Tag",
+        "kernel.curves.cloud": "Cloud",
+        "kernel.curves.curve": "Curve CurvePart Load LoadPart",
+        "kernel.fields.cell_field": "CellField CellFieldBlock",
+        "kernel.fields.node_field": "NodeField NodeValues",
+        "kernel.fields.deformed": "Arrows ArrowPart Deformed DeformedPart",
+        "kernel.materials.model": "Mode Model Zone",
+        "kernel.matrices.matrix": "ElementMatrices Matrix Relations",
+        "kernel.matrices.assembly": "Numbering",
+        "kernel.matrices.superelement": "SuperElement",
+        "kernel.mesh.mesh": "CellBlock Mesh Point",
+    }.items()
+    for name in names.split()
+}
 """Where classes stand that files hold by their name alone: a file outlives the moves of modules."""
 
 # fields that hold node numbers, shifted when nodes are added to those of a session

@@ -88,8 +88,18 @@ class NodeField:
     @property
     def node_ids(self) -> IntArray:
         """Nodes where at least one component is defined, increasing, shape (n,)."""
-        parts = [c.nodes for c in self.components.values()]
+        parts = list({id(c.nodes): c.nodes for c in self.components.values()}.values())
+        if len(parts) == 1:
+            return parts[0]
         return np.unique(np.concatenate(parts)) if parts else np.empty(0, dtype=np.int64)
+
+    def stands_on(self, node: int) -> bool:
+        """Whether a component is defined at a node."""
+        for part in self.components.values():
+            place = np.searchsorted(part.nodes, node)
+            if place < len(part.nodes) and part.nodes[place] == node:
+                return True
+        return False
 
     def values_at(self, name: str, nodes: IntArray, default: float = 0.0) -> FloatArray:
         """Values of component `name` at `nodes`, in their shape; `default` where absent."""

@@ -6,7 +6,7 @@ delta, whose size is that of the interface and not of the model.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -30,7 +30,7 @@ from ssilang.kernel.interface.bed import (
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import ROTATIONS, component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter
+from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.law import Law
 from ssilang.kernel.interface.laws.law_table import (
     elastic_tangent,
@@ -45,6 +45,9 @@ from ssilang.kernel.materials.model import Model, Zone, same_elements
 from ssilang.kernel.matrices.assembly import Numbering
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
 
+_JUMPS = {
+    2: [Variable.SLIP1, Variable.XI], 3: [Variable.SLIP1, Variable.SLIP2, Variable.XI]
+}  # fmt: skip
 SOFT = 1e4  # stiffness of closed joints times compliance, up to which single precision serves
 
 
@@ -70,6 +73,9 @@ class Interface:
     parameters : array (n_points, N_PARAMETERS)
     beds : tuple of Bed
         Places under macro-elements whose ground yields; they are points behind those of all joints.
+    apart : array (n_points, d) or float
+        Jumps that the laws of Mohr-Coulomb joints count at no displacement. Their states are from
+        there; results count them.
     """
 
     joints: tuple[JointCells, ...]
@@ -81,12 +87,19 @@ class Interface:
     codes: IntArray
     parameters: FloatArray
     beds: tuple[Bed, ...] = ()
+    apart: FloatArray | float = 0.0
 
     @cached_property
     def points(self) -> Joints:
         """The points as compiled code takes them."""
         p = np.ascontiguousarray(self.parameters)
         return Joints(self.pairs, self.B, self.weights, self.codes, p)
+
+    @cached_property
+    def placed(self) -> list[tuple[JointCells, slice]]:
+        """The zones, each with the places of its points."""
+        ends = np.cumsum([j.weights.size for j in self.joints])
+        return [(j, slice(e - j.weights.size, e)) for j, e in zip(self.joints, ends, strict=True)]
 
     @property
     def size(self) -> int:
@@ -416,12 +429,10 @@ def interface_field(interface: Interface, values: FloatArray, kind: str) -> Cell
     kind : 'jump', 'plastic jump' or 'traction'
         Which names the components get; joints whose law keeps no plastic jump are left out.
     """
-    blocks, start = [], 0
+    blocks = []
     values = interface.carried(values) if kind == "traction" else values
-    for j in interface.joints:
-        n, g = j.weights.shape
-        local = values[start : start + n * g].reshape(n, g, -1)
-        start += n * g
+    for j, rows in interface.placed:
+        local = values[rows].reshape(*j.weights.shape, -1)
         if kind == "plastic jump" and law_of(j.zone.behaviour).code not in _SLIDING:
             continue
         names = inelastic(_names(j, kind)) if kind == "plastic jump" else _names(j, kind)
@@ -460,7 +471,30 @@ def plastic_jumps(interface: Interface, w: FloatArray, t: FloatArray) -> FloatAr
     """What of the jumps (n_points, d) the springs of the faces do not explain."""
     d = interface.dimension
     stiffness = np.diagonal(elastic_tangent(interface.parameters, d), axis1=1, axis2=2)
-    return w - np.divide(t, stiffness, out=np.zeros_like(t), where=stiffness > 0)
+    return w + interface.apart - np.divide(t, stiffness, np.zeros_like(t), where=stiffness > 0)
+
+
+def parted(
+    interface: Interface, state: FloatArray, w: FloatArray, given: Sequence[CellField | None]
+) -> Interface:
+    """Mohr-Coulomb joints that begin with inelastic jumps and tractions (`given`); sets `state`.
+
+    Beyond the jumps w (n_points, d) of the displacements at the start these are `apart`: faces
+    that stand open there close by as much before they touch.
+    """
+    inside, apart = np.zeros((2, *w.shape)), np.zeros_like(w)
+    for j, rows in interface.placed:
+        names = (inelastic(_names(j, "jump")), _names(j, "traction"))
+        for k, held in enumerate(zone_field(j.zone, field) for field in given):
+            for i, name in enumerate(names[k]):
+                if name in held:
+                    inside[k, rows, i] = held.at(name, "STRESSES").ravel()
+        if law_of(j.zone.behaviour).code == LawCode.MOHR:
+            elastic = -plastic_jumps(interface, np.zeros_like(w), inside[1])
+            apart[rows] = (inside[0] + elastic - w)[rows]
+    apart[abs(apart) <= 1e-9 * abs(w)] = 0.0
+    state[:, _JUMPS[interface.dimension]] -= apart
+    return replace(interface, apart=apart)
 
 
 def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: FloatArray) -> CellField:
@@ -474,24 +508,24 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
     up), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump), LAM3, EPCO (plastic compression,
     less than zero in EPCO). Macro-elements whose ground yields: see `bed_results`.
     """
-    blocks, start = [], 0
+    blocks = []
     arrays = (interface.codes, w, t, state, interface.parameters)
+    counted = state.copy()
+    counted[:, _JUMPS[interface.dimension]] += interface.apart
     common = np.vstack([point_states(*arrays)[None], energies_of_points(*arrays)])
     for bed in interface.beds:
         at_places = tuple(x[None, bed.points] for x in (w, t, state))
         elastic = common[1:, bed.owner, None]
         common[:, bed.owner] = common_results(bed, elastic, *at_places)[:, 0]
-    for j in interface.joints:
-        n, g = j.weights.shape
-        local = state[start : start + n * g].reshape(n, g, -1)
-        of_all = common[:, start : start + n * g].reshape(-1, n, g)
-        start += n * g
+    for j, rows in interface.placed:
+        shape = j.weights.shape
+        local, of_all = counted[rows].reshape(*shape, -1), common[:, rows].reshape(-1, *shape)
         fields = shown_variables(law_of(j.zone.behaviour), local, interface.dimension)
         fields |= {name: of_all[i].copy() for i, name in enumerate(COMMON_VARIABLES)}
-        first = start - n * g
-        beds = {b.owner - first: b for b in interface.beds if first <= b.owner < start}
+        owned = (b for b in interface.beds if rows.start <= b.owner < rows.stop)
+        beds = {b.owner - rows.start: b for b in owned}
         if beds:
-            fields |= zone_variables(beds, n, (w, t, state))
+            fields |= zone_variables(beds, len(local), (w, t, state))
         blocks.append(j.zone.block(fields))
     return CellField(tuple(blocks), "VARIABLES INTERNES")
 

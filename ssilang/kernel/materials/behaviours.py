@@ -49,7 +49,7 @@ JOINT_WORDS = (
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
 
-SECTION_FAMILIES = ("plate", "meridian", "beam", "timoshenko", "pipe")
+SECTION_FAMILIES = ("plate", "meridian", "mindlin", "beam", "timoshenko", "pipe")
 """Families whose sections yield as a whole; DKT also at points across the thickness."""
 PLASTIC_FAMILIES = (
     "solid", "incompressible", "bar", "hoop", "across", "fibre", "thick", *SECTION_FAMILIES

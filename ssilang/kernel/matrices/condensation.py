@@ -10,7 +10,7 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.build import matrix_from_sparse
-from ssilang.kernel.matrices.matrix import Matrix
+from ssilang.kernel.matrices.matrix import Matrix, Relations
 from ssilang.kernel.matrices.submatrices import together
 
 DEPENDENCE = "DEPENDAN"
@@ -53,6 +53,8 @@ def condensed_on_multipliers(relations: Matrix, inverse_mass: NodeField) -> Matr
 def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     """`T^T K T`: the matrix without the unknowns that relations give by the others.
 
+    Its own conditions C stay, as C T, with their multipliers.
+
     Parameters
     ----------
     relations : Matrix
@@ -66,7 +68,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     if not relations.relations and relations.kind != DEPENDENCE:
         swapped = bool(matrix.relations) and not matrix.blocks
         raise FieldError("kernel.matrices.condensed-without-relations", swapped=swapped)
-    body = Matrix(matrix.table, matrix.blocks, (), matrix.kind)
+    body = Matrix(matrix.table, matrix.blocks, matrix.relations, matrix.kind)
     rows_only = Matrix(relations.table, (), relations.relations, relations.kind)
     given = relations.kind == DEPENDENCE
     numbering = assembly.numbering_of(body if given else together(body, rows_only))
@@ -74,7 +76,27 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     T, kept = _given(relations, numbering) if given else _eliminated(rows_only, numbering)
     A = sp.csr_array(T.T @ K @ T)
     masters = replace(numbering, nodes=numbering.nodes[kept], codes=numbering.codes[kept])
-    return matrix_from_sparse(A, masters, matrix.kind, assembly.is_symmetric(matrix))
+    made = matrix_from_sparse(A, masters, matrix.kind, assembly.is_symmetric(matrix))
+    return replace(made, relations=_carried(body, numbering, T, masters), cache={})
+
+
+def _carried(
+    matrix: Matrix, numbering: assembly.Numbering, T: sp.csr_array, masters: assembly.Numbering
+) -> tuple[Relations, ...]:
+    """The conditions of a matrix on the unknowns that stay."""
+    rows = assembly.constraint_matrix(matrix, numbering)
+    C, D = (sp.csr_array(part @ T) for part in (rows.C, rows.D))
+
+    def relations(part: sp.csr_array, dual: Relations | None) -> Relations:
+        names = tuple(masters.unknowns[k] for k in masters.codes[part.indices])
+        return Relations(
+            matrix.table, part.indptr.astype(np.int64), masters.nodes[part.indices], names,
+            part.data, rows.multipliers, rows.sense, dual,
+        )  # fmt: skip
+
+    if not len(rows.multipliers):
+        return ()
+    return (relations(C, None if rows.associated else relations(D, None)),)
 
 
 def _eliminated(relations: Matrix, numbering: assembly.Numbering) -> tuple[sp.csr_array, IntArray]:

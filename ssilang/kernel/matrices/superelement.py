@@ -63,7 +63,8 @@ def condense(
     Parameters
     ----------
     chosen : Matrix, NodeField or array of int
-        Whose unknowns are masters; for nodes, all unknowns that the stiffness has there.
+        Whose unknowns are masters; for nodes, all unknowns that the stiffness has there, for those
+        of multipliers the unknowns of the conditions.
     inside : bool
         True: the conditions of the matrix hold inside, with the value zero or what a load says
         ('NOMU'). False: they are kept on the condensed matrix, and their unknowns are masters.
@@ -79,7 +80,9 @@ def condense(
     conditions = constraint_matrix(matrix, numbering)
     kept = np.zeros(numbering.size, bool)
     kept[_chosen_unknowns(numbering, chosen)] = True
-    if not kept.any():
+    # multipliers of conditions stay with these, and their unknowns are masters
+    tied_by = isinstance(chosen, np.ndarray) and np.isin(conditions.multipliers, chosen).any()
+    if not kept.any() and (inside or not tied_by):
         raise KernelError("kernel.matrices.none-master-unknowns-unknown")
     asked = kept.copy()
     if not inside:

@@ -148,9 +148,9 @@ def _all_faces(mesh: Mesh) -> Mesh:
     return Mesh(mesh.nodes, tuple(made))
 
 
-def lone_surfaces(mesh: Mesh) -> Mesh:
-    """Surface cells whose nodes no other surface cell of the same type shares."""
-    blocks = (b for b in mesh.blocks if b.kind.dimension == 2 and not b.kind.joint)
+def lone_cells(mesh: Mesh, dimension: int = 2) -> Mesh:
+    """Surfaces, or lines or points, whose nodes no other cell of the same type shares."""
+    blocks = (b for b in mesh.blocks if b.kind.dimension == dimension and not b.kind.joint)
     flat = Mesh(mesh.nodes, tuple(blocks))
     return take(flat, lambda b: sharing(b.connectivity)[0] == 1)
 

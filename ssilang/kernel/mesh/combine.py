@@ -49,6 +49,35 @@ def union(*meshes: Mesh, as_given: bool = False) -> Mesh:
     return result
 
 
+def side_by_side(first: Mesh, second: Mesh, as_given: bool = False) -> Mesh:
+    """Two meshes as one, with the sides that both keep together.
+
+    Two surfaces of four sides, one of which they share: 1 and 3 face it in the first and in the
+    second, 2 and 4 go along both. Two volumes, the first's face 2 the second's face 1.
+    """
+    made, old, new = union(first, second, as_given=as_given), first.sides, second.sides
+    sides: tuple[Mesh, ...] = ()
+    if made.dimension == 2 and len(old) == len(new) == 4:
+        shared = next(((i, j) for i in (2, 1, 3, 0) for j in range(4) if _same(old[i], new[j])), ())
+        if shared:
+            i, j = shared
+            before, after = old[i - 1], old[(i + 1) % 4]
+            right, left = new[(j + 1) % 4], new[j - 1]
+            if not np.isin(before.node_ids, right.node_ids).any():
+                right, left = left, right
+            along = (union(before, right, as_given=True), union(left, after, as_given=True))
+            sides = (old[i - 2], along[0], new[j - 2], along[1])
+    elif made.dimension == 3 and min(len(old), len(new)) > 1 and _same(old[1], new[0]):
+        around = [m.sides[2] for m in (first, second) if len(m.sides) > 2]
+        sides = (old[0], new[1], *((union(*around, as_given=True),) if around else ()))
+    return Mesh(made.nodes, made.blocks, sides)
+
+
+def _same(first: Mesh, second: Mesh) -> bool:
+    """Whether two meshes have the same cells."""
+    return first.n_cells == second.n_cells and not difference(first, second).blocks
+
+
 def gathered(meshes: Sequence[Mesh]) -> Mesh:
     """Cells of many meshes in the order given; those of one type become one block."""
     by_type: dict[str, list[CellBlock]] = {}

@@ -306,7 +306,7 @@ class Bulk:
 
 
 def _virgin(zone: PlasticPoints) -> PointState:
-    nothing = np.zeros((zone.count, 6))
+    nothing = np.zeros((zone.count, zone.width))
     return PointState(nothing, nothing, nothing, np.zeros((zone.count, len(zone.law.variables))))
 
 
@@ -330,7 +330,7 @@ def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numb
 
 def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
-    drilled = ELEMENTS[zone.element].family in ("plate", "thick")
+    drilled = ELEMENTS[zone.element].family in ("plate", "mindlin", "thick")
     return drilling_stiffness(zone, characteristics) if drilled else without_stiffness(zone)
 
 

@@ -11,10 +11,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block, element_matrices
-from ssilang.kernel.elements.shells.flat_shell import flat_frames
+from ssilang.kernel.elements.shells.flat_shell import FlatShell
 from ssilang.kernel.elements.shells.shell_section import (
     SHEAR_FACTOR,
     drilled,
@@ -144,14 +143,14 @@ def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:
 
 def drilling_stiffness(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """The small stiffness about the normals that the layers lack, as that of elastic shells."""
-    parameters, layout = zone_field(zone, characteristics), family_of(zone).layout(zone)
-    rows = len(layout.unknowns)
-    if ELEMENTS[zone.element].family == "thick":
+    parameters, family = zone_field(zone, characteristics), family_of(zone)
+    layout = family.layout(zone)
+    values = np.zeros((len(zone.cells), len(layout.unknowns), len(layout.unknowns)))
+    if isinstance(family, FlatShell):
+        bending = section_moduli(zone, parameters, "RIGIDITE")[:, :, 3, 3].mean(axis=1)
+        values = family.held_about_normals(zone, values, bending)
+    else:
         h = parameters.at("EPAI", "GRAVITE")[:, 0]
         bending = material_moduli(zone, parameters, "RIGIDITE")[:, :, 0, 0].mean(axis=1) * h**3 / 12
-        normals = fibres(zone)
-    else:
-        bending = section_moduli(zone, parameters, "RIGIDITE")[:, :, 3, 3].mean(axis=1)
-        normals = np.repeat(flat_frames(zone)[0][:, None, 2], 3, axis=1)
-    values = drilled(zone, np.zeros((len(zone.cells), rows, rows)), bending, normals)
+        values = drilled(zone, values, bending, fibres(zone))
     return element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)

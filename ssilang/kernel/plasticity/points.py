@@ -106,9 +106,14 @@ class PlasticPoints:
         return self.weights.size
 
     @property
+    def width(self) -> int:
+        """Stresses of a point: those of a tensor, eight forces of a shell with shear."""
+        return max(6, *(c + 1 for c in self.components))
+
+    @property
     def roots(self) -> FloatArray:
         """What the law's stresses (6,) are multiplied by in fields, and its strains divided by."""
-        return np.ones(6)
+        return np.ones(self.width)
 
     def strains(self, vectors: FloatArray) -> FloatArray:
         """Strains (m, 6) of element vectors (n_cells, n_rows)."""
@@ -118,7 +123,7 @@ class PlasticPoints:
 
     def spread(self, own: FloatArray) -> FloatArray:
         """Components of the hypothesis (n_cells, n_strains, n_points) as tensors (m, 6)."""
-        full = np.zeros((self.count, 6))
+        full = np.zeros((self.count, self.width))
         for i, c in enumerate(self.components):
             full[:, c] = np.broadcast_to(own[:, i], self.weights.shape).ravel()
         return full

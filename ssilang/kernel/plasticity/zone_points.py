@@ -98,13 +98,14 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     operator = family.strain_operator(zone, given, at, slice(None))
     n, s, p, _ = operator.matrix.shape
     slots = kept_rows(zone) if kind not in SHELLS else {4: (0, 1, 3, 4)}.get(s, tuple(range(s)))
+    width = max(6, s)
     sized = pipe_parameters(zone, given) if kind == "pipe" else given
     size = sized.at("EPAI" if kind in SHELLS else "SECT", at)
 
     def placed(matrix: FloatArray) -> FloatArray:
-        full = np.zeros((n, p, 6, 6))
+        full = np.zeros((n, p, width, width))
         full[..., np.array(slots)[:, None], np.array(slots)] = matrix
-        return full.reshape(-1, 6, 6)
+        return full.reshape(-1, width, width)
 
     D = placed(family.moduli(zone, given, at))
     own = law_parameters(zone, law, given)

@@ -24,7 +24,7 @@ from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.statics.linear import linear_system
 
 UNKNOWNS = ("UX", "UY", "UZ")
-_GAMMA, _HALVINGS, _SMALL = 2.0, 30, 1e-9
+_HALVINGS, _SMALL = 30, 1e-9
 _ROOT = np.sqrt(3.0)
 _POINTS = {"triangle": 3, "quadrangle": 4, "tetrahedron": 4, "prism": 6, "hexahedron": 8}
 # sides of the regular cell along the axes of its reference, before its measure is made one
@@ -51,11 +51,12 @@ def _regular(cell_type: str) -> tuple[FloatArray, FloatArray]:
 
 @dataclass(frozen=True, eq=False)
 class _Cells:
-    """A block with the metric (n_cells, d, d) of its cells and the weight theta."""
+    """A block with the metric (n_cells, d, d) of its cells, theta and the power gamma."""
 
     block: CellBlock
     metric: FloatArray
     theta: float
+    gamma: float
 
     def places(self, x: FloatArray) -> FloatArray:
         """A (n_cells, n_points, d, d) for coordinates (n_nodes_of_table, d)."""
@@ -64,15 +65,15 @@ class _Cells:
 
     def density(self, A: FloatArray) -> tuple[FloatArray, FloatArray]:
         """What is integrated (n_cells, n_points), and its derivative by A."""
-        d, theta = A.shape[-1], self.theta
-        M, p = self.metric[:, None], A.shape[-1] * _GAMMA / 2
+        d, theta, gamma = A.shape[-1], self.theta, self.gamma
+        M, p = self.metric[:, None], d * gamma / 2
         rho, J, C = np.sqrt(np.linalg.det(M)), np.linalg.det(A), np.linalg.inv(A)
         turned = np.swapaxes(C, -1, -2)
         S = C @ np.linalg.inv(M) @ turned
         t = np.trace(S, axis1=-2, axis2=-1)
-        even = (1 - 2 * theta) * d**p * (J * rho) ** -_GAMMA
+        even = (1 - 2 * theta) * d**p * (J * rho) ** -gamma
         value = rho * J * (theta * t**p + even)
-        first = rho * J * (theta * t**p + (1 - _GAMMA) * even)
+        first = rho * J * (theta * t**p + (1 - gamma) * even)
         second = 2 * rho * J * theta * p * t ** (p - 1)
         return value, first[..., None, None] * turned - second[..., None, None] * (turned @ S)
 
@@ -98,6 +99,7 @@ def adapted(
     mesh: Mesh,
     metrics: list[FloatArray],
     theta: float,
+    gamma: float,
     conditions: Matrix,
     imposed: NodeField | None,
     directions: tuple[int, ...],
@@ -111,6 +113,8 @@ def adapted(
         For each block of the mesh, in length^-2.
     theta : float
         Weight of the regularity of cells against their equality, 0 to 1.
+    gamma : float
+        Power of both, above 1.
     conditions : Matrix; imposed : NodeField or None
         Conditions on the displacements, with their values.
     directions : tuple of int
@@ -124,7 +128,7 @@ def adapted(
         If a cell is turned over, or of a type without a regular shape.
     """
     d = metrics[0].shape[-1]
-    cells = [_Cells(b, m, theta) for b, m in zip(mesh.blocks, metrics, strict=True)]
+    cells = [_Cells(b, m, theta, gamma) for b, m in zip(mesh.blocks, metrics, strict=True)]
     x = mesh.nodes.coordinates[:, :d].copy()
     start = x.copy()
     total = _total(cells, x)

@@ -134,13 +134,13 @@ def _cut_step(
     _go_back(motion, before)
     if not cuts:
         return outcome
-    turns, du, middle = 0, np.zeros_like(motion.u), factors.mean(axis=0)
+    turns, middle = 0, factors.mean(axis=0)
     for half in (np.stack([factors[0], middle]), np.stack([middle, factors[1]])):
         outcome = _cut_step(problem, solver, motion, half, cuts - 1)
         if outcome.turns <= 0:
             return outcome
-        turns, du = turns + outcome.turns, du + outcome.du
-    return StepOutcome(du, turns, outcome.residual)
+        turns += outcome.turns
+    return replace(outcome, turns=turns)
 
 
 def _initial_motion(problem: Problem) -> Motion:

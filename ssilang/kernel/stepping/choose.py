@@ -284,11 +284,6 @@ def _each_time(problem: Problem) -> str:
     return PETSC if goes_to_petsc(problem.solver, problem.constraints.T.shape[1]) else "SuperLU"
 
 
-def rule_named(name: str) -> Rule:
-    """A rule of the table."""
-    return next(r for r in RULES if r.name == name)
-
-
 def only(name: str) -> tuple[Rule, ...]:
     """The table with one rule, that fits all: to hold loops against each other."""
     return tuple(r for r in RULES if r.name == name)

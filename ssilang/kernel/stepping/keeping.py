@@ -59,7 +59,7 @@ class Keeper(Protocol):
 class Cut:
     """Cuts steps where a keeper does, and keeps nothing: the same steps once more."""
 
-    def __init__(self, every: int) -> None:
+    def __init__(self, every: int = 0) -> None:
         self.every = every
 
     def stride(self, done: int, unknowns: int) -> int:
@@ -91,28 +91,23 @@ def stride_of(done: int, unknowns: int, every: int = 0) -> int:
     return min(n - done % n for n in (own, every) if n)
 
 
+UNKEPT = Cut()
+"""The keeper of calculations of which nothing is kept."""
+
+
 @contextmanager
 def told_to_leave(
-    keeper: Keeper | None, done: Callable[[], int], state: Callable[[], State]
+    keeper: Keeper, done: Callable[[], int], state: Callable[[], State]
 ) -> Iterator[None]:
     """Steps that may be ended: the keeper gets the state in which they are."""
     try:
         yield
     except LostSolverError:
-        if keeper is not None:
-            keeper.lost(done(), state)
+        keeper.lost(done(), state)
         raise
     except KeyboardInterrupt:
-        if keeper is not None:
-            keeper.left(done(), state)
+        keeper.left(done(), state)
         raise
-
-
-def steady(
-    keeper: Keeper | None, done: int, state: Callable[[], State]
-) -> AbstractContextManager[None]:
-    """While steps change the state an interruption waits, if the state is kept."""
-    return nullcontext() if keeper is None else keeper.steady(done, state)
 
 
 # ---- records of arrays ------------------------------------------------------------------------
@@ -246,14 +241,14 @@ class KeptSteps:
     def __init__(
         self, keeper: Keeper | None, history: Any, motion: Any, solver: Any, more: Any = None
     ) -> None:
-        self.keeper, self.history, self.motion = keeper, history, motion
+        self.keeper = UNKEPT if keeper is None else keeper
+        self.history, self.motion = history, motion
         self.solver, self.more, self.done = solver, more, 0
         self._started = clock.perf_counter()
 
     def go_on(self) -> bool:
         """Take over the state that an earlier run kept; False if there is none."""
-        kept = None if self.keeper is None else self.keeper.last()
-        if kept is None:
+        if (kept := self.keeper.last()) is None:
             return False
         with fitting():
             self.done, h = len(kept["energies"]) - 1, self.history
@@ -281,19 +276,18 @@ class KeptSteps:
         """All steps that are left."""
         with told_to_leave(self.keeper, lambda: self.done, self.state):
             yield
-        if self.keeper is not None:
-            self.keeper.finished(self.done, self.state)
+        self.keeper.finished(self.done, self.state)
 
     @contextmanager
     def step(self, k: int) -> Iterator[None]:
         """The step that ends at time k."""
-        with steady(self.keeper, self.done, self.state):
+        with self.keeper.steady(self.done, self.state):
             yield
             self.done = k
 
     def reached(self) -> None:
         """A step is done and told of: the state may be kept."""
-        if self.keeper is not None and self.done < len(self.history.times) - 1:
+        if self.done < len(self.history.times) - 1:
             self.keeper.reached(self.done, self.state)
 
 

@@ -16,8 +16,8 @@ from ssilang.kernel.stepping.choose import (
     Choice,
     choose,
     method_of,
+    only,
     refuse_combinations,
-    rule_named,
 )
 from ssilang.kernel.stepping.driven import Drive, Driver
 from ssilang.kernel.stepping.extremes import Extremes
@@ -115,7 +115,7 @@ class Integration:
     progress: Progress | None = None
     full_newton: bool = False
     driver: Driver | None = None
-    keeper: keeping.Keeper | None = None
+    keeper: keeping.Keeper = keeping.UNKEPT
     motion: Motion = field(init=False)
     taps: Taps = field(init=False)
     wanted: BoolArray = field(init=False)
@@ -164,8 +164,7 @@ class Integration:
                 loop = self._choice(times[1] - times[0]).loop
                 inside = loop.view(np.zeros(0, np.int64)).whole
             self.prepare(inside)
-            kept = None if self.keeper is None else self.keeper.last()
-            if kept is not None:
+            if (kept := self.keeper.last()) is not None:
                 with keeping.fitting():
                     self._go_on(kept, history)
             else:
@@ -204,16 +203,7 @@ class Integration:
 
     def _run(self, history: History) -> None:
         keeper, total = self.keeper, len(self.problem.times) - 1
-        unknowns = self.problem.numbering.size
-        if keeper is None:
-            done = 0
-            while done < total:
-                done = self._chunk(done, keeping.stride_of(done, unknowns), history).last
-            return
-
-        def state() -> keeping.State:
-            return self._state(history)
-
+        unknowns, state = self.problem.numbering.size, partial(self._state, history)
         with keeping.told_to_leave(keeper, lambda: self._done, state):
             while self._done < total:
                 self._chunk(self._done, keeper.stride(self._done, unknowns), history)
@@ -221,7 +211,7 @@ class Integration:
                     keeper.reached(self._done, state)
         keeper.finished(self._done, state)
 
-    def _chunk(self, done: int, longest: int, history: History) -> Run:
+    def _chunk(self, done: int, longest: int, history: History) -> None:
         """Steps of one length, at most so many."""
         times = self.problem.times
         run = next(runs_of(times[done : done + longest + 1], longest))
@@ -229,7 +219,6 @@ class Integration:
         self._steps(run, history)
         if self.progress is not None:
             self.progress(run.last, len(times) - 1)
-        return run
 
     def _steps(self, run: Run, history: History) -> None:
         first = run.first
@@ -252,7 +241,7 @@ class Integration:
             peaks = self.taps.peaks
             peaks.first[0] = first
             recorder = recorder_of(self.motion, row, energies, tap=tap, peaks=peaks)
-            with keeping.steady(self.keeper, self._done, partial(self._state, history)):
+            with self.keeper.steady(self._done, partial(self._state, history)):
                 done, turns, residual = choice.loop.run(factors, recorder)
                 if turns > 0:
                     history.iterations = max(history.iterations, turns)
@@ -301,7 +290,7 @@ class Integration:
         history.energies[: self._done + 1] = kept["energies"]
         told = kept["told"]
         history.iterations, history.seconds = told["iterations"], told["seconds"]
-        rule, self._rule = rule_named(told["rule"]), told["rule"]
+        rule, self._rule = only(told["rule"])[0], told["rule"]
         history.solver, history.loop = told["solver"], rule.loop
         history.method = method_of(rule, self.problem)
 
@@ -323,7 +312,7 @@ class Integration:
                 oldest = next(iter(self._choices))
                 del self._choices[oldest]
                 self._begun.pop(oldest, None)
-            if self.keeper is not None:
+            if self.keeper is not keeping.UNKEPT:
                 self._begun[dt] = keeping.leaves((*self.motion, self._closed))
             case = Case(self.problem, self.motion, dt, self.full_newton, self._closed)
             found = self._choices[dt] = choose(case)
@@ -394,4 +383,5 @@ def integrate(
     ConvergenceError, SingularMatrixError
         See `Integration.run`.
     """
-    return Integration(problem, observers, progress, full_newton, driver, keeper=keeper).run()
+    kept = keeping.UNKEPT if keeper is None else keeper
+    return Integration(problem, observers, progress, full_newton, driver, keeper=kept).run()

@@ -128,3 +128,10 @@ class Observer(Protocol):
 
     def close(self) -> None:
         """End of the calculation, also when it failed."""
+
+
+class Receiver:
+    """An observer that does nothing at the end: what it fills is whole after each instant."""
+
+    def close(self) -> None:
+        """Nothing."""

@@ -92,8 +92,6 @@ def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple
     data = _Data(error.data)
     if "." not in error.code:  # the language's own sentences have parts that are computed
         data.update(_derived(error, language, names))
-    if error.code == "not-a-table" and not data["name"]:
-        data["name"] = error.span.text.split(".")[0].strip() if error.span else "it"
     text = message.sentence(error.code, data, language)
     hint = message.hint(error.code, data, language, script=True).strip()
     notes = (n for name in _NOTES if isinstance(n := error.data.get(name), Sentence))
@@ -157,8 +155,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["caller_hint"] = hints.caller_hint(_code_before(error.span), str(data.get("operator")))
     if error.code in ("not-a-table", "dot-of-number"):
         made["a_found"] = _article(str(data["found"]), language)
-        named = data["name"] or (error.span.text.split(".")[0].strip() if error.span else "it")
-        made["not_a_table_hint"] = hints.not_a_table_hint({**data, "name": named})
+        made["not_a_table_hint"] = hints.not_a_table_hint(data)
     if error.code == "excess" and data.get("name"):
         made["named"] = f" ({data['name']})"
     if data.get("found") == "nothing":

@@ -2,36 +2,16 @@
 
 import re
 from collections.abc import Mapping
+from pathlib import Path
 
 from ssilang.language.registry import find_operator
 from ssilang.messages.message import Sentence
+from ssilang.remembered import tables_of
 
 Hint = Sentence | str
 """A hint, or '' where nothing is known."""
 
-FOREIGN: Mapping[str, str] = {
-    **dict.fromkeys(
-        ("IF", "ELSE", "ELSEIF", "ELIF", "ENDIF", "THEN", "SWITCH", "ALORS"), "write-condition"
-    ),
-    **dict.fromkeys(("FOR", "WHILE", "DO", "ENDFOR", "ENDDO", "FOREACH", "POUR"), "write-loop"),
-    **dict.fromkeys(("BREAK", "CONTINUE"), "write-leaving"),
-    **dict.fromkeys(
-        ("PRINT", "PRINTF", "DISP", "PUTS", "WRITE", "ECHO", "AFFICHER", "AFFICHE"),
-        "write-printing",
-    ),
-    **dict.fromkeys(("EQ", "NE", "GT", "LT", "GE", "LE"), "write-comparison"),
-    **dict.fromkeys(("PLOT", "DRAW"), "write-picture"),
-    "^": "write-power",
-    **dict.fromkeys(("MAX", "MIN"), "write-extremes"),
-    **dict.fromkeys(("SQRT", "RACINE"), "write-root"),
-    **dict.fromkeys(("LEN", "LENGTH", "SIZE"), "write-count"),
-    **dict.fromkeys(("FUNCTION", "DEF", "PROC", "RETURN", "SUBROUTINE"), "write-procedure"),
-    **dict.fromkeys(("TRUE", "FALSE"), "write-truth"),
-    **dict.fromkeys(
-        ("GRAV", "GRAVITY", "GRAVITE", "PESA", "PESANTEUR", "POIDS", "WEIGHT"), "write-weight"
-    ),
-}
-"""Words of other languages, with the code of how what they mean is written."""
+_FOREIGN = Path(__file__).with_name("foreign.toml")
 
 
 def foreign_hint(word: str) -> Hint:
@@ -40,8 +20,8 @@ def foreign_hint(word: str) -> Hint:
         return Sentence("write-item")
     if word[:1] == "#" or word[:2] == "//":
         return Sentence("write-comment")
-    code = FOREIGN.get(word.upper())
-    return Sentence(code) if code else ""
+    found = (c for c, words in tables_of(_FOREIGN).items() if word.upper() in words)
+    return Sentence(code) if (code := next(found, "")) else ""
 
 
 def comment_hint(text: str) -> Hint:

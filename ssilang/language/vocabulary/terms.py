@@ -3,12 +3,15 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ssilang.language.values import ListEnti, ListReel, type_of
 from ssilang.messages.message import spoken
+from ssilang.remembered import tables_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,58 +19,22 @@ class Unit:
     """A unit of the SI with the powers of mass, length, time and temperature in it.
 
     A quantity in a system of other base units has the same powers. Entries of tables are usually
-    within `usual`, in SI, or nought.
+    between `least` and `most`, in SI, or nought.
     """
 
-    symbol: str
     mass: int = 0
     length: int = 0
     time: int = 0
     temperature: int = 0
-    usual: tuple[float, float] = (-math.inf, math.inf)
+    least: float = -math.inf
+    most: float = math.inf
 
 
-UNITS: dict[str, Unit] = {
-    unit.symbol: unit
-    for unit in (
-        Unit(""),  # a pure number
-        Unit("rad"),
-        Unit("deg", usual=(-360.0, 360.0)),
-        Unit("%"),
-        Unit("m", length=1, usual=(-5e3, 5e3)),
-        Unit("m2", length=2),
-        Unit("m3", length=3),
-        Unit("m4", length=4),
-        Unit("1/m", length=-1),
-        Unit("1/rad"),
-        Unit("1/s", time=-1),
-        Unit("rad/s2", time=-2),
-        Unit("N/m3", mass=1, length=-2, time=-2),
-        Unit("m2/s4/Hz", length=2, time=-3),
-        Unit("m/s", length=1, time=-1, usual=(-1e4, 1e4)),
-        Unit("m/s2", length=1, time=-2, usual=(-100.0, 100.0)),
-        Unit("s", time=1, usual=(-1e5, 1e5)),
-        Unit("Hz", time=-1, usual=(1e-4, 1e4)),
-        Unit("rad/s", time=-1),
-        Unit("kg", mass=1),
-        Unit("kg/m2", mass=1, length=-2),
-        Unit("kg/m3", mass=1, length=-3, usual=(10.0, 1.2e4)),
-        Unit("kg m2", mass=1, length=2),
-        Unit("N", mass=1, length=1, time=-2),
-        Unit("N m", mass=1, length=2, time=-2),
-        Unit("N/m", mass=1, time=-2),
-        Unit("N s/m", mass=1, time=-1),
-        Unit("N m s", mass=1, length=2, time=-1),
-        Unit("Pa", mass=1, length=-1, time=-2),
-        Unit("Pa s", mass=1, length=-1, time=-1),
-        Unit("Pa/m", mass=1, length=-2, time=-2),
-        Unit("J", mass=1, length=2, time=-2),
-        Unit("K", temperature=1),
-        Unit("1/K", temperature=-1),
-        Unit("m/K", length=1, temperature=-1),
-        Unit("1/(m K)", length=-1, temperature=-1),
-    )
-}
+@cache
+def units() -> dict[str, Unit]:
+    """All units by their symbols."""
+    tables = tables_of(Path(__file__).with_name("units.toml"))
+    return {symbol: Unit(**powers) for symbol, powers in tables.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,7 +196,7 @@ class Quantity(Word):
     Attributes
     ----------
     unit : str or None
-        A key of `UNITS`; None where it is no number, or depends on what it stands in.
+        A key of `units`; None where it is no number, or depends on what it stands in.
     range : Range
         Outside of it the value is refused.
     usual : Range

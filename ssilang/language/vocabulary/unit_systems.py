@@ -2,7 +2,7 @@
 
 A system is a unit of length and one of force, with the second; the unit of mass is the one that
 makes force = mass times acceleration (a tonne with N and mm). The powers of a quantity stand in
-`terms.UNITS`, by its unit of the SI.
+`terms.units`, by its unit of the SI.
 """
 
 import math
@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ssilang.language import vocabulary
-from ssilang.language.vocabulary.terms import UNITS, UNSAID, Quantity, Range
+from ssilang.language.vocabulary.terms import UNSAID, Quantity, Range, units
 
 _SYMBOL = re.compile(r"[A-Za-z]+")
 
@@ -43,7 +43,7 @@ class UnitSystem:
 
     def factor(self, unit: str) -> float:
         """How many of a unit of the SI its unit here is: 1e9 for 'Pa/m' and N-MM."""
-        powers = UNITS[unit]
+        powers = units()[unit]
         return float(self.mass**powers.mass * self.length**powers.length)
 
     def written(self, unit: str) -> str:
@@ -117,10 +117,11 @@ def usual_of(said: Range, index: str, unit: str, system: UnitSystem | None) -> R
 
 def _by_unit(index: str, unit: str, system: UnitSystem | None) -> Range:
     """Of a parameter or of any number of the unit; without a system where that has no part."""
-    powers = UNITS.get(unit)
+    powers = units().get(unit)
     if not unit or powers is None or (system is None and (powers.mass or powers.length)):
         return UNSAID
-    usual, size = Range(*powers.usual, nought=True), 1.0 if system is None else system.factor(unit)
+    usual = Range(powers.least, powers.most, nought=True)
+    size = 1.0 if system is None else system.factor(unit)
     if not math.isfinite(usual.high):
         meant = [w for w in vocabulary.meanings("parameter", index) if isinstance(w, Quantity)]
         usual = next((w.usual for w in meant if w.unit == unit), UNSAID)

@@ -10,7 +10,7 @@ from ssilang.io.atomic import write_text
 from ssilang.io.tables import write_parquet
 from ssilang.kernel.fields.node_algebra import restricted
 from ssilang.kernel.stepping.node_histories import ForceHistories, NodeHistories
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.snapshot import Observer, Receiver, Snapshot
 from ssilang.language.values import promises
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.curves.instants import InstantField, RecordedFields, RecordedPoints
@@ -55,7 +55,7 @@ def _asked(table: LazyRows, place: int, index: str) -> NodeField:
 
 
 @dataclass(eq=False)
-class TableObserver:
+class TableObserver(Receiver):
     """The table of results: 1, 2 ... with TEMP, DEPL, VITE, ACCE and what joints give.
 
     What loops record stays as rows; fields are made of them when a script first asks. `whole`: of
@@ -81,9 +81,6 @@ class TableObserver:
     def wanted(self) -> BoolArray:
         """Which times."""
         return self.track.wanted
-
-    def close(self) -> None:
-        """Nothing to do: the table is whole after each step."""
 
     def receive(self, snapshot: Snapshot) -> None:
         """Add one whole instant."""

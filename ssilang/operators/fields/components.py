@@ -230,7 +230,7 @@ def value_at(
 
 def _tell_foreign(call: Call, field: NodeField, name: str, point: Point) -> None:
     """Warn of a point that the field does not stand on; forces are zero where none acts."""
-    if field.nature != "DISCRET" and point.node not in field.node_ids:
+    if field.nature != "DISCRET" and not field.stands_on(point.node):
         tell_zero(call, refused_place(call, [field], name, point.node))
 
 

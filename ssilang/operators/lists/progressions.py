@@ -6,6 +6,7 @@ from array import array
 from ssilang.operators.prelude import *
 
 _REAL = ("ENTIER", "FLOTTANT")
+_BLOCK = 100_000
 LONGEST = 20_000_000
 """Items of one list, or letters of one word, at most: more than any use, and memory holds them."""
 _FREE = "its items, steps and repetitions stand in any order"
@@ -183,10 +184,7 @@ def _progression(start: Any, step: Any, count: int, ratio: float | None) -> list
         return sums
     if isinstance(start, int) and isinstance(step, int):
         return [start + step * i for i in range(1, count + 1)]
-    values: FloatArray = np.arange(1.0, count + 1)
-    values *= step
-    values += start
-    return values
+    return _evenly(_as_written(start), _as_written(step), count)
 
 
 def integer_steps(start: int, step: int, end: int) -> list[int]:
@@ -227,9 +225,24 @@ def real_steps(start: float, step: float, end: float, ratio: float | None = None
     if ratio is not None:
         return _geometric_steps(start, step, end, ratio)
     count = max(round(distance / step), 1)
-    values: list[float] = (start + distance * np.arange(1, count + 1) / count).tolist()
+    first, last = _as_written(start), _as_written(end)
+    values: list[float] = _evenly(first, (last - first) / count, count).tolist()
     values[-1] = end
     return values
+
+
+def _as_written(value: float) -> np.longdouble:
+    """A real to more digits than it has: 0.1 and not the nearest double."""
+    return np.longdouble(repr(float(value)))
+
+
+def _evenly(first: np.longdouble, step: np.longdouble, count: int) -> FloatArray:
+    """Reals behind the first, the doubles nearest to what is written: 0.3 behind 0.1 and 0.2."""
+    made = np.empty(count)
+    for start in range(0, count, _BLOCK):  # a long row takes no more memory than its values
+        end = min(start + _BLOCK, count)
+        made[start:end] = first + step * np.arange(start + 1, end + 1)
+    return made
 
 
 def _geometric_steps(start: float, step: float, end: float, ratio: float) -> list[float]:

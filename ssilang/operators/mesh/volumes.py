@@ -1,6 +1,6 @@
 """Volumes: VOLU by translation, rotation, along a line, between two surfaces, by thickness."""
 
-from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.combine import side_by_side
 from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
 from ssilang.kernel.mesh.orientation import surface_normals
@@ -20,14 +20,6 @@ def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:
     return mesh.sides[side]
 
 
-def stacked(lower: Mesh, upper: Mesh) -> Mesh:
-    """Two volumes as one, the first below the second."""
-    made = union(lower, upper, as_given=True)
-    around = tuple(m.sides[2] for m in (lower, upper) if len(m.sides) > 2)
-    lateral = (union(*around, as_given=True),) if around else ()
-    return Mesh(made.nodes, made.blocks, (lower.sides[0], upper.sides[1], *lateral))
-
-
 def _make(
     base: Mesh, path: sweep.Path, end_size: float, cuts: Cuts, listed: ListReel | None
 ) -> Mesh:
@@ -38,7 +30,7 @@ def _make(
         sizes = cuts.sizes((sweep.mean_density(surface), end_size))
         layers = subdivide(path.length, *sizes, cuts.count)
     made = sweep.sweep_surface(surface, path, layers)
-    return made if surface is base else stacked(base, made)
+    return made if surface is base else side_by_side(base, made)
 
 
 _BASE = arg("base", "MAILLAGE", en="surface, or volume whose face 2 is swept")
@@ -71,7 +63,7 @@ def volu(
         end = surface_to_sweep(goal, 0)
         path = sweep.ruling(surface_to_sweep(base, 1), end)
         made = _make(base, path, sweep.mean_density(end), cuts_of(count, sizes), places)
-        return made if end is goal else stacked(made, goal)
+        return made if end is goal else side_by_side(made, goal)
     if thickness is None and count:
         thickness = float(count)
     if thickness is None:
@@ -138,7 +130,7 @@ def along_line(
     path, layers = generator_path(along["line"])
     surface = surface_to_sweep(base, 1)
     made = sweep.sweep_surface(surface, path, layers)
-    return made if surface is base else stacked(base, made)
+    return made if surface is base else side_by_side(base, made)
 
 
 def thickened(shell: Mesh, thickness: float | NodeField, direction: FloatArray) -> Mesh:

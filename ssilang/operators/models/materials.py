@@ -143,7 +143,8 @@ def _parameters(
     for zone, values in zip(model.zones, given, strict=True):
         refuse_outside(call, zone, values, said)
         _warn_of_nothing(call, zone, values, said)
-        if of_laws:
+        told = any(a.size and isinstance(a.flat[0], str) for a, _ in values.values())
+        if of_laws and not told:
             check_plastic(call, zone, values, said)
         warn_of_units(call, zone, {n: (v, said[n]) for n, (v, _) in values.items() if n in said})
     return CellField(tuple(blocks), "CARACTERISTIQUES")
@@ -397,7 +398,8 @@ def tension_to_hardening(values: dict[str, tuple[NDArray[Any], Support]]) -> Non
         raise MaterialError("operators.models.hardening-given-twice")
     young = values["YOUN"][0] if "YOUN" in values else np.empty((0, 0))
     law = young.flat[0] if young.size and all(v == young.flat[0] for v in young.flat) else None
-    made = {id(v): _hardening(v, law) for v in table.flat}
+    # a word was told, and is refused where the curve is read
+    made = {id(v): v if isinstance(v, str) else _hardening(v, law) for v in table.flat}
     curves = np.empty(table.shape, dtype=object)
     for place, curve in np.ndenumerate(table):
         curves[place] = made[id(curve)]

@@ -103,9 +103,11 @@ def contact(
     if friction is not None and friction["law"] == "FROCABLE":
         if slave is None:
             raise call.missing(("MAILLAGE",))
-        return cable_model(call, mesh, cables, slave, ws)
-    sides = sides_in(call, mesh) if slave is None else [(mesh, slave, method)]
-    return contact_model(call, sides, friction is not None, ws)
+        made = cable_model(call, mesh, cables, slave, ws)
+    else:
+        sides = sides_in(call, mesh) if slave is None else [(mesh, slave, method)]
+        made = contact_model(call, sides, friction is not None, ws)
+    return Model(tuple(replace(z, constituent=wish.constituent) for z in made.zones))
 
 
 @MODE.form()
@@ -156,7 +158,13 @@ def mode(
         return Model(tuple(_pressure_zone(block, wish, ws) for block in used.blocks))
     if wish.formulation == "LIAISON":
         raise call.error("operators.models.no-such-link", words=said, known=_KNOWN_LINKS)
-    zones = tuple(_zone(block, wish, ws) for block in used.blocks)
+    bare = [b.cell_type for b in used.blocks if _bare_surface(b, wish, ws.mode)]
+    if bare:
+        call.warn("operators.models.surfaces-for-fields-alone", mesh, kinds=bare)
+    zones = tuple(
+        (_pressure_zone if block.cell_type in bare else _zone)(block, wish, ws)
+        for block in used.blocks
+    )
     if wish.rule and not any(is_joint(z) for z in zones):
         raise call.error("operators.models.rule-without-joints", rule=wish.rule)
     _check_layers(call, wish, zones)
@@ -303,6 +311,12 @@ def _unknown(call: Call, said: str) -> Exception:
         kinds=kinds,
         fitting=_fitting(call, kinds),
     )
+
+
+def _bare_surface(block: CellBlock, wish: Wish, mode: Mode) -> bool:
+    """Whether cells are a surface in space for which neither a law nor an element is said."""
+    surface = block.kind.dimension == 2 and not block.kind.joint
+    return surface and mode is Mode.THREE_DIMENSIONAL and not (wish.laws or wish.elements)
 
 
 def _zone(block: CellBlock, wish: Wish, ws: Workspace) -> Zone:

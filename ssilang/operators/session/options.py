@@ -7,6 +7,7 @@ from ssilang.kernel.matrices.matrix import PRIMAL_TO_DUAL
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.solvers.backends import PETSC
 from ssilang.kernel.solvers.factor import COARSEST, FINEST
+from ssilang.language.say.diagnostics import elsewhere
 from ssilang.language.search import nearest, nearest_names
 from ssilang.language.values import Texte
 from ssilang.operators.prelude import *
@@ -104,7 +105,8 @@ def _no_value(
 ) -> SsiError:
     from ssilang.operators.vocabulary.words import told_values  # knows the kernel: slow to load
 
-    told = told_values(option, words, call.session.language)
+    outside = elsewhere(said, call.session.language)
+    told = [outside] if outside else told_values(option, words, call.session.language)
     return SsiError(
         "operators.session.no-value-of-option",
         call.used[-1].span,

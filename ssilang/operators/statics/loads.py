@@ -219,10 +219,10 @@ def _of_loads(
             seen = zone_field(zone, value)
             if len(seen.names) != 1:
                 raise call.error("operators.statics.pressure-has-one-component", value)
-            values = seen.raw(seen.names[0])[0]
+            values, support = seen.raw(seen.names[0])
         else:
-            values = np.full((len(zone.cells), 1), float(value))
-        blocks.append(zone.block({label: values}, "NOEUD"))
+            values, support = np.full((len(zone.cells), 1), float(value)), "NOEUD"
+        blocks.append(zone.block({label: values}, support))
     return CellField(tuple(blocks), "PRESSION")
 
 

@@ -3,7 +3,10 @@
 from ssilang.kernel.elements.families import mass, stiffness, viscosity
 from ssilang.kernel.elements.loads.thermal import refuse_expanding
 from ssilang.kernel.elements.springs import is_impedance, law_of_impedance
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.interface.elements import is_joint
+from ssilang.kernel.interface.interface import joint_zones
+from ssilang.kernel.interface.laws.columns import LawCode
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.plasticity.bulk import stiffness_beside, without_stiffness
 from ssilang.kernel.plasticity.points import is_plastic, plastic_zones
@@ -430,9 +433,23 @@ def _inputs(
         stiffnesses, times, masses, damping if dynamic else None, load, displacement,
         velocity if dynamic else None, model, material, scheme_of(entries),
         contact_options(entries, dynamic), start.of("VARIABLES_INTERNES"), sides.friction,
-        solver_of(entries.call.session),
+        solver_of(entries.call.session), _inside(entries, start),
     )  # fmt: skip
     return inputs, stresses
+
+
+def _inside(entries: Entries, start: Start) -> tuple[CellField | None, CellField | None] | None:
+    """Inelastic strains and stresses at the start, where displacements do not say all."""
+    strains, stresses = start.of("DEFORMATIONS_INELASTIQUES"), start.of("CONTRAINTES")
+    if strains is None and (stresses is None or start.of("DEPLACEMENTS") is not None):
+        return None
+    model: Model | None = entries.get("MODELE")
+    for zone in joint_zones(model) if model is not None else ():
+        held = zone_field(zone, stresses)
+        unread = not _is_linear(zone) and law_of(zone.behaviour).code != LawCode.MOHR
+        if unread and any(held.at(name, "STRESSES").any() for name in held.names):
+            entries.warn("operators.statics.joint-stress-unread", law=zone.behaviour[-1])
+    return strains, stresses
 
 
 def _dashpots_of_laws(

@@ -4,7 +4,7 @@ from ssilang.kernel.elements.families import family_of, strain, stress
 from ssilang.kernel.elements.results.integrals import green_strain, has_second_order
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.statics.thermal_load import ThermalStress, free_terms
-from ssilang.kernel.stepping.snapshot import Snapshot
+from ssilang.kernel.stepping.snapshot import Receiver, Snapshot
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import named_at
 
@@ -59,7 +59,7 @@ class Stresses:
 
 
 @dataclass
-class ResultTables:
+class ResultTables(Receiver):
     """Fills TEMPS, DEPLACEMENTS, CONTRAINTES ... of the table at each saved time.
 
     `number` is that of the initial state; what the table already holds there is kept. Fields in
@@ -147,6 +147,3 @@ class ResultTables:
             return found
         order = sorted(range(len(where)), key=where.__getitem__)
         return CellField(tuple(found.blocks[i] for i in order), found.title)
-
-    def close(self) -> None:
-        """Nothing to do: tables are whole after each time."""

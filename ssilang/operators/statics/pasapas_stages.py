@@ -8,7 +8,7 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.kinematics import element_sides
-from ssilang.kernel.stepping.snapshot import Snapshot
+from ssilang.kernel.stepping.snapshot import Receiver, Snapshot
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.statics.pasapas_materials import Varying, same_fields
@@ -124,7 +124,7 @@ def _joined(work: Entries, word: str, values: list[Any]) -> Any:
 
 
 @dataclass
-class Reached:
+class Reached(Receiver):
     """Keeps the state at the end of a stage."""
 
     results: ResultTables
@@ -139,9 +139,6 @@ class Reached:
     def receive(self, snapshot: Snapshot) -> None:
         """The last time."""
         self.values = self.results.values(snapshot)
-
-    def close(self) -> None:
-        """Nothing to do."""
 
 
 def entering(state: Table, model: Model | None) -> Table:

@@ -3,7 +3,7 @@
 from ssilang.kernel.elements.results.supports import field_on_model
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.mesh.mesh import same_cells
-from ssilang.kernel.stepping.snapshot import Snapshot
+from ssilang.kernel.stepping.snapshot import Receiver, Snapshot
 from ssilang.kernel.stepping.times import nearest
 from ssilang.operators.files.saving import save
 from ssilang.operators.prelude import *
@@ -79,7 +79,7 @@ def tell_step(table: Table, time: float) -> None:
         inner.set(Mot(word), value)
 
 
-class Steering:
+class Steering(Receiver):
     """Calls REEV_MEC and PERSO1 after each computed time, with the state in ESTIMATION.
 
     Attributes
@@ -129,11 +129,8 @@ class Steering:
             tell_parts(self.inner)
             raise ChangedCalculation(snapshot.step)
 
-    def close(self) -> None:
-        """Nothing to do."""
 
-
-class SavedTable:
+class SavedTable(Receiver):
     """Writes the table by SAUV after the times of TEMPS_SAUVEGARDES."""
 
     def __init__(self, call: Call, table: Table, times: FloatArray, wanted: FloatArray) -> None:
@@ -146,9 +143,6 @@ class SavedTable:
         root = self.call.session.root
         name = next((n for n in root.names() if root.find(n) is self.table), "TAB1")
         save(self.call, [(name, self.table)])
-
-    def close(self) -> None:
-        """Nothing to do."""
 
 
 def _is_same(first: Any, second: Any) -> bool:

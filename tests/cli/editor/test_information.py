@@ -183,4 +183,8 @@ def test_a_name_is_offered_with_what_it_is_and_where_it_began():
     assert shown == {"ZX": "parameter (2)", "ZI": "variable (3)", "ZA": "variable (4)",
                      "ZP": "procedure (2)"}  # fmt: skip
     assert (found["DROIT"].kind, found["REPETER"].kind) == ("operator", "control")
+    behind = offered("ZA = 1 ;\nDEBP ZP ZX*ENTIER ;\n  ZI = 2 ;\nFINP ;\n")
+    assert {c for c in behind if c[0] == "Z" and len(c) == 2} == {"ZA", "ZP"}
+    twice = offered("ZA = 1 ;\nZA = 2 ;\n")["ZA"]
+    assert twice.detail == "variable (1)"
     assert found["MAILLER"].kind == "procedure"

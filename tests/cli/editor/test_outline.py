@@ -47,7 +47,18 @@ def test_what_folds():
         (0, 1, "comment"), (3, 9, "region"), (5, 8, "region"), (10, 12, "region"),
         (14, 16, "region"), (18, 19, "comment"),
     ]  # fmt: skip
-    assert list(folds(Document.of("REPE B 2 ;\nX = 1 ;\nFIN B ;"))) == [(0, 2, "region")]
+    for text, found in (
+        ("REPE B 2 ;\nX = 1 ;\nFIN B ;", [(0, 2)]),
+        ("X = 1\n  + 2 ;\nY = 1\n + 2\n + 3 ;", [(2, 4)]),
+        ("REPE B 2 ;\nFIN ;\nX = 1 ;\nFIN B ;", [(0, 3)]),  # the end of the run closes nothing
+        ("DEBP P ;\nSI A ;\nX = 1 ;\nFINP ;", [(0, 3)]),  # what is open within is given up
+    ):
+        assert [fold[:2] for fold in folds(Document.of(text))] == found
+
+
+def test_a_name_of_the_script_and_of_a_procedure_stand_in_both():
+    first, second = outline(Document.of("ZX = 1 ; DEBP ZP ; ZX = 2 ; ZX = 3 ; FINP ;"))
+    assert (first.name, [p.name for p in second.inner]) == ("ZX", ["ZX"])
 
 
 def test_the_colour_of_each_word():
@@ -61,6 +72,13 @@ def test_the_colour_of_each_word():
                 ("TABL", "function"), ("ZP", "function"), ("FINSI", "keyword"),
                 ("2.5", "number"), ("* alone", "comment"), ("A1", "variable")):  # fmt: skip
         assert one in told
+    text = "O = 1 ; X = O%DROI ; MESS SI X ; Y = %VIBR ; %TABL = 2 ;"
+    document = Document.of(text)
+    shown = [(text[a:b], c) for a, b, c in colours(document)]
+    for attribute in ("DROI", "VIBR", "TABL"):  # of an object, and of the one whose method runs
+        assert (attribute, "property") in shown
+    assert document.names.defined == {"O", "X", "Y"}
+    assert ("SI", "keyword") not in shown
 
 
 def test_the_colours_of_a_part_are_those_of_the_whole_that_begin_there():

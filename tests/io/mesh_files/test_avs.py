@@ -55,7 +55,32 @@ def test_structures_follow_one_another_with_their_time(tmp_path: Path) -> None:
     assert first.model_values == {"time": 1.5}
     assert np.array_equal(first.node_values["UX"], np.arange(6.0) / 7.0)
     assert second.node_values == {}
-    assert [(k, len(t)) for k, _, t in second.cells] == [("QUA4", 1), ("TRI3", 2)]
+    assert [(k, m, len(t)) for k, m, t in second.cells] == [("QUA4", 1, 1), ("TRI3", 2, 2)]
+
+
+BY_HAND = """# numbers in no order, kinds and materials in turn, a scalar before a vector
+5 4 4 1 0
+7 0 0 0\n3 1 0 0\n9 1 1 0\n2 0 1 0\n5 2 0 0
+1 2 QUAD 7 3 9 2\n2 1 tri 3 5 9\n3 2 quad 3 9 2 7\n4 1 Tri 5 9 3
+2 1 3\nP, Pa\nV , m/s
+7 .5 1 2 3\n3 .6 4 5 6\n9 .7 7 8 9\n2 .8 0 0 1\n5 .9 1 0 0
+1 1\nS, Pa
+1 10\n2 20\n3 30\n4 40
+"""
+
+
+def test_values_stay_with_their_cells_and_components(tmp_path: Path) -> None:
+    (tmp_path / "x.avs").write_text(BY_HAND)
+    read = read_avs(tmp_path / "x.avs")
+    assert read is not None
+    assert [(k, m, rows.tolist()) for k, m, rows in read.cells] == [
+        ("QUA4", 2, [[0, 1, 2, 3], [1, 2, 3, 0]]), ("TRI3", 1, [[1, 4, 2], [4, 2, 1]]),
+    ]  # fmt: skip
+    assert read.cell_values["S"].tolist() == [10, 30, 20, 40]
+    assert {name: v.tolist() for name, v in read.node_values.items()} == {
+        "P": [0.5, 0.6, 0.7, 0.8, 0.9], "V1": [1, 4, 7, 0, 1], "V2": [2, 5, 8, 0, 0],
+        "V3": [3, 6, 9, 1, 0],
+    }  # fmt: skip
 
 
 @together("kind", ["SEG3", "QUA8", "CU20", "TE10"])

@@ -64,6 +64,32 @@ def test_nodes_cells_and_groups(tmp_path: Path) -> None:
     assert read.left_out == {"136": 1}
 
 
+def test_older_numbers_of_what_is_told_are_read_as_well(tmp_path: Path) -> None:
+    """An empty part in front, a cell more that is not read, a group of what is not there."""
+    text = "    -1\n    -1\n" + UNV.replace("D+00", "d+00")
+    for new, old in (("2411", "781"), ("2412", "780"), ("2467", "2435")):
+        text = text.replace(f"\n  {new}\n", f"\n  {old}\n")
+    one = "         9       136         1         1         7         1\n        13\n"
+    text = text.replace(one, one + one.replace("9", "8").replace("13\n", "14\n"))
+    text = text.replace(
+        "0         1\nface\n", "0         3\nface\n         7        98 0 0 8 99 0 0\n"
+    )
+    (tmp_path / "m.unv").write_text(text)
+    read = read_unv(tmp_path / "m.unv")
+    assert read.points.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+    assert {k: rows.tolist() for k, rows in read.cells.items()} == {
+        "SEG2": [[0, 1]], "QUA4": [[0, 1, 2, 3]]
+    }  # fmt: skip
+    assert (held(read), held(read, "face")) == (({"SEG2": [0]}, [2]), ({"QUA4": [0]}, []))
+    assert read.left_out == {"136": 2}
+    four = "7         4\n        11        12        13        14"
+    (tmp_path / "m.unv").write_text(
+        UNV.replace(four, "7         3\n        11        12        13")
+    )
+    with pytest.raises(InputError, match="7: QUA4, 3"):
+        read_unv(tmp_path / "m.unv")
+
+
 def held(read: FileMesh, name: str = "base side") -> tuple[dict[str, list[int]], list[int]]:
     part = read.parts[name]
     return {k: rows.tolist() for k, rows in part.cells.items()}, part.nodes.tolist()
@@ -98,6 +124,12 @@ def test_meshio_reads_our_triangles(tmp_path: Path) -> None:
     volume = np.einsum("ni,ni->n", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
     assert volume == pytest.approx(1.0 / 6.0)  # the normals point outwards
     assert np.array_equal(read_stl(path), tetrahedron().blocks[0].coordinates)
+    normals = [[*map(float, x.split()[2:])] for x in lines if x.startswith("facet normal")]
+    slanted = [1 / np.sqrt(3.0)] * 3
+    np.testing.assert_allclose(normals, [[0, 0, -1], [0, -1, 0], slanted, [-1, 0, 0]], atol=1e-15)
+    flat = NodeTable()
+    ids = flat.add(np.array([(0.0, 0, 0), (1, 0, 0), (2, 0, 0)]))
+    assert stl_lines(Mesh.of(flat, "TRI3", ids[None, :]))[1] == "facet normal 0.0 0.0 0.0"
 
 
 def test_binary_triangles(tmp_path: Path) -> None:

@@ -41,8 +41,11 @@ def test_discrete_values_of_one_node_add_up_and_others_must_agree() -> None:
         values = np.concatenate([[5.0, 6, 7], second])
         given = NodeField.of(table, np.arange(6), {"FX": values}, nature)  # type: ignore[arg-type]
         if expected is None:
-            with pytest.raises(FieldError, match="ELIM made one"):
+            with pytest.raises(FieldError, match="ELIM made one") as caught:
                 _ = given.components
+            k = int(second[1] == 6) + 1
+            told = {"values": k + 5.0, "values_2": second[k], "both": table.told(k)}
+            assert told.items() <= caught.value.data.items()
         else:
             assert np.array_equal(given.components["FX"].values, expected)
 

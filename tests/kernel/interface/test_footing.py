@@ -10,6 +10,7 @@ from together import together
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
 from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.stepping import node_histories
 from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.run import integrate
@@ -253,7 +254,7 @@ def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() ->
     assert len(one.axes) == 0
 
 
-def test_a_track_goes_on_from_what_it_held() -> None:
+def test_a_track_goes_on_from_what_it_held(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = problem_of(strip(8, bench=strip(4, left=10.0, width=2.0)))
     wanted = np.ones(2, bool)
     first, again = footing_histories(problem, wanted), footing_histories(problem, wanted)
@@ -273,6 +274,11 @@ def test_a_track_goes_on_from_what_it_held() -> None:
     again.restore(empty.content())
     assert len(again.times) == 0
     assert again.kept == [[], []]
+    monkeypatch.setattr(node_histories, "MOST", 1)
+    few = footing_histories(problem, wanted)
+    assert isinstance(few, FootingHistories)
+    assert ([f.area for f in few.footings], few.left_out) == ([empty.footings[0].area], 1)
+    assert empty.left_out == 0
 
 
 @together("wanted", [[0, 1, 2, 3, 4], [1, 3]])

@@ -450,5 +450,10 @@ def test_fibres_yield_by_the_shear_that_they_have_a_share_of() -> None:
     law, shares = PLASTIC_LAWS["PARFAIT"], np.array([[0.0, 0.5]])
     group = FibreGroup(None, law, PointParameters(values, {}), shares)  # type: ignore[arg-type]
     strain = np.array([[[2e-3, 0, 0, 1.0, 3e-3, 0]]])
-    after, *_ = group.respond(np.zeros((1, 1, 6)), strain, np.zeros((1, 1, len(law.variables))))
+    blank = np.zeros((1, 1, len(law.variables)))
+    after, _, tangent = group.respond(np.zeros((1, 1, 6)), strain, blank)
     assert after[0, 0] == pytest.approx([0.4, 0, 0, 0, 0.5 * 80.0 * 3e-3, 0], abs=1e-12)
+    slopes = np.diag([200.0, 0, 0, 0, 0.5 * 80.0, 0])
+    np.testing.assert_allclose(tangent[0, 0], slopes, atol=1e-12)
+    along = group.along(np.full(1, 0.1), np.full(1, 2e-3), blank[0])
+    assert (along.stress[0], along.slope[0]) == pytest.approx((0.5, 200.0))

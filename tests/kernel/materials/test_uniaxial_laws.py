@@ -89,9 +89,38 @@ def test_steel_loses_no_energy_that_it_does_not_have() -> None:
     assert 0.6 * corners < work < corners * 1.2
 
 
+SLENDER = {**STEEL, "FALD": 8.0, "A6FA": 620.0, "CFAC": 0.5, "AFAC": 0.006}
+
+
+@together("given", [STEEL, SLENDER, CONCRETE])
+def test_slopes_are_those_of_the_step_and_what_is_not_elastic_is_summed(given) -> None:
+    """Steps to and fro, long and short, also beyond the curves' ends."""
+    law = PLASTIC_LAWS["BETON_UNI" if given is CONCRETE else "ACIER_UNI"]
+    p, rng, size = points(given), np.random.default_rng(6), 5e-3 if given is CONCRETE else 0.05
+    stress, variables, compared = np.zeros((1, 6)), np.zeros((1, len(law.variables))), 0
+    drawn = rng.uniform(-1.0, 1.0, 60) * rng.choice([0.05, 0.3, 1.0], 60)
+    for step in size * np.concatenate([[0.6, 0.2], drawn]):
+
+        def after(more, step=step, stress=stress, variables=variables):
+            strain = np.array([[step + more, 0, 0, 0, 0, 0]])
+            return law.respond(p, stress.copy(), strain, variables.copy())
+
+        now, h = after(0.0), 1e-7 * size
+        up, down = ((after(s * h).stress - now.stress)[0, 0] / (s * h) for s in (1, -1))
+        if abs(up - down) < 1e-4 * given["YOUN"]:
+            slope = now.tangent[0, 0, 0]
+            assert slope == pytest.approx(0.5 * (up + down), abs=1e-5 * given["YOUN"])
+            compared += 1
+        if given is not CONCRETE:
+            gone = abs(step - (now.stress - stress)[0, 0] / E)
+            assert now.variables[0, 0] - variables[0, 0] == pytest.approx(gone)
+        stress, variables = now.stress, now.variables
+    assert compared > 50
+
+
 def test_slender_bars_lose_strength_and_stiffness() -> None:
     """Monti and Nuti's branch down, and the softer one up behind it, for L / D = 8."""
-    given = {**STEEL, "FALD": 8.0, "A6FA": 620.0, "CFAC": 0.5, "AFAC": 0.006, "A1FA": 0.0}
+    given = {**SLENDER, "A1FA": 0.0}
     found = along("ACIER_UNI", given, [0.03, -0.01, -0.03, -0.0295, 0.0])
     top, b = SU - (SU - SY) * (0.07 / 0.08) ** 4, 0.01
     e0 = (E * 0.03 - top - SY * (1 - b)) / (E * (1 - b))
@@ -170,6 +199,8 @@ def test_concrete_unloads_and_comes_back_by_its_damaged_slope() -> None:
 
 def test_concrete_cracks_softens_and_closes_where_the_crack_began() -> None:
     crack = 3e6 / 30e9
+    whole = along("BETON_UNI", CONCRETE, [0.6 * crack, 0.2 * crack, 0.5 * crack])
+    assert whole == pytest.approx([1.8e6, 0.6e6, 1.5e6])
     path = [crack, 2 * crack, crack, 0.0, -0.0005, 0.0, 2.5 * crack, 3 * crack, 4 * crack]
     found = along("BETON_UNI", CONCRETE, path)
     x = 0.25

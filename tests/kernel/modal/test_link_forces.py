@@ -85,7 +85,7 @@ SPINS = np.array([2, -1, 3, -1, 2])
 POINTS = Points(ROWS, PLACES, SPINS, AXES, ARMS)
 LINE = np.array([[1, 2], [2, 3], [3, 4]])
 ALONG = Points(
-    np.concatenate([ROWS[:1], np.tile(ROWS[1], (4, 1, 1))]),
+    ROWS,
     np.concatenate([PLACES[:1], [0.4, -0.2, 0.1] + np.array([[-2.0], [-0.3], [0.5], [2]]) * UNIT]),
     np.array([2, -1, -1, -1, -1]), AXES, ARMS,
 )  # fmt: skip
@@ -193,6 +193,38 @@ def test_contacts_push_by_the_derivative_of_their_energy(name, spring):
         assert not forces([apart], q, V, points=points, segments=segments)[0].any()
         met += 1
     assert met >= 2
+
+
+def test_a_line_pushes_what_is_left_of_it_by_its_distance_to_the_nearest_place():
+    """At corners by the side of both segments, nothing beyond its ends, whatever lies off plane."""
+    t1 = OFF / np.linalg.norm(OFF)
+    plane = np.stack([t1, np.cross(UNIT, t1)])
+    at = np.array([[-2.0, 0.5], [-0.5, -0.4], [0.6, 0.3], [2.0, 0.1]])
+    rows = np.zeros((5, 3, N))
+    rows[0, :, :3] = np.eye(3)
+    x = np.concatenate([np.zeros((1, 3)), at @ plane])
+    points = Points(rows, x, np.full(5, -1), AXES, ARMS)
+    numbers = NORMAL | SPAN | {law.GAP: -0.4, law.STIFF: 70.0}
+    link, met = Link(law.LINE, rows[0], rows[0], numbers, ends=((0, 1.0),)), set()
+    for place in np.random.default_rng(2).uniform([-3.0, -1.0, -0.3], [3.0, 1.0, 0.3], (400, 3)):
+        own, way = place[:2], np.diff(at, axis=0)
+        s = ((own - at[:-1]) * way).sum(axis=1) / (way**2).sum(axis=1)
+        off = own - at[:-1] - np.clip(s, 0.0, 1.0)[:, None] * way
+        i = int(np.linalg.norm(off, axis=1).argmin())
+        left = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.linalg.norm(way, axis=1)[:, None]
+        j = i - 1 if s[i] < 0.0 else i + 1 if s[i] > 1.0 else i
+        kind = "end" if not 0 <= j < 3 else "side" if i == j else "corner"
+        sign = np.sign(off[i] @ (left[i] + left[min(max(j, 0), 2)]))
+        depth = -np.inf if kind == "end" else sign * np.linalg.norm(off[i])
+        q = np.append(place[:2] @ plane + place[2] * UNIT, 0.7)
+        total, record, _ = forces([link], q, 0 * V, points=points, segments=segments_of(LINE))
+        push = 70.0 * max(depth + 0.4, 0.0)
+        assert -record[0, law.FN] == pytest.approx(push, abs=1e-9)
+        assert np.linalg.norm(total) == pytest.approx(push, abs=1e-9)
+        if push and sign > 0.0:
+            np.testing.assert_allclose(plane @ total[:3], -push * off[i] / depth, atol=1e-9)
+        met.add((kind, sign, push > 0.0))
+    assert len(met) > 7
 
 
 def test_dampers_push_only_and_permanent_links_pull():

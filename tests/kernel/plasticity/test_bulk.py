@@ -1,5 +1,6 @@
 """Plastic bodies in calculations: limit loads, convergence of Newton, energy, elastic limit."""
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,6 +13,7 @@ from together import together
 
 from ssilang.cli.run import run_text
 from ssilang.kernel.fields.cell_field import CellField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.plasticity.bulk import bulk_of, without_stiffness
 from ssilang.kernel.plasticity.newton import BulkSolver
@@ -21,6 +23,7 @@ from ssilang.kernel.plasticity.zone_points import plastic_points
 from ssilang.kernel.stepping.newmark import generalised_alpha, hht, newmark
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED
+from tests.kernel.elements.samples import cell_zone, line_zone, material, tilted_plate
 
 TUBE = """
 OPTI DIME 2 ELEM QUA8 MODE AXIS ;
@@ -70,6 +73,49 @@ def test_thick_tube_with_a_plastic_ring(tmp_path: Path) -> None:
     outside = 2 * (1 - nu**2) * k * c**2 / (E * 4) * 2
     # Hill's axial stress is the middle one but not half the sum: 1 % on the displacement
     assert at(result, "U") == pytest.approx(outside, rel=0.01)
+
+
+YIELDING = {
+    "solid": lambda: cell_zone("QUA8", Mode.PLANE_STRAIN),
+    "plane stress": lambda: cell_zone("TRI6", Mode.PLANE_STRESS),
+    "bars": lambda: line_zone("BARR", [(0, 0, 0), (1, 2, 0), (2, 2, 3)], Mode.THREE_DIMENSIONAL),
+    "thick shell": lambda: cell_zone("COQ8", Mode.THREE_DIMENSIONAL),
+    "layers": lambda: tilted_plate("DKT"),
+}
+
+
+@together("kind", YIELDING)
+def test_a_state_is_read_back_from_what_fields_show_of_it(kind: str) -> None:
+    zone = replace(YIELDING[kind](), behaviour=("ELASTIQUE", "PLASTIQUE", "CINEMATIQUE"))
+    zone.options.update(INTEGRE=5)
+    points = plastic_points(
+        zone, material(zone, YOUN=2e5, NU=0.3, SIGY=9.0, H=7.0, EPAI=0.4, SECT=2.5)
+    )
+    rng = np.random.default_rng(4)
+    shape = (points.weights.shape[0], len(points.components), points.weights.shape[1])
+    stress, plastic = (points.spread(rng.standard_normal(shape)) for _ in range(2))
+    none = np.zeros((points.count, 6))
+    variables = rng.standard_normal((points.count, len(points.law.variables)))
+    state = PointState(stress, plastic, none, variables, 0.0)
+    blocks = (points.stress_block(state), points.variable_block(state), points.plastic_block(state))
+    given = tuple(b and CellField((b,)) for b in blocks)
+    found, known = points.restored(PointState(none, none, none, 0.0 * variables, 0.0), given)
+    assert known
+    np.testing.assert_allclose(found.stress, stress)
+    np.testing.assert_allclose(found.variables, variables)
+    if blocks[2] is not None:
+        np.testing.assert_allclose(found.plastic, plastic)
+
+
+def test_layers_of_each_point_have_its_strain_and_its_own_height_times_its_curvature() -> None:
+    zone = replace(tilted_plate("DKT"), behaviour=("ELASTIQUE", "PLASTIQUE", "PARFAIT"))
+    zone.options.update(INTEGRE=3)
+    points = plastic_points(zone, material(zone, YOUN=2e5, NU=0.3, SIGY=9.0, EPAI=0.4))
+    own = np.random.default_rng(4).standard_normal((2, 6, points.weights.shape[1] // 3))
+    heights = 0.2 * np.polynomial.legendre.leggauss(3)[0]
+    wanted = own[:, :3, :, None] + heights * own[:, 3:, :, None]
+    found = points.gathered(points.spread(own))
+    np.testing.assert_allclose(found, wanted.reshape(2, 3, -1))
 
 
 STRIP = """

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from script_runs import ran, refused
+from script_runs import ran
 
 PLATE = """
 OPTI DIME 3 ELEM TRI3 ;
@@ -79,12 +79,3 @@ def test_a_calculation_goes_on_from_its_layers(tmp_path):
     find = run(tmp_path, again, what="RY", dual="MY", size="0.1", **hardening)
     assert find("F2") == pytest.approx(find("F"), rel=1e-8)
     assert find("A") < 1e-10
-
-
-def test_layers_are_2_to_15(tmp_path):
-    text = (
-        "OPTI DIME 3 ELEM TRI3 ; S = (DROI 1 (0. 0. 0.) (1. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
-        "MO = MODE S 'MECANIQUE' 'ELASTIQUE' 'PLASTIQUE' 'PARFAIT' DKT {} ;"
-    )
-    for count in (1, 16):
-        assert "2 to 15" in refused(text.format(f"'INTEGRE' {count}"), tmp_path)

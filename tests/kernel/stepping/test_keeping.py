@@ -129,7 +129,7 @@ def test_going_on_leads_to_the_same_bits(case, tmp_path, monkeypatch):
     steps = len(make().times) - 1
     stride = int(rng.integers(3, 40))
     truth, others = run(make(), Ending(tmp_path / "truth", stride), full)
-    assert truth.loop == choose.rule_named(rule).loop
+    assert truth.loop == choose.only(rule)[0].loop
     snapshots, history, ended = [], None, 0
     ends = sorted(rng.integers(1, max(2, steps - stride), 2).tolist())  # it is ended twice
     for i, end in enumerate([*ends, None]):

@@ -33,5 +33,11 @@ def test_saved_steps():
     assert np.flatnonzero(nearest(times, np.array([0.31, 1.0]))).tolist() == [3, 10]
     with pytest.raises(KernelError, match="outside"):
         nearest(times, np.array([1.2]))
+    times = np.array([0.0, 0.1, 0.2, 0.5, 0.75])  # half of the largest step beyond the ends
+    found = nearest(times, np.array([0.9 + 1e-12, 0.34, -0.15, 0.36]))
+    assert np.flatnonzero(found).tolist() == [0, 2, 3, 4]
+    for outside in (0.91, -0.16):
+        with pytest.raises(KernelError, match="outside"):
+            nearest(times, np.array([outside]))
     with pytest.raises(KernelError, check=lambda e: e.code == "kernel.stepping.step-cannot-saved"):
         every(times, 0)

@@ -12,6 +12,7 @@ from together import together
 from ssilang.kernel.contact.rows import Friction
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.matrices.relations import Term, joined, relation_rows
 from ssilang.kernel.stepping import choose, run
 from ssilang.kernel.stepping.choose import only
@@ -372,6 +373,30 @@ def test_extremes_of_reactions_that_act_elsewhere_than_their_condition():
     assert_largest(extremes, recorder)
 
 
+def test_extremes_of_shear_are_those_of_both_directions():
+    """Two joints in space, pushed along and across at different times."""
+    bench = Bench(Mode.THREE_DIMENSIONAL)
+    tops = []
+    for i in range(2):
+        ground, top = bench.node(2.0 * i, 0.0, -1.0), bench.node(2.0 * i, 0.0, 0.0)
+        bench.fix(ground, "UX", "UY", "UZ")
+        bench.mass(200.0, top, ("UX", "UY", "UZ"))
+        bench.joint("SEG2", [ground, top], "JOI1", KN=2e6, KS=1e6, V1X=0.0, V1Y=0.0, V1Z=1.0,
+                    V2X=1.0, V2Y=0.0, V2Z=0.0)  # fmt: skip
+        tops.append(top)
+    t = 2e-3 * np.arange(31)
+    weight = bench.field(*((n, "FZ", -3e3) for n in tops))
+    along = bench.field((tops[0], "FX", 500.0), (tops[1], "FX", 700.0))
+    across = bench.field((tops[0], "FY", 600.0), (tops[1], "FY", -300.0))
+    parts = bench.load(weight).parts + bench.load(along, t, np.sin(90 * t)).parts
+    parts += bench.load(across, t, np.cos(60 * t)).parts
+    problem = bench.problem(t, Load(parts))
+    recorder, extremes = Recorder(len(t)), Extremes(problem=problem)
+    integrate(problem, [recorder, extremes])
+    assert_largest(extremes, recorder)
+    assert np.abs(recorder.of("t")[..., :2]).max(axis=(0, 1)).min() > 300.0
+
+
 def test_extremes_over_chunks_and_steps_of_two_lengths(monkeypatch):
     whole = large()
     times = np.concatenate([whole.times[:91], whole.times[90] + 0.6 * whole.times[1:60]])
@@ -440,27 +465,35 @@ def test_multipliers_of_relations_are_followed(rule, monkeypatch):
 
 
 def test_sums_of_named_relations_are_their_forces_with_the_frictions_beside():
-    """A block slides on two stops, tied to a third mass: each name has what its rows push by."""
+    """A block slides on two stops, tied to a third mass: each name has what its rows push by.
+
+    A post is held where a tie pulls it, too.
+    """
     bench = Bench()
-    a, b, c = (bench.node(float(i), 0.0) for i in range(3))
-    for node, mass in ((a, 20.0), (b, 30.0), (c, 25.0)):
+    a, b, c, d, e = (bench.node(float(i), 0.0) for i in range(5))
+    for node, mass in ((a, 20.0), (b, 30.0), (c, 25.0), (d, 1.0), (e, 2.0)):
         bench.mass(mass, node)
         bench.spring(3e4, node, unknown="UX")
     bench.spring(2e5, a, b, "UX")
     stops = [bench.relate([(1.0, "UY", n)], sense=1) for n in (a, b)]
     tie = bench.relate([(1.0, "UX", c), (-2.0, "UX", b), (0.5, "UY", c)])
     seat = bench.relate([(3.0, "UY", c), (-1.0, "UX", c)])
+    post = bench.relate([(2.0, "UX", d)])
+    bench.relate([(1.0, "UX", d), (-1.5, "UX", e)])
+    bench.fix(d, "UY")
+    bench.fix(e, "UY")
     rows = [relation_rows(bench.table, [Term(1.0, "UX", np.array([n]))], 0) for n in (b, a)]
     rubbing = Friction(joined(rows), 1, np.array([0.3, 0.5]), np.zeros(2), np.array(stops[::-1]),
                        None, np.zeros(2))  # fmt: skip
     t = 2e-3 * np.arange(81)
     weight = bench.field((a, "FY", -200.0), (b, "FY", -400.0), (c, "FY", -90.0))
-    push = bench.field((a, "FX", 300.0), (c, "FX", 500.0), (b, "FY", 500.0))
+    push = bench.field((a, "FX", 300.0), (c, "FX", 500.0), (b, "FY", 500.0), (e, "FX", 70.0))
     load = Load(bench.load(weight).parts + bench.load(push, t, np.sin(60.0 * t)).parts)
     problem = bench.problem(t, load, friction=(rubbing,))
     recorder, wanted = Recorder(len(t)), np.arange(len(t)) % 3 == 1
     named = {"all": np.array([*stops, tie, seat]), "left": np.array([stops[0], seat]),
-             "right": np.array([stops[1]]), "tie": np.array([tie])}  # fmt: skip
+             "right": np.array([stops[1]]), "tie": np.array([tie]),
+             "post": np.array([post])}  # fmt: skip
     track = ForceHistories(wanted, problem=problem, named=named)
     history = integrate(problem, [recorder, track])
     assert history.loop
@@ -489,7 +522,7 @@ def test_sums_of_named_relations_are_their_forces_with_the_frictions_beside():
             mine = problem.numbering.codes == problem.numbering.duals.index(dual)
             assert values[k] == pytest.approx(whole[name][mine].sum(), abs=1e-6), (name, dual)
     assert slid > 10.0
-    assert set(found) == {(n, f) for n in named for f in ("FX", "FY")}
+    assert set(found) == {(n, f) for n in named for f in ("FX", "FY")} - {("post", "FY")}
     kept = track.content()
     again = ForceHistories(wanted, problem=problem, named=named)
     again.restore(kept)

@@ -43,6 +43,16 @@ def test_inner_nodes_go_to_the_middle_of_their_neighbours():
     assert found(script.format("R = DEDU S C C ;"), "X") == pytest.approx(1.4)
 
 
+def test_refined_intervals_of_different_sizes_grade_into_each_other():
+    values = np.asarray(found("L = RAFF (PROG 0. 1. 9.) -4 ;", "L").values)
+    steps = np.diff(values)
+    assert set(np.round([0.0, 1.0, 9.0], 9)) <= set(np.round(values, 9))
+    assert (steps > 0).all()
+    ratios = steps[1:] / steps[:-1]
+    assert ratios.max() < 2.0
+    assert steps[-1] > 3.0 * steps[0]
+
+
 def test_raff_cuts_cells_and_ties_what_hangs():
     text = (
         "OPTI DIME 2 ELEM QUA4 MODE PLAN DEFO ; S = (DROI 2 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; "

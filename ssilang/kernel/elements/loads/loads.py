@@ -178,7 +178,12 @@ def _face_values(
                 continue
             values = np.asarray(block.components[_only(tuple(block.components))], dtype=float)
             values = np.broadcast_to(values, (len(block.cells), values.shape[1]))[rows[found]]
-            out[found] = _to_face_points(part, block.cells, rows[found], values, found, geometry)
+            table = block.cells.connectivity[rows[found]]
+            at_points = block.support not in ("NOEUD", "GRAVITE") and values.shape[1] == shape[1]
+            if at_points and (table == part.connectivity[found]).all():
+                out[found] = values
+            else:
+                out[found] = _to_face_points(part, table, values, found, geometry)
         return out
     return np.full(shape, float(value))
 
@@ -191,19 +196,18 @@ def _only(names: tuple[str, ...]) -> str:
 
 def _to_face_points(
     part: CellBlock,
-    source: CellBlock,
-    rows: IntArray,
+    table: IntArray,
     values: FloatArray,
     found: np.ndarray,
     geometry: SurfaceGeometry,
 ) -> FloatArray:
-    """Values given at the source cells' nodes, the same nodes perhaps in another order."""
+    """Values given at the nodes (n, k) of other cells, the same nodes perhaps in another order."""
     k = part.kind.n_nodes
     if values.shape[1] == 1:
         return np.broadcast_to(values, (len(values), len(geometry.shapes)))
     if values.shape[1] != k:
         raise FieldError("kernel.elements.pressure-cells-stands-nodes", n_values=values.shape[1])
-    theirs = np.argsort(source.connectivity[rows], axis=1)
+    theirs = np.argsort(table, axis=1)
     mine = np.argsort(np.argsort(part.connectivity[found], axis=1), axis=1)
     sorted_values = np.take_along_axis(values, theirs, axis=1)
     return np.take_along_axis(sorted_values, mine, axis=1) @ geometry.shapes.T

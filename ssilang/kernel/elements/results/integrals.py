@@ -8,14 +8,15 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.bar import bar_stretch
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.shapes.geometry import surface_geometry
 from ssilang.kernel.elements.solids.gradients import second_order_strain
 from ssilang.kernel.elements.zone_fields import carry, zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Zone
+from ssilang.kernel.materials.model import Mode, Zone
 
 # what the line or middle surface of a family is multiplied by
 _ACROSS = dict.fromkeys(("bar", "beam", "timoshenko", "pipe"), "SECT") | dict.fromkeys(
@@ -41,7 +42,11 @@ def integrals(
     target: Support = source if source in ("RIGIDITE", "STRESSES", "MASSE") else "RIGIDITE"
     values = carry(values.astype(float), zone.element, source, target)
     parameters = zone_field(zone, material)
-    weights = family_of(zone).weights(zone, parameters, target)
+    if zone.formulation == "CHARGEMENT" and zone.mode is Mode.THREE_DIMENSIONAL:
+        rule = support_rule(zone.element, target)
+        weights = surface_geometry(zone.cells.cell_type, zone.cells.coordinates, rule).measures
+    else:
+        weights = family_of(zone).weights(zone, parameters, target)
     total: FloatArray = (np.broadcast_to(values, weights.shape) * weights).sum(axis=1)
     family = ELEMENTS[zone.element].family
     across = _ACROSS.get(family)

@@ -15,7 +15,7 @@ TURNS = 100
 class SectionParameters(PointParameters):
     """Parameters of sections at m points."""
 
-    rigidity: FloatArray  # (m, 6, 6) forces of elastic strains and curvatures, and back
+    rigidity: FloatArray  # (m, w, w), w 6 or 8: forces of elastic strains and back
     softness: FloatArray
     form: FloatArray  # (m, 6, 6) the equivalent stress q of forces F has q^2 = F form F
     size: FloatArray  # (m,) area (thickness of shells): q size is conjugate to the flow p
@@ -91,7 +91,9 @@ def respond(
     assert isinstance(parameters, SectionParameters)
     moduli = parameters.moduli
     trial = stress + np.einsum("mij,mj->mi", moduli, strain)
-    centre = variables[:, 1:7] if variables.shape[1] > 1 else np.zeros_like(trial)
+    centre = np.zeros_like(trial)
+    kept = variables[:, 1:7]
+    centre[:, : kept.shape[1]] = kept
     reduced, p, inner = trial - centre, variables[:, 0], variables.copy()
     q = np.sqrt(np.einsum("mi,mij,mj->m", reduced, parameters.form, reduced))
     limit, most = parameters.strength(p, np.zeros(len(p)))[0], parameters.most(q, p)[1]
@@ -104,7 +106,7 @@ def respond(
         flow, shift, tangent[rows] = _consistent(given, moved, dp, p[rows])
         found[rows] -= dp[:, None] * flow
         if variables.shape[1] > 1:
-            inner[rows, 1:7] += dp[:, None] * shift
+            inner[rows, 1:7] += dp[:, None] * shift[:, :6]
     return Response(found, inner, tangent)
 
 
@@ -118,13 +120,14 @@ def _directions(given: SectionParameters) -> tuple[FloatArray, FloatArray]:
 def _flow(given: SectionParameters, reduced: FloatArray, p: FloatArray) -> tuple[FloatArray, ...]:
     """The flow (m,) that brings reduced forces (m, 6) back onto the criterion, and where to."""
     back, H = _directions(given)
-    change = back + H[:, None, :] * np.eye(6)
+    one = np.eye(back.shape[-1])
+    change = back + H[:, None, :] * one
     top = np.sqrt(np.einsum("mi,mij,mj->m", reduced, given.form, reduced))
     low, (dp, high) = np.zeros(len(p)), given.most(top, p)
     first = np.abs(reduced).max() / given["YOUN"].min() / given.size.min()
     for _ in range(TURNS):
         limit, slope = given.strength(p, dp)
-        A = np.eye(6) + (dp / limit)[:, None, None] * change
+        A = one + (dp / limit)[:, None, None] * change
         moved = np.linalg.solve(A, reduced[..., None])[..., 0]
         weighed = np.einsum("mij,mj->mi", given.form, moved)
         q = np.sqrt(np.vecdot(moved, weighed))
@@ -151,9 +154,10 @@ def _consistent(
     flow, shift = np.einsum("mij,mj->mi", back, b), H * b
     Dn = given.size[:, None] * np.einsum("mij,mj->mi", given.moduli, n)
     DN = (back - Dn[:, :, None] * n[:, None]) / q[..., None]
-    HB = H[:, :, None] * (np.eye(6) - b[:, :, None] * n[:, None]) / q[..., None]
+    one = np.eye(back.shape[-1])
+    HB = H[:, :, None] * (one - b[:, :, None] * n[:, None]) / q[..., None]
     step = dp[:, None, None]
-    change = np.eye(6) + step * (DN + HB)
+    change = one + step * (DN + HB)
     try:
         inverse = np.linalg.inv(change)
     except np.linalg.LinAlgError:  # of a step far beyond any equilibrium

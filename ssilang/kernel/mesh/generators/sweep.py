@@ -126,7 +126,7 @@ def sweep_line(
     line : Mesh
         One block of SEG2 or SEG3.
     surface : str
-        'QUA4', 'QUA8', 'TRI3' or 'TRI6'; a line of SEG2 gives linear cells in any case.
+        'QUA4', 'QUA8', 'TRI3' or 'TRI6'. Cells are quadratic if line and surface are.
     """
     block = line.single_block()
     if block.cell_type not in ("SEG2", "SEG3"):
@@ -143,6 +143,8 @@ def sweep_line(
     )
     colours = np.tile(block.colours, cuts.count)
     mesh = Mesh.of(line.nodes, "QUA8" if quadratic else "QUA4", cells, colours)
+    if surface in ("QUA4", "TRI3"):
+        mesh = linear(mesh)
     if surface.startswith("TRI"):
         mesh = split_quadrangles(mesh)
     end = Mesh.of(line.nodes, block.cell_type, layers.full[-1][local], block.colours)

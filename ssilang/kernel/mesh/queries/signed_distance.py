@@ -11,7 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 
 
 def facets(mesh: Mesh, dimension: int) -> IntArray:
-    """Segments (n, 2) of a line, or triangles (n, 3) of a surface (quadrangles cut in two).
+    """Segments (n, 2) of a line (SEG3 in two), or triangles (n, 3) of a surface (QUA4 cut in two).
 
     Raises
     ------
@@ -23,6 +23,8 @@ def facets(mesh: Mesh, dimension: int) -> IntArray:
         c = block.connectivity
         if (dimension, block.cell_type) in ((2, "SEG2"), (3, "TRI3")):
             parts.append(c)
+        elif dimension == 2 and block.cell_type == "SEG3":
+            parts.append(np.stack([c[:, :2], c[:, 1:]], axis=1).reshape(-1, 2))
         elif dimension == 3 and block.cell_type == "QUA4":
             parts.append(np.concatenate([c[:, [0, 1, 2]], c[:, [0, 2, 3]]]))
         else:

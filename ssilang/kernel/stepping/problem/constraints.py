@@ -47,19 +47,12 @@ class EliminatedConstraints:
 
     def __init__(self, C: sp.csr_array) -> None:
         self.C = self.D = C
-        self._elimination = eliminate(C)
-        if not self._elimination.eliminated.all():
+        elimination = eliminate(C)
+        if not elimination.eliminated.all():
             raise KernelError("kernel.stepping.relation-too-many-unknowns")
-        self.T = self.V = self._elimination.T
+        self.T = self.V = elimination.T
+        self.particular, self.multipliers = elimination.particular, elimination.multipliers
         self.associated = True
-
-    def particular(self, d: FloatArray) -> FloatArray:
-        """A displacement (n,) with `C u = d`."""
-        return self._elimination.particular(d)
-
-    def multipliers(self, residual: FloatArray) -> FloatArray:
-        """lambda (n_rows,) with `C^T lambda = residual`."""
-        return self._elimination.multipliers(residual)
 
     def pushers(self, rows: IntArray) -> FloatArray:
         """Columns (n, m): multipliers are the transpose of particular motions."""
@@ -111,26 +104,16 @@ class NonAssociatedConstraints:
 
     def __init__(self, C: sp.csr_array, D: sp.csr_array) -> None:
         self.C, self.D, self.associated = C, D, False
-        self._moving, self._pushing = EliminatedConstraints(C), EliminatedConstraints(D)
-        self.T, self.V = self._moving.T, self._pushing.T
+        moving, pushing = EliminatedConstraints(C), EliminatedConstraints(D)
+        self.T, self.V = moving.T, pushing.T
+        self.particular = moving.particular
+        self.multipliers, self.pushers = pushing.multipliers, pushing.pushers
         if self.T.shape != self.V.shape:
             raise KernelError(
                 "kernel.stepping.relations-leave-motions-duals",
                 n_T=self.T.shape[1],
                 n_V=self.V.shape[1],
             )
-
-    def particular(self, d: FloatArray) -> FloatArray:
-        """A displacement (n,) with `C u = d`."""
-        return self._moving.particular(d)
-
-    def multipliers(self, residual: FloatArray) -> FloatArray:
-        """lambda (n_rows,) with `D^T lambda = residual`."""
-        return self._pushing.multipliers(residual)
-
-    def pushers(self, rows: IntArray) -> FloatArray:
-        """Columns (n, m), those of the rows that push."""
-        return self._pushing.pushers(rows)
 
 
 def constraints_of(rows: ConstraintRows, small: bool) -> Constraints:

@@ -30,6 +30,7 @@ from ssilang.kernel.interface.interface import (
     interface_of,
     joint_zones,
     nonlinear_blocks,
+    parted,
     state_from_field,
     without_zones,
 )
@@ -93,7 +94,8 @@ class Inputs:
 
     `model` and `characteristics` hold the joints whose law replaces their linear stiffness;
     other zones of the model are ignored (their matrices are in `stiffness`). `variables` are the
-    joints' internal variables at the start; `friction` that of unilateral relations and cables.
+    joints' internal variables at the start, `inside` their inelastic jumps and tractions, where
+    these say more than the displacement; `friction` that of unilateral relations and cables.
     """
 
     stiffness: Matrix
@@ -110,6 +112,7 @@ class Inputs:
     variables: CellField | None = None
     friction: tuple[Friction, ...] = ()
     solver: Solver = FIRST_FIT
+    inside: tuple[CellField | None, CellField | None] | None = None
 
 
 def make_problem(inputs: Inputs) -> Problem:
@@ -153,9 +156,12 @@ def make_problem(inputs: Inputs) -> Problem:
     if contact is not None and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     u, v = (_start(field, numbering) for field in (inputs.displacement, inputs.velocity))
+    state = _joint_states(interface, inputs.variables)
+    if interface is not None and inputs.inside is not None:
+        interface = parted(interface, state, interface.jumps(u), inputs.inside)
     return Problem(
         numbering, assembled["K"], assembled["M"], assembled["C"], constraints, rows.multipliers,
-        loading, interface, u, v, _joint_states(interface, inputs.variables), times,
+        loading, interface, u, v, state, times,
         inputs.scheme, contact, inputs.contact_options, inputs.solver,
     )  # fmt: skip
 

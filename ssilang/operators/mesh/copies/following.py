@@ -13,7 +13,7 @@ from ssilang.operators.mesh.metrics import metric_at
 from ssilang.operators.prelude import *
 
 _EVEN = flag("even", "REGU", en="inner nodes then go to the mean of their neighbours")
-_SHARE = Range(0.0, 1.0)
+_SHARE, _ABOVE_ONE = Range(0.0, 1.0), Range(1.0, open_low=True)
 _BEFORE = arg("before", "MAILLAGE", en="mesh before")
 _AFTER = arg("after", "MAILLAGE", en="mesh after, of the same structure")
 _OBJECTS = many("objects", *GEOMETRIC, leaving=2, left=("MAILLAGE",), en="objects to copy")
@@ -50,6 +50,7 @@ def dedu_adap(
     space: Model | str | None = Opt("MMODEL", "MOT", en="of the metric"),
     density: NodeField | None = Key("DENS", "CHPOINT", en="sizes wanted", unit="m"),
     theta: float = Key("THET", "FLOTTANT", default=0.2, range=_SHARE, en="regular against equal"),
+    gamma: float = Key("GAMM", "FLOTTANT", default=2.0, range=_ABOVE_ONE, en="power of both"),
     most: int = Key("NITM", "ENTIER", default=40, range=POSITIVE, en="most steps"),
     accelerated: bool = Key("ACVG", "LOGIQUE", default=True, en="accepted, without effect"),
     axis: int | None = Key("IDIR", "ENTIER", en="the one direction of the motion", range=POSITIVE),
@@ -74,7 +75,7 @@ def dedu_adap(
     tables = [b.connectivity for b in mesh.blocks]
     metrics = [metric_at(call, t, 1.0 if metric is None else metric).mean(axis=1) for t in tables]
     directions = tuple(range(d)) if axis is None else (axis - 1,)
-    return adapted(mesh, metrics, theta, conditions, imposed, directions, most)
+    return adapted(mesh, metrics, theta, gamma, conditions, imposed, directions, most)
 
 
 @dedu.form()

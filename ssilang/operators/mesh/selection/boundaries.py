@@ -27,13 +27,16 @@ def cont(
 
 @operator("ENVE", family="mesh", full_name="ENVELOPPE")
 def enve(
+    call: Call,
     mesh: Mesh = Arg("MAILLAGE", en="volume, or surface"),
     inwards: bool = Flag("ORIE", en="faces described inwards in any case"),
     allowed: bool = Flag("NOID", en="the result may be empty"),
 ) -> Mesh:
     """Skin of a volume."""
-    if mesh.dimension == 2:
-        skin = boundary.lone_surfaces(mesh)
+    if mesh.blocks and mesh.dimension < 2:
+        call.warn("operators.mesh.no-volume", mesh)
+    if mesh.dimension < 3:
+        skin = boundary.lone_cells(mesh, mesh.dimension)
     else:
         faces = boundary.envelope(orientation.orient(mesh, 3) if inwards else mesh)
         skin = Mesh(faces.nodes, tuple(orientation.flip(b) for b in faces.blocks))

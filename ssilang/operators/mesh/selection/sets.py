@@ -29,7 +29,7 @@ def unite_meshes(words: Collection[str], left: Mesh | Point, right: Mesh | Point
     as_given = "TELQ" in words
     if not as_given and len(first.blocks) == 1 < len(second.blocks):
         first, second = second, first
-    return combine.union(first, second, as_given=as_given)
+    return combine.side_by_side(first, second, as_given)
 
 
 @DIFF.form()

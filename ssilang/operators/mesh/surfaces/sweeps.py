@@ -1,6 +1,6 @@
 """Surfaces swept by lines: TRAN, ROTA, REGL, GENE."""
 
-from ssilang.kernel.mesh.combine import union
+from ssilang.kernel.mesh.combine import side_by_side
 from ssilang.kernel.mesh.generators import sweep
 from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision, subdivide
@@ -29,15 +29,7 @@ def line_to_sweep(mesh: Mesh) -> Mesh:
 
 def grown(first: Mesh, new: Mesh) -> Mesh:
     """The surface `first` continued by `new` from its side 3; `new` alone if it is a line."""
-    if first.dimension < 2:
-        return new
-    made = union(first, new, as_given=True)
-    old = first.sides
-    if min(len(old), len(new.sides)) < 4:
-        return made
-    right = union(old[1], new.sides[1], as_given=True)
-    left = union(new.sides[3], old[3], as_given=True)
-    return Mesh(made.nodes, made.blocks, (old[0], right, new.sides[2], left))
+    return side_by_side(first, new, as_given=True) if first.dimension > 1 else new
 
 
 def _along(call: Call, line: Mesh, path: sweep.Path, layers: Subdivision) -> Mesh:

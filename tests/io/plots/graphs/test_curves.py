@@ -34,6 +34,11 @@ def test_titles_are_those_of_the_first_curve() -> None:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time", "u")
     assert figure.get_suptitle() == "A title"
     assert axes.get_legend() is None
+    one, other = (curve(0).parts[0].measured("s", unit) for unit in ("", "m"))
+    for parts, titles in (((one,), ("time (s)", "u")), ((one, other), ("time", "u")),
+                          ((other, other), ("time (s)", "u (m)"))):  # fmt: skip
+        (axes,) = draw_curves(Curve(parts), CurveOptions(written=str)).axes
+        assert (axes.get_xlabel(), axes.get_ylabel()) == titles
 
 
 def test_bars_that_are_their_own_outline_are_filled() -> None:
@@ -66,6 +71,8 @@ def test_curves_without_a_colour_get_different_ones() -> None:
     colours = [to_hex(line.get_color()) for line in axes.lines]
     assert colours[1] == shade("BLEU")
     assert len(set(colours)) == 4
+    (axes,) = draw_curves(curve(0, 0)).axes
+    assert len({line.get_color() for line in axes.lines}) == 2
 
 
 def test_a_single_curve_is_in_the_default_ink() -> None:
@@ -76,6 +83,10 @@ def test_a_single_curve_is_in_the_default_ink() -> None:
     zeros = [[list(map(float, d)) for d in pair] for pair in drawn if len(pair[0]) == 2]
     assert zeros == [[[0.0, 1.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]]]
     assert len(axes.lines) == 1
+    for log, left in (({"log_x": True}, zeros[:1]), ({"log_y": True}, zeros[1:])):
+        (scaled,) = draw_curves(curve(0), CurveOptions(axes=True, **log)).axes
+        drawn = [(line.get_xdata()[:], line.get_ydata()[:]) for line in scaled.lines]
+        assert [[list(map(float, d)) for d in p] for p in drawn if len(p[0]) == 2] == left
 
 
 def test_bounds_and_logarithms() -> None:
@@ -85,11 +96,16 @@ def test_bounds_and_logarithms() -> None:
 
 
 def test_graduations_and_their_format() -> None:
-    options = CurveOptions(x_limits=(0.0, 2.0), x_step=0.5, x_format="(F5.1)")
+    options = CurveOptions(
+        x_limits=(0.0, 2.0), x_step=-0.5, x_format="(F5.1)", y_limits=(0.0, 3.0), y_step=1.5,
+        y_format="(E9.2)",
+    )  # fmt: skip
     figure = draw_curves(curve(0), options)
     figure.canvas.draw()
     texts = [t.get_text() for t in figure.axes[0].get_xticklabels()]
     assert texts[1:-1] == ["0.0", "0.5", "1.0", "1.5", "2.0"]  # without those beyond the ends
+    texts = [t.get_text() for t in figure.axes[0].get_yticklabels()]
+    assert texts[1:-1] == ["0.00E+00", "1.50E+00", "3.00E+00"]
 
 
 def test_too_many_graduations_are_refused() -> None:
@@ -113,6 +129,36 @@ def test_a_name_pas_de_legende_is_left_out() -> None:
     legend = draw_curves(curve(0, 0), options).axes[0].get_legend()
     assert legend is not None
     assert [t.get_text() for t in legend.get_texts()] == ["no 0"]
+
+
+@together("count, place", [(2, 8), (9, 8), (10, 2)])
+def test_names_stand_over_the_curves_or_beside_them_where_they_are_many(count: int, place: int):
+    legend = draw_curves(curve(*[0] * count)).axes[0].get_legend()
+    assert legend is not None
+    assert (legend._loc, len(legend.get_texts())) == (place, count)  # lower center, upper left
+
+
+def test_names_stand_where_they_are_put_and_not_of_bars_alone() -> None:
+    options = CurveOptions(legend="XY", legend_at=(1.5, 2.0), y_title_at_end=True)
+    (axes,) = draw_curves(curve(0), options).axes
+    assert (axes.get_xlim(), axes.get_ylim()) != ((0.0, 1.0), (0.0, 1.0))
+    at = axes.get_legend().get_bbox_to_anchor().p0
+    np.testing.assert_allclose(at, axes.transData.transform((1.5, 2.0)))
+    assert (axes.yaxis.label.get_ha(), axes.xaxis.label.get_ha()) == ("right", "center")
+    bars = CurvePart([1.0, 2.0], [3.0, 5.0], legend="b", kind="HIST")
+    for parts, named in (((bars, bars), False), ((bars, curve(0).parts[0]), True)):
+        (axes,) = draw_curves(Curve(parts)).axes
+        assert (axes.get_legend() is not None) == named
+
+
+def test_one_point_is_a_dot_or_its_marker() -> None:
+    alone = Curve((CurvePart([1.0], [2.0]),))
+    for style, marker in (({}, "o"), ({1: parse_style("MARQ CARR")}, "s")):
+        (axes,) = draw_curves(alone, CurveOptions(styles=style)).axes
+        assert axes.lines[0].get_marker() == marker
+    few = Curve((CurvePart(np.arange(4.0), np.arange(4.0)),))
+    style = parse_style("LABEL here REGU")
+    assert len(draw_curves(few, CurveOptions(styles={1: style})).axes[0].texts) == 4
 
 
 def test_styles_of_the_table() -> None:
@@ -181,6 +227,7 @@ def test_dashes_are_those_of_the_curve_s_segments_whatever_part_is_drawn() -> No
     (drawn,), (both,) = axes.collections, whole.collections
     assert [len(p.vertices) for p in drawn.get_paths()] == [2, 2]
     assert drawn.get_linestyle() == both.get_linestyle()  # full, then TIRL
+    assert drawn.get_linestyle()[0] != drawn.get_linestyle()[1]
 
 
 def test_extremes_are_written() -> None:

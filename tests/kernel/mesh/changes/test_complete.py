@@ -1,5 +1,6 @@
 """Complete quadratic cells: shared middles, and the cells that they are taken apart into."""
 
+import numpy as np
 import pytest
 from script_runs import ran
 from together import together
@@ -79,8 +80,11 @@ def test_volumes_and_their_envelope_are_taken_apart_alike(
         f"M = CHAN Q '{target}' ; D = NBEL (DIFF (ENVE M) (CHAN E '{target}')) ; "
         "X = MESU M ; C = NBEL M ; Y = MESU (ENVE (ORIE M)) ; "
     )
-    d, x, c, area = found(script, "D", "X", "C", "Y")
+    d, x, c, area, made = found(script, "D", "X", "C", "Y", "M")
     assert (d, c) == (0, cells)
+    corners = made.single_block().coordinates[:, [0, 1, 2 if target == "TET4" else 3, -1]]
+    if target != "CUB8":
+        assert (np.linalg.det(corners[:, 1:] - corners[:, :1]) > 0.0).all()
     assert x == pytest.approx(2.0)
     assert area == pytest.approx(10.0)
 

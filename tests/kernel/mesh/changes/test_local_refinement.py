@@ -6,6 +6,7 @@ from script_runs import ran
 from together import together
 
 from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.changes.local_refinement import divided_to_sizes, is_tie, parted
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -102,22 +103,23 @@ def test_hanging_nodes_lie_in_the_middle_and_sizes_are_reached(kind):
 def test_neighbours_differ_by_one_division_and_no_tear_is_left_untied(kind):
     """A node on an edge or face of a cell, and no corner of it, is tied to that very side."""
     mesh = grid(kind, 2)
-    sizes = np.full(len(mesh.nodes), 9.0)
-    sizes[0] = 0.01
-    finer, ties = parted(divided_to_sizes(mesh, np.minimum(sizes, 3.0)))
+    cell = mesh.blocks[0].connectivity[-1]  # divided twice, no other wants it
+    sizes = np.where(np.isin(mesh.node_ids, cell), 0.45, 9.0)
+    finer, ties = parted(divided_to_sizes(mesh, sizes))
+    assert len({b.cell_type for b in ties}) == (1 if kind in ("TRI3", "QUA4", "TET4") else 2)
     tied = {int(r[0]) for b in ties for r in b.connectivity}
-    nodes = finer.nodes.coordinates
-    ids = finer.node_ids
-    for cell in finer.blocks[0].connectivity:
-        x = nodes[cell]
-        low, high = x.min(axis=0) - 1e-9, x.max(axis=0) + 1e-9
-        near = ids[((nodes[ids] >= low) & (nodes[ids] <= high)).all(axis=1)]
-        if kind in ("QUA4", "CUB8"):
-            extra = np.setdiff1d(near, cell)
-            assert set(extra.tolist()) <= tied
-            inside = (nodes[extra] - low) / (high - low)
-            flat = inside[:, np.ptp(x, axis=0) > 0]
-            np.testing.assert_allclose(2 * flat, np.round(2 * flat), atol=1e-6)
+    x, ids = finer.nodes.coordinates, finer.node_ids
+    cells, local = finer.blocks[0].connectivity, [side for _, side in CELL_TYPES[kind].faces]
+    for side in local if len(local[0]) > 2 else [CELL_TYPES[kind].corners]:
+        first, second, last = x[cells[:, side]][:, [0, 1, -1]].transpose(1, 0, 2)
+        way, far = np.stack([second - first, last - first], axis=2), x[ids] - first[:, None]
+        share = np.einsum("cij,cnj->cni", np.linalg.pinv(way), far)
+        on = np.linalg.norm(np.einsum("cji,cni->cnj", way, share) - far, axis=2) < 1e-9
+        on &= (share > -1e-9).all(axis=2) & (share < 1 + 1e-9).all(axis=2)
+        on &= (share.sum(axis=2) < 1 + 1e-9) | (len(side) == 4)
+        extra = on & ~(ids == cells[:, :, None]).any(axis=1)
+        assert set(ids[extra.any(axis=0)].tolist()) <= tied
+        np.testing.assert_allclose(2 * share[on], np.round(2 * share[on]), atol=1e-9)
 
 
 def test_sides_of_volumes_are_divided_with_them():

@@ -74,7 +74,7 @@ def rows_of(mesh: Mesh) -> list:
      (partial(orient_towards, target=DOWNWARDS, is_point=False), (*FLAT, "CUB8")),
      (partial(orient_towards, target=APEX, is_point=True), (*FLAT, "CUB8")),
      (reversed_line, ALL),
-     (boundary.contour, FLAT), (boundary.envelope, FULL), (boundary.lone_surfaces, FLAT),
+     (boundary.contour, FLAT), (boundary.envelope, FULL), (boundary.lone_cells, FLAT),
      (boundary.edges, ALL), (boundary.faces, (*FLAT, *FULL))],
 )  # fmt: skip
 def test_each_part_is_changed_as_if_it_were_alone(change, meant, backwards) -> None:

@@ -396,6 +396,9 @@ def test_cells_are_joined_to_a_point_but_those_that_hold_it():
     assert curved.connectivity[:, [0, 1, 2, 4]].tolist() == [[0, 1, 2, tip], [4, 3, 2, tip]]
     ends = curved.coordinates[:, [2, 4, 0]]
     np.testing.assert_allclose(curved.coordinates[:, [3, 5]], (ends[:, :2] + ends[:, 1:]) / 2)
+    straight = Mesh.of(base.nodes, "SEG2", np.array([[0, 3]]))
+    both = cone(Mesh(base.nodes, (*bows.blocks, *straight.blocks)), tip)
+    assert [(b.cell_type, len(b)) for b in both.blocks] == [("TRI6", 2), ("TRI3", 1)]
     with pytest.raises(MeshError, match="away"):
         cone(Mesh.of(base.nodes, "POI1", np.array([[4]])), 4)
     with pytest.raises(MeshError, match="TET4"):

@@ -284,6 +284,16 @@ def test_flat_quadrangles_and_smallest_lengths():
     assert quality.smallest_lengths(low) == pytest.approx([0.2])
     brick = cell("CUB8", REFERENCE_CELLS["CUB8"].nodes * [0.7, 2.0, 0.9] @ rotated().T)
     assert quality.smallest_lengths(brick) == pytest.approx([1.4])
+    for top in np.random.default_rng(5).uniform(-1.0, 2.0, (9, 3)):  # by each of its flat sides
+        x = np.array(
+            [[0.0, 0, 0], [1, 0, 0], [1.1, 0.7, 0], [0.6, 0.7, 0], top + np.array([0, 0, 1.1])]
+        )
+        wanted = [np.linalg.norm(a - b) for a, b in itertools.combinations(x, 2)]
+        for _, side in CELL_TYPES["PYR5"].faces:
+            a, b, c = x[list(side[:3])]
+            normal = np.cross(b - a, c - a) / np.linalg.norm(np.cross(b - a, c - a))
+            wanted += [abs((x[k] - a) @ normal) for k in {*range(5)} - {*side}]
+        assert quality.smallest_lengths(cell("PYR5", x)) == pytest.approx([min(wanted)])
     assert quality.smallest_lengths(cell("SEG3", np.array([[0.0], [2.0], [3.0]]))) == 1.0
 
 
@@ -307,6 +317,12 @@ def test_cells_contain_their_means_and_nothing_beyond_a_side(name):
         if CELL_TYPES[name].dimension == 2:
             off = np.cross(corners[1] - corners[0], corners[-1] - corners[0])
         assert not select.cells_containing(block, corners.mean(axis=0) + 1e-3 * off).any()
+
+
+def test_a_point_far_from_the_origin_is_where_it_is_but_for_rounding():
+    point = cell("POI1", np.array([[1e6, -3e6, 0.0]]))
+    for off, there in ((1e-2, True), (1.0, False)):
+        assert select.cells_containing(point, np.array([1e6 + off, -3e6, 0.0])).all() == there
 
 
 def test_cells_and_nodes_are_picked():
@@ -562,6 +578,29 @@ def test_a_linear_motion_of_what_is_held_is_followed_within(name):
     np.testing.assert_allclose(moved, table.coordinates[nodes] @ A.T + [1.0, 2.0, 3.0], atol=1e-12)
 
 
+def test_inner_nodes_become_even_and_those_held_or_on_the_rim_stay():
+    """Of a square of 4 x 4 cells whose corners and one inner node are held, pulled to one side."""
+    table = NodeTable()
+    x = np.array(list(itertools.product(range(5), range(5), range(1))), float)
+    ids, low = table.add(x), np.array([5 * i + j for i in range(4) for j in range(4)])
+    mesh = Mesh.of(table, "QUA4", low[:, None] + [0, 5, 6, 1])
+    held = ids[[0, 4, 11, 20, 24]]
+    places = x[held] * [1.0, 2.0, 1.0] + [
+        [0.0, 0, 0],
+        [0, 0, 0],
+        [0.4, 0.3, 0],
+        [0, 0, 0],
+        [1, 0, 0],
+    ]
+    plain, even = (transform.followed(mesh, held, places, wish)[1] for wish in (False, True))
+    inner = np.array([6, 7, 8, 12, 13, 16, 17, 18])
+    others = np.setdiff1d(ids, inner)
+    np.testing.assert_allclose(even[others], plain[others])
+    np.testing.assert_allclose(even[held], places)
+    around = even[inner[:, None] + [-5, 5, -1, 1]].mean(axis=1)
+    np.testing.assert_allclose(even[inner], around)
+
+
 def test_lines_that_bend_that_continue_and_that_repeat():
     table = NodeTable()
     ring = np.array([[0.0, 0], [1.5, -0.4], [3, 0], [3.2, 0.9], [3, 2], [1.4, 1.1]])
@@ -589,7 +628,7 @@ def test_lines_that_bend_that_continue_and_that_repeat():
     edge = boundary.contour(corners).blocks[0].connectivity
     assert sorted(edge[:, 0].tolist()) == sorted(edge[:, 1].tolist())  # one loop, one sense
     assert edge[0].tolist() in ids[[[0, 2], [4, 0]]].tolist()
-    lone = boundary.lone_surfaces(Mesh(table, (
+    lone = boundary.lone_cells(Mesh(table, (
         CellBlock.make(table, "TRI3", ids[[[0, 2, 4], [4, 2, 0], [5, 4, 2]]]),
     )))  # fmt: skip
     assert lone.blocks[0].connectivity.tolist() == [ids[[5, 4, 2]].tolist()]

@@ -24,6 +24,7 @@ from ssilang.kernel.mesh.surfaces.surface import (
     _convex,
     _pairs,
     contour_chart_data,
+    facet_shape,
     fill_surface,
     join_triangles,
 )
@@ -185,3 +186,25 @@ def test_contour_out_of_plane_is_refused() -> None:
     nodes.coordinates[0, 2] = 0.3
     with pytest.raises(MeshError, match="not plane"):
         filled(line, "TRI3")
+
+
+def test_rays_in_the_plane_meet_the_nearest_line_that_they_cross():
+    rng, nodes = np.random.default_rng(6), NodeTable()
+    x = np.column_stack([rng.uniform(20.0, 24.0, (6, 2)), np.zeros(6)])
+    ids = nodes.add(x)
+    shape = facet_shape(Mesh.of(nodes, "SEG3", ids[[[0, 1, 2], [3, 4, 5]]]))
+    starts, rays = (
+        np.pad(rng.uniform(a, b, (40, 2)), ((0, 0), (0, 1))) for a, b in ((20, 24), (-1, 1))
+    )
+    found = shape.project_along(starts, rays)
+    for start, ray, place in zip(starts, rays, found, strict=True):
+        ways = []
+        for i, j in ((0, 1), (1, 2), (3, 4), (4, 5)):
+            way, share = np.linalg.solve(
+                np.stack([ray, x[i] - x[j]], axis=1)[:2], (x[i] - start)[:2]
+            )
+            ways += [way] if 0.0 <= share <= 1.0 else []
+        if ways:
+            np.testing.assert_allclose(place, start + min(ways, key=abs) * ray, atol=1e-9)
+        else:
+            assert np.isnan(place).all()

@@ -74,6 +74,7 @@ def test_cells_of_any_size_and_far_from_the_origin_keep_their_digits(n, size, sh
     [
         ([[0.5, 0.5], [1.5, 0.5]], [0.0, 0.0], "outside"),
         ([[0.5, 0.5], [0.5, 0.5]], [0.0, 0.0], "same place"),
+        ([[0.5, 0.5], [0.5, 0.5 + 5e-10]], [0.0, 0.0], "same place"),
         ([[0.4, 0.5], [0.6, 0.5]], [0.5, 0.0], "differ by too much"),
     ],
 )

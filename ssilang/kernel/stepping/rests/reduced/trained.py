@@ -26,7 +26,7 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
     NoReduction,
     on_motions,
 )
-from ssilang.kernel.stepping.snapshot import Snapshot
+from ssilang.kernel.stepping.snapshot import Receiver, Snapshot
 from ssilang.kernel.stepping.times import SAME
 
 FEWEST = 2  # records that train a basis
@@ -174,7 +174,7 @@ def read_for(problem: Problem, model: str, shelf: Shelf) -> Training | None:
     return found
 
 
-class Learner:
+class Learner(Receiver):
     """An observer of a whole run, whose displacements train."""
 
     def __init__(self, problem: Problem) -> None:
@@ -186,9 +186,6 @@ class Learner:
     def receive(self, snapshot: Snapshot) -> None:
         """Take a displacement."""
         self.columns.append(snapshot.u.copy())
-
-    def close(self) -> None:
-        """The run has ended."""
 
     def teach(self, model: str, shelf: Shelf) -> None:
         """Train what stands on the shelf by the run."""
