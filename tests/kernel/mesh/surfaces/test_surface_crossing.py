@@ -10,7 +10,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.surfaces.surface_crossing import crossed, crossing_segments
+from ssilang.kernel.mesh.surfaces.surface_crossing import _cut, crossed, crossing_segments
 
 
 def areas(mesh: Mesh) -> FloatArray:
@@ -141,3 +141,16 @@ def test_other_cells_than_triangles_are_refused() -> None:
     square = Mesh.of(nodes, "QUA4", ids[None])
     with pytest.raises(MeshError, match="TRI3"):
         crossed(square, square)
+
+
+def test_a_crossing_along_a_side_that_has_nodes_cuts_nothing_off() -> None:
+    """Corners 0 1 2, nodes 3 and 4 on the first side; one cut from 4 to the last corner."""
+    xyz = np.array([(0.0, 0, 0), (4, 0, 0), (0, 3, 0), (1, 0, 0), (3, 0, 0)])
+    sides, whole = {(0, 1): {3, 4}}, [(0, 1), (0, 4), (2, 4)]
+    made = _cut(xyz, [0, 3, 4, 1, 2], [0, 1, 2], sides, whole)
+    edges = {frozenset(e) for t in made for e in itertools.combinations(t, 2)}
+    assert frozenset((2, 4)) in edges
+    assert not {frozenset((0, 1)), frozenset((0, 4))} & edges
+    turns = [np.cross(xyz[b] - xyz[a], xyz[c] - xyz[a])[2] for a, b, c in made]
+    assert min(turns) > 0
+    assert sum(turns) == pytest.approx(12.0)
