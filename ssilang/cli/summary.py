@@ -19,13 +19,14 @@ from pathlib import Path
 from typing import Any
 
 from ssilang import __version__
-from ssilang.io.atomic import write_text
+from ssilang.io.atomic import inside, write_text
 from ssilang.io.run_output import RunOutput
 from ssilang.language.run.session import Check, Session
 from ssilang.language.say.diagnostics import sentence
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
 from ssilang.operators.workspace import workspace
+from ssilang.report.records import read_json
 from ssilang.system import peak_memory
 
 NAME = "summary.json"
@@ -77,7 +78,7 @@ def deck_name(source: Source) -> str:
 def deck_of(folder: Path) -> str:
     """The deck whose summary stands in a folder; empty without one that can be read."""
     try:
-        return str(json.loads((folder / NAME).read_text(encoding="utf-8"))["deck"])
+        return str(read_json(inside(folder, NAME) or Path())["deck"])  # a folder is no summary
     except (OSError, ValueError, LookupError, TypeError):
         return ""
 

@@ -111,6 +111,26 @@ def test_a_folder_that_holds_the_results_of_another_deck_is_told(tmp_path: Path)
     assert said == [False, False, True]
 
 
+@pytest.mark.parametrize("kind", ["pipe", "nested", "link", "list"])
+def test_what_is_no_summary_in_a_folder_of_results_holds_nobody_up(
+    kind: str, tmp_path: Path
+) -> None:
+    out, err = tmp_path / "out", io.StringIO()
+    out.mkdir()
+    (tmp_path / "secret").write_text('{"deck": "another"}')
+    if kind == "pipe":
+        os.mkfifo(out / "summary.json")
+    elif kind == "link":
+        (out / "summary.json").symlink_to(tmp_path / "secret")
+    else:
+        (out / "summary.json").write_text("[" * 100_000 if kind == "nested" else "[1]")
+    options = RunOptions(output_directory=out, summary=True)
+    result = run_source(Source("a.ssi", "X = 1 ;"), options, io.StringIO(), err)
+    assert (result.exit_code, "another" in err.getvalue()) == (0, False)
+    assert json.loads((out / "summary.json").read_text())["deck"] == "a.ssi"
+    assert (tmp_path / "secret").read_text() == '{"deck": "another"}'
+
+
 def test_a_run_with_a_summary_holds_its_folder_before_it_writes(tmp_path: Path) -> None:
     other, out = RunOutput(tmp_path, tmp_path), io.StringIO()
     other.hold()
