@@ -26,7 +26,6 @@ from ssilang.cli.sweeping.worker import Row, Task
 from ssilang.io.plots import animation, figure
 from ssilang.kernel.base import compiled
 from ssilang.kernel.solvers.backends import keep_factors
-from ssilang.system import cores
 
 # processes that tests start keep their byte code, as a person's do: half of a start otherwise;
 # and what they print waits in a buffer, as a person's does
@@ -111,11 +110,6 @@ class _Nothing(set[str]):
 compiled.ALLOWED = _Nothing()
 
 
-def pytest_xdist_auto_num_workers() -> int | None:
-    """One process more than there are processors: a tenth of the time is waiting for others."""
-    return None if "PYTEST_XDIST_AUTO_NUM_WORKERS" in os.environ else cores() + 1
-
-
 COMPILE = {"kernel", "decks", "docs", "diagnostics", "api"}
 """Folders whose tests need most of what is compiled."""
 LATE = {"operators", "stdlib"}
@@ -138,16 +132,13 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_collection(session: pytest.Session) -> None:
-    """Processes begin at the start, the end and the middle: of a new checkout each makes a part
-    of the byte code.
-    """
+    """One process begins with the last file: of a new checkout each makes half of the byte code."""
     tests, root = Path(__file__).parent, session.config.rootpath
     whole = [Path(root, a) for a in session.config.args] == [tests]
-    files = sorted(tests.rglob("test_*.py")) if whole else []
-    first = {"gw1": files[::-1], "gw2": files[len(files) // 2 :]}
-    for path in first.get(os.environ.get("PYTEST_XDIST_WORKER", ""), ()):
-        with contextlib.suppress(Exception):  # who collects it tells of it
-            import_path(path, mode="importlib", root=root, consider_namespace_packages=False)
+    if whole and os.environ.get("PYTEST_XDIST_WORKER") == "gw1":
+        for path in sorted(tests.rglob("test_*.py"), reverse=True):
+            with contextlib.suppress(Exception):  # who collects it tells of it
+                import_path(path, mode="importlib", root=root, consider_namespace_packages=False)
 
 
 def pytest_collection_finish() -> None:
