@@ -58,8 +58,6 @@ STATEMENTS = [
     "TRAC ((RIGI MO MA) ET (BLOQ 'DEPL' L)) ;",
     "TRAC S (ANNO 'ETIQ' (0. 0.) 'SO' 'base' 0.1 'BLEU') ;",
     "TRAC S ((ANNO 'CATE' 'ROUG' 'soil') ET (ANNO 'ETIQ' (0. 0.) 'BLEU' 'SO' 0.1 FAUX 'base')) ;",
-    "OPTI ISOV LIGNE ; TRAC X S ;",
-    "OPTI ISOV SULI ; TRAC X S ;",
 ]
 
 
@@ -69,6 +67,17 @@ def test_forms_that_draw_one_picture(text: str, tmp_path: Path) -> None:
     (path,) = tmp_path.iterdir()
     assert path.read_bytes()[:4] == b"\x89PNG"
     assert result.session.workspace.output.files == [path]
+
+
+def test_isovalues_are_faces_lines_or_both(tmp_path: Path) -> None:
+    drawn = {}
+    for word in ("", "ISOV SURF", "ISOV LIGNE", "ISOV SULI"):
+        (tmp_path / word).mkdir(exist_ok=True)
+        run(f"OPTI DIME 2 {word} ; TRAC X S ;", tmp_path / word)
+        (path,) = (tmp_path / word).glob("*.png")
+        drawn[word] = path.read_bytes()
+    assert drawn[""] == drawn["ISOV SURF"]
+    assert len(set(drawn.values())) == 3
 
 
 @together(
