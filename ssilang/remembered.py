@@ -5,6 +5,7 @@ import os
 import sys
 from collections.abc import Callable
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any
 from zlib import crc32
@@ -40,6 +41,7 @@ def remembered(name: str, state: str, make: Callable[[], Any]) -> Any:
     return json.loads(text)[1]  # as it will be read: tuples are lists
 
 
+@cache
 def tables_of(path: Path) -> Any:
     """What a file of TOML holds; only the first start after a change of it takes the text apart."""
 

@@ -450,7 +450,8 @@ def _summarise(result: RunResult, source: Source, err: TextIO, quiet: bool, agai
 
     output = run_output(result.session)
     try:
-        if (other := deck_of(output.directory)) not in ("", deck_name(source)):
+        # by its name: a deck is run from one folder or another
+        if Path(other := deck_of(output.directory)).name not in ("", Path(deck_name(source)).name):
             told = {"folder": output.directory, "other": other}
             warned = SsiError("cli.folder-of-another", None, **told)
             err.write(render(warned, result.session.language) + "\n")

@@ -1,6 +1,5 @@
 """Examples that run, for laws, elements, components and options: by name, else by sort."""
 
-from functools import cache
 from pathlib import Path
 
 from ssilang.language.vocabulary.terms import Word
@@ -10,7 +9,6 @@ _OWN = ("elasticity", "plastic", "joint")
 """Sorts of laws of which one has an example of its own."""
 
 
-@cache
 def examples() -> dict[str, str]:
     """All scripts by what they show."""
     return tables_of(Path(__file__).with_suffix(".toml"))  # type: ignore[no-any-return]
