@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from references.assembled import Bench
 from references.recorder import recorded
@@ -220,24 +220,36 @@ def test_ground_of_great_strength_is_the_elastic_macro_element(name, spots):
 STEP = st.tuples(st.floats(-0.02, 0.02), st.floats(-0.03, 0.005), st.floats(-0.01, 0.01))
 FEET = {name: made(name, COHE=C) for name in SHAPES}
 FEET |= {f"hard spots, {name}": made(name, COHE=C, PDUR=0.3) for name in ("strip", "rectangle")}
-FINE = 60
+FINE, FINEST = 60, 1e-5
 ASIDE = (1.2345e-6, -3.4567e-6, 2.3456e-7)  # round numbers stand where the ground begins to yield
 
 
 @settings(max_examples=25, deadline=None)
 @given(st.sampled_from(list(FEET)), st.lists(STEP, min_size=2, max_size=4))
+@example("strip", [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0001220703125), (0.0, 0.00390625, 0.0)])
 def test_paths_lose_energy_and_balance(name, path):
-    """Work of fine steps is what is stored and what is lost, which never falls."""
+    """Work of fine steps is what is stored and what is lost, which never falls.
+
+    Steps are halved where the force changes by much within them: a foot that stood hardly pressed
+    and is lifted far leaves its ground in the first.
+    """
     footing = FEET[name]
     footing.state = footing.joints.initial_state()
-    now, f, lost, work, moved = np.zeros(len(footing.names)), 0.0, 0.0, 0.0, 0.0
+    now, lost, work, moved = np.zeros(len(footing.names)), 0.0, 0.0, 0.0
+    f = np.zeros_like(now)
     for step in path:
-        way = motion_of(footing, *step) - now
-        for part in np.linspace(0.0, 1.0, FINE + 1)[1:]:
-            after, (w, t, new) = footing.whole(now + part * way)
+        way, at = motion_of(footing, *step) - now, 0.0
+        ends = np.linspace(1.0, 0.0, FINE + 1)[:-1].tolist()
+        while ends:
+            part = ends[-1] - at
+            after, (w, t, new) = footing.whole(now + ends[-1] * way)
+            before, behind = part * (f @ way), part * (after @ way)
+            if abs(behind - before) > 0.1 * abs(behind + before) and part > FINEST:
+                ends.append(at + 0.5 * part)
+                continue
             stored, gone = interface_energies(footing.joints.points, w, t, new)
             assert gone >= lost - 1e-9 * abs(lost)
-            done = 0.5 * (f + after) @ way / FINE
+            done, at = 0.5 * (before + behind), ends.pop()
             footing.state, lost, f, work, moved = new, gone, after, work + done, moved + abs(done)
         now = now + way
     springs = 0.5 * now @ footing.springs() @ now
