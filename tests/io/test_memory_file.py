@@ -17,9 +17,9 @@ from ssilang.io.memory_file import MemoryFile
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 
 F = np.float32
-WHOLE, P, CORES = np.ones((8, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((8, 2, 2), F)
+WHOLE, P, CORES = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
 SOUND = Kernels(
-    "a ground", 5e-3, 1e-2, np.eye(6), WHOLE, (Stage(8, P, CORES),), 0, np.ones((3, 6, 2), F), "b"
+    "a ground", 5e-3, 1e-2, np.eye(6), WHOLE, (Stage(16, P, CORES),), 0, np.ones((3, 6, 2), F), "b"
 )
 
 
@@ -62,16 +62,16 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
     "arrays, told",
     [
         ({"S": npy(np.eye(6) + 1j)}, "complex128"),
-        ({"whole": npy(np.full((8, 6, 6), "1"))}, "<U1"),
+        ({"whole": npy(np.full((16, 6, 6), "1"))}, "<U1"),
         ({"whole": npy(WHOLE[:, :5])}, ""),
-        ({"whole": npy(WHOLE[:7])}, "7 kernels"),
-        ({"whole": npy(np.concatenate([WHOLE, WHOLE]))}, "16 kernels"),
+        ({"whole": npy(WHOLE[:15])}, "15 kernels"),
+        ({"whole": npy(np.concatenate([WHOLE, WHOLE]))}, "32 kernels"),
         ({"loads": npy(np.full((3, 6, 2), np.nan, F))}, ""),
         ({"loads": npy(np.ones((3, 7, 2), F))}, ""),
         ({"P0": npy(np.eye(6, 3, dtype=F))}, ""),
         ({"cores0": npy(CORES[:5])}, ""),
         ({"firsts": npy(np.zeros(0, int))}, ""),
-        ({"firsts": npy(np.array([8, 16]))}, ""),
+        ({"firsts": npy(np.array([16, 32]))}, ""),
         ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),
         ({"other": npy(WHOLE)}, ""),
         ({"S": declaring((10**11, 2))}, ""),

@@ -1,5 +1,8 @@
 """Solves with the panels of `multifrontal`: forward and backward over a range of supernodes."""
 
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -150,6 +153,42 @@ def _panels(
         found.append((k0, k1, block, P[:, :inside], P[:, inside:]))
         pos += w * (w + m)
     return b[c0 - missing : c1 - missing], below, found
+
+
+class Supernode(NamedTuple):
+    """Columns of a factor with the same rows, for solves of very many columns."""
+
+    begin: int
+    end: int
+    inverse: FloatArray  # (w, w) of their own block
+    below: IntArray  # (m,) other rows
+    P: FloatArray  # (w, m)
+
+    def forward(self, b: FloatArray) -> None:
+        """Forward solve of its rows of b (n, k), and what they take off those below."""
+        x = b[self.begin : self.end] = self.inverse @ b[self.begin : self.end]
+        if len(self.below):
+            b[self.below] -= self.P.T @ x
+
+    def backward(self, b: FloatArray) -> None:
+        """Backward solve of its rows of b (n, k)."""
+        x = b[self.begin : self.end]
+        if len(self.below):
+            x -= self.P @ b[self.below]
+        b[self.begin : self.end] = self.inverse.T @ x
+
+
+def supernodes(L: Panels, kind: Any) -> Iterator[Supernode]:
+    """The supernodes of a factor in another precision: panels together, a third more memory."""
+    for s in range(len(L.first) - 1):
+        begin, end = int(L.first[s]), int(L.first[s + 1])
+        inverse = np.eye(end - begin)
+        _, below, panels = _panels(L, s, np.zeros(0), 0)
+        for k0, k1, block, inside, _ in panels:
+            inverse[k0:k1] = block @ inverse[k0:k1]
+            inverse[k1:] -= inside.T @ inverse[k0:k1]
+        P = np.concatenate([P for *_, P in panels])
+        yield Supernode(begin, end, inverse.astype(kind), below, P.astype(kind))
 
 
 def longest(L: Panels) -> int:

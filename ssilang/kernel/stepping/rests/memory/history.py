@@ -3,10 +3,10 @@
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels
+from ssilang.kernel.stepping.rests.memory.kernels import Kernels
 from ssilang.kernel.stepping.rests.memory.parts import SINGLE
 
-BLOCK = WHOLE - 1
+BLOCK = 8
 """Steps whose far past is summed together: each kernel is read once for all of them."""
 
 

@@ -16,16 +16,15 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.base.scientific import la
-from ssilang.kernel.solvers.cholesky.triangular import solve_columns
 from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.parts import SINGLE, Ground, GroundSteps
 from ssilang.kernel.stepping.verbs import advance, from_past
 
 COLUMNS = 128  # stepped together
-WHOLE = 8  # first kernels, kept as they are
+WHOLE = 16  # first kernels, kept as they are
 FEW = 0.6  # of the jumps: more singular vectors than that are kept as whole kernels
-QUIET = 16  # steps without an answer to loads, after which none comes
+QUIET = 16  # steps without an answer, after which none comes
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +70,10 @@ def increments(ground: GroundSteps, changes: Iterable[FloatArray]) -> Iterator[F
             g, Mv, Ma, Cv, Ca = (np.zeros(change.shape, SINGLE) for _ in range(5))
         if len(change):
             b += end * change
-        solve_columns(ground.L, b, 0, len(ground.L.first) - 1)
+        for part in ground.factor:
+            part.forward(b)
+        for part in reversed(ground.factor):
+            part.backward(b)
         yield ground.J @ b
         rest = ground.rest @ b if ground.rest.nnz else none
         given = ground.M @ b, rest, change
@@ -136,10 +138,10 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     while P.shape[1] and first < steps:
         if P.shape[1] > FEW * q:
             P = np.eye(q)
-            cores = _kernels(own, P, first, 2 * first)
+        cores = _kernels(own, P, first, 2 * first, 0.1 * least)
+        if len(P) == P.shape[1]:
             whole = np.concatenate([whole, cores])
         else:
-            cores = _kernels(own, P, first, 2 * first)
             stages.append(Stage(first, P.astype(SINGLE), cores))
         P, first = P @ _span(cores, least), 2 * first
     S = whole[0].astype(float) / ground.newmark.end
@@ -150,17 +152,25 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     )  # fmt: skip
 
 
-def _kernels(ground: GroundSteps, P: FloatArray, begin: int, end: int) -> FloatArray:
-    """`P^T G_k P` (end - begin, r, r) for the kernels after `begin`, symmetric."""
+def _kernels(
+    ground: GroundSteps, P: FloatArray, begin: int, end: int, little: float = 0.0
+) -> FloatArray:
+    """`P^T G_k P` (end - begin, r, r) for the kernels after `begin`, symmetric.
+
+    Zero behind `QUIET` steps with no more than `little`.
+    """
     P = P.astype(SINGLE)
     r = P.shape[1]
-    found = np.empty((end - begin, r, r), SINGLE)
+    found = np.zeros((end - begin, r, r), SINGLE)
     for first in range(0, r, COLUMNS):
         part = slice(first, first + COLUMNS)
-        forces = ground.J.T @ P[:, part]
+        forces, quiet = ground.J.T @ P[:, part], 0
         for k, rows in enumerate(increments(ground, impulse(forces, end))):
             if k >= begin:
-                found[k - begin, :, part] = P.T @ rows
+                found[k - begin, :, part] = answer = P.T @ rows
+                quiet = quiet + 1 if np.linalg.norm(answer) <= little else 0
+                if quiet == QUIET:
+                    break
     for G in found:
         G += G.T.copy()
     found *= SINGLE(0.5)

@@ -14,7 +14,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.scientific import sp
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
-from ssilang.kernel.solvers.cholesky.multifrontal import Panels
+from ssilang.kernel.solvers.cholesky.triangular import Supernode, supernodes
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.newmark import Newmark, newmark_of
@@ -86,7 +86,7 @@ class Ground:
         T = sp.csr_array(self.T @ scaling)
         M, C, K = (sp.csr_array(T.T @ X @ T) for X in (p.M, p.C, p.K))
         alpha, beta, rest = split_damping(C, M, K)
-        L = factor.panels._replace(values=factor.panels.values.astype(SINGLE))
+        L = tuple(supernodes(factor.panels, SINGLE))
         few = (X.astype(SINGLE) for X in (M, rest, sp.csr_array(self.J @ scaling)))
         forces = np.asarray(scaling.T @ self.forces, SINGLE)
         return GroundSteps(L, alpha, beta, self.newmark, forces, *few)
@@ -96,7 +96,7 @@ class Ground:
 class GroundSteps:
     """A body in the order of its factor, single precision."""
 
-    L: Panels  # factor of the step's matrix
+    factor: tuple[Supernode, ...]  # of the step's matrix
     alpha: float  # the damping is `alpha M + beta K + rest`
     beta: float
     newmark: Newmark
