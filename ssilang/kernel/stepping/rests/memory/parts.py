@@ -15,6 +15,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.scientific import sp
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import Supernode, supernodes
+from ssilang.kernel.solvers.factor import FIRST_FIT
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.newmark import Newmark, newmark_of
@@ -75,7 +76,7 @@ class Ground:
         p = self.problem
         constraints = copy(p.constraints)
         constraints.T = constraints.V = self.T
-        alone = replace(p, constraints=constraints, interface=None)
+        alone = replace(p, constraints=constraints, interface=None, solver=FIRST_FIT)
         A = effective_matrix(alone, self.dt)
         inverse = effective_of(alone, A, self.dt, 1.0, free=True, least=0).inverse
         factor = inverse.factor
@@ -151,7 +152,9 @@ def parts_of(problem: Problem, asked: BoolArray) -> Parts:
     constraints.T = constraints.V = sp.csr_array(T[:, ~far])
     K, M, C = (sp.csr_array(others @ A) for A in (p.K, p.M, p.C))
     loading = replace(p.loading, forces=p.loading.forces * keep[:, None])
-    near = replace(p, constraints=constraints, loading=loading, K=K, M=M, C=C)
+    near = replace(
+        p, constraints=constraints, loading=loading, K=K, M=M, C=C, solver=FIRST_FIT
+    )  # fmt: skip
     loads = np.flatnonzero(p.loading.forces[rows].any(axis=0))
     return Parts(near, Ground(p, own, loads), touched, back)
 
