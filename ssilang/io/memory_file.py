@@ -32,6 +32,11 @@ class MemoryFile:
         """As messages call it."""
         return self.path.name
 
+    @property
+    def there(self) -> bool:
+        """Whether there is one."""
+        return self.path.is_file()
+
     def read(self) -> Kernels | None:
         """What the file holds, None if there is none.
 
@@ -40,7 +45,7 @@ class MemoryFile:
         InputError
             If it is no memory.
         """
-        if not self.path.is_file():
+        if not self.there:
             return None
         try:
             with np.load(self.path, allow_pickle=False) as f:

@@ -262,7 +262,8 @@ EV = EVOL 'MANU' LT (3. * (SIN (720. * LT))) ;
 T1 . 'CHAR' = (T1 . 'CHAR') ET (CHAR 'MECA' (M1 * (MANU 'CHPO' V 1 'UX' 1.)) EV) ;
 """
     runs = "".join(
-        f"T1 . 'REDUCTION' = 1.E-3 ; T1 . 'MEMOIRE' = 'ground' ; T{i} = DYNAMIC T1 ;" for i in (3, 4)
+        f"T1 . 'REDUCTION' = 1.E-3 ; T1 . 'MEMOIRE' = 'ground' ; T{i} = DYNAMIC T1 ;"
+        for i in (3, 4)
     )
     text = SHAKEN + joint + still + "T2 = DYNAMIC T1 ;" + runs
     options = RunOptions(output_directory=tmp_path / "runs" / "a", shared=tmp_path)

@@ -139,6 +139,10 @@ class Shelf(Protocol):
     def name(self) -> str:
         """As messages call it."""
 
+    @property
+    def there(self) -> bool:
+        """Whether anything stands there."""
+
     def read(self) -> Kernels | None:
         """What stands there, None for nothing."""
 
@@ -167,7 +171,7 @@ class MemoryIntegration(Integration):
 
 
 _KEPT: dict[str, Kernels] = {}
-"""The memory of the last ground: runs that are forks of this one have it."""
+"""The memory of the last ground, by its digest: runs that are forks of this one have it."""
 
 
 def integrate_with_memory(
@@ -196,7 +200,7 @@ def integrate_with_memory(
             kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
             with shelf.held():
                 shelf.write(kernels)
-            _KEPT[shelf.name] = kernels
+            _KEPT[kernels.name] = kernels
         if kernels.estimate <= tolerance:
             break
         share *= 0.5 * tolerance / kernels.estimate
@@ -227,7 +231,8 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kerne
     if np.abs(lengths - dt).max() > SAME * dt * len(lengths):
         raise NoReduction("kernel.stepping.memory-steps-differ")
     with shelf.held():
-        found = _KEPT.get(shelf.name) or shelf.read()
+        known = _KEPT.get(ground.name)
+        found = shelf.read() if known is None or not shelf.there else known
         if found is not None and abs(found.dt - dt) > SAME * dt * len(lengths):
             code = "kernel.stepping.memory-of-another-step"
             raise KernelError(code, name=shelf.name, dt=found.dt, step=dt)
@@ -241,7 +246,7 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kerne
             found = replace(found, loads=loads, loads_name=name)
             shelf.write(found)
     _KEPT.clear()
-    _KEPT[shelf.name] = found
+    _KEPT[ground.name] = found
     return found
 
 

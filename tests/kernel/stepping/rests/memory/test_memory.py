@@ -145,7 +145,7 @@ def test_a_memory_serves_other_motions(truncated, elsewhere):
     file, stamp = truncated[0], truncated[0].path.stat().st_mtime_ns
     run._KEPT.clear()
     if not elsewhere:
-        run._KEPT[file.name] = file.read()
+        run._KEPT[file.read().name] = file.read()
     whole, found, _, history = beside_the_whole(record(2, **WIDE), 5e-2, file)
     assert history.loop == "memory"
     assert file.path.stat().st_mtime_ns == stamp
