@@ -17,7 +17,7 @@ from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
-from ssilang.language.search import SHORT_LIKE, nearest
+from ssilang.language.search import nearest_told
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import table, text
@@ -203,8 +203,7 @@ def unknown(asked: Asked, known: Sequence[str]) -> list[Refusal]:
 
 
 def _unknown(name: str, known: Sequence[str]) -> Refusal:
-    near = nearest(name, known, SHORT_LIKE)
-    return Refusal("report.fragility-unknown", name=name, near=near, known=list(known))
+    return Refusal("report.fragility-unknown", name=name, **nearest_told(name, known))
 
 
 def fits_of(sweep: Sweep, asked: Asked) -> list[Fit]:
