@@ -21,7 +21,7 @@ from ssilang.language.search import nearest_told
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import table, text
-from ssilang.report.records import FRAGILITY, read_record
+from ssilang.report.records import read_record
 from ssilang.report.sweep_table import (
     MOTION,
     Sweep,
@@ -189,7 +189,7 @@ def asked_of(folder: Path) -> Asked | None:
     if inside(folder, ASKED) is None:
         return None
     try:
-        said = read_record(folder / ASKED, FRAGILITY)
+        said = read_record(folder / ASKED, "fragility")
     except (OSError, ValueError) as problem:
         raise InputError("report.damaged", path=folder / ASKED, problem=problem) from None
     limits = [limit for each in said["limits"] for limit in read_limits(each)]
