@@ -5,7 +5,7 @@ import pyvista
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ssilang.report.scenes import _edges_of, _pairs, _singles
+from ssilang.report.scenes import _cells_of, _edges_of, _pairs
 
 FACE = st.integers(3, 6).flatmap(
     lambda n: st.lists(st.integers(0, 9), min_size=n, max_size=n, unique=True)
@@ -29,7 +29,7 @@ def test_no_faces_have_no_edges():
 
 
 def test_lines_and_points_of_several_sizes_stand_one_behind_the_other():
-    lines = pyvista.PolyData(np.eye(3), lines=[3, 0, 2, 1, 2, 1, 0]).lines
+    lines = pyvista.PolyData(np.eye(3), lines=[3, 0, 2, 1, 2, 1, 0]).GetLines()
     assert _pairs(lines).reshape(-1, 2).tolist() == [[0, 2], [2, 1], [1, 0]]
-    points = pyvista.PolyData(np.eye(3), verts=[2, 2, 0, 1, 1]).verts
-    assert _singles(points).tolist() == [2, 0, 1]
+    points = pyvista.PolyData(np.eye(3), verts=[2, 2, 0, 1, 1]).GetVerts()
+    assert _cells_of(points)[1].tolist() == [2, 0, 1]
