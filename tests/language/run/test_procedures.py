@@ -1,8 +1,10 @@
-"""Section 10: procedures."""
+"""Section 10: procedures, and whose their names are."""
 
 import os
 
 from ssilang.language.run import library
+from ssilang.language.run.scopes import Frame
+from ssilang.language.values import ANNULE
 
 _SUM = (
     "DEBP SUM2 a*FLOTTANT b/FLOTTANT ; SI (EXIS b) ; r = a + b ; SINON ; r = a ; FINSI ; FINP r ;"
@@ -79,3 +81,31 @@ def test_sessions_share_the_tree_of_a_file_of_the_library_until_it_changes(tmp_p
     path.write_text("DEBP DOUBLE X1*FLOTTANT ; Y1 = X1 + X1 + 0. ; FINP Y1 ;")
     os.utime(path, ns=(1, 1))
     assert library.Library(tmp_path).find("DOUBLE").definition is not first.definition
+
+
+def test_frames_over_frames():
+    root = Frame()
+    for name, value in {"Z": 1, "A": 2, "!OWN": 3, "GONE": 4}.items():
+        root.assign(name, value)
+    middle = Frame(root, "OUTER")
+    middle.assign("A", 20)
+    middle.assign("FALSE", False)
+    inner = Frame(middle, "INNER")
+    inner.assign("B", 300)
+    inner.assign("!OWN", 5)
+    assert [f.depth for f in (root, middle, inner)] == [0, 1, 2]
+    assert [inner.find(n) for n in ("Z", "A", "B", "FALSE", "NONE")] == [1, 20, 300, False, None]
+    assert [f.find("!OWN") for f in (root, middle, inner)] == [3, None, 5]
+    assert [f.find("A") for f in (root, middle)] == [2, 20]
+    inner.assign("Z", 100)
+    assert (root.find("Z"), middle.find("Z"), inner.find("Z")) == (1, 1, 100)
+    inner.forget("GONE", hiding=True)  # only the script's own words come back
+    assert inner.find("GONE") is ANNULE
+    assert inner.names() == {"Z", "A", "B", "!OWN", "FALSE"}
+    assert middle.names() == {"Z", "A", "!OWN", "GONE", "FALSE"}
+    root.forget("GONE", hiding=True)
+    root.forget("Z", hiding=False)
+    assert root.find("GONE") is None
+    assert root.names() == {"A", "!OWN"}
+    assert middle.results == []
+    assert middle.results is not inner.results

@@ -1,4 +1,4 @@
-"""Section 6: arithmetic and comparisons of scalars and lists."""
+"""Sections 6 and 11: scalars, lists, words, texts and what is printed."""
 
 import math
 
@@ -44,3 +44,25 @@ def test_conversions(run):
     script = run("a = ENTI 2.7 ; b = ENTI -2.7 ; c1 = FLOT 3 ; d1 = ENTI 'PROCHE' 2.7 ;")
     assert (script["a"], script["b"], script["c1"], script["d1"]) == (2, -2, 3.0, 3)
     assert isinstance(script["c1"], float)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "length"),
+    [("'TOTO'*10", 10), ("'TOTO'/10", 13), ("'TITI' 'TOTO'<10", 14), ("'TITI' 'TOTO'>10", 17)],
+)
+def test_tab_marks_of_chai(run, phrase, length):
+    assert len(run(f"x = CHAI {phrase} ;")["x"]) == length
+
+
+def test_erre_5_fails_and_erre_0_does_not(run, fails):
+    assert fails("«ERRE» 5 ;") == "erre"
+    run("ERRE 0 ;")
+
+
+def test_type_exis_and_oubl(run):
+    script = run(
+        "a = 3 ; k = TYPE a ; e = EXIS a ; OUBL a ; f = TYPE a ; g = EXIS a ; h = EXIS b ;"
+    )
+    assert script["k"].rstrip() == "ENTIER"
+    assert script["f"].rstrip() == "ANNULE"
+    assert (script["e"], script["g"], script["h"]) == (True, False, True)
