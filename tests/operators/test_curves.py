@@ -8,17 +8,6 @@ from together import together
 from ssilang.cli.run import run_text
 
 
-def test_parts_of_a_transform_are_taken_by_the_names_of_their_axes(found):
-    """A cosine of eight points: half its sum stands in the real part of its line alone."""
-    signal = "T = PROG 0. 'PAS' 0.125 0.875 ; C = EVOL 'MANU' T (COS (T * 360.)) ; "
-    real, imaginary = found(
-        signal + "F = TFR 3 C 'REIM' ; R = EXTR F 'PART REEL' ; I = EXTR F 'PART IMAG' ;", "R", "I"
-    )
-    assert real.values[1] == pytest.approx(0.5)
-    assert abs(real.values[[0, 2, 3]]).max() < 1e-12
-    assert abs(imaginary.values).max() < 1e-12
-
-
 @together(
     "names, kept",
     [
@@ -128,26 +117,6 @@ def test_projection_is_the_product_with_the_shape(found):
     u = np.array([3, 6, -3]) * shape
     np.testing.assert_allclose(plain.parts[0].ordinates, u * shape)
     np.testing.assert_allclose(weighted.parts[0].ordinates, 4 * u * shape)
-
-
-def test_recombined_reactions_are_those_of_the_recombined_displacement(found):
-    beam = (
-        "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; P1 = 0. 0. ; P2 = 3. 0. ; L = DROI 6 P1 P2 ; "
-        "MO = MODE L MECANIQUE ELASTIQUE POUT ; "
-        "MA = MATE MO 'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'SECT' 1.E-2 'INRZ' 1.E-5 ; "
-        "B = BLOQ 'DEPL' 'ROTA' P1 ; K = (RIGI MO MA) ET B ; T = VIBR 'SIMU' 1. 3 K (MASS MO MA) ; "
-        "T1 = T . 'MODES' ; REAC B T1 ; "
-        "Q = (MANU 'CHPO' (T1 . 1 . 'POINT_REPERE') 'ALFA' 2.) + "
-        "(MANU 'CHPO' (T1 . 2 . 'POINT_REPERE') 'ALFA' -0.5) ; "
-    )
-    moment, whole, other = found(
-        beam + "R = RECO Q T 'REAC' ; A = EXTR R 'MZ' P1 ; "
-        "R2 = REAC B (RECO Q T) ; D = EXTR R2 'MZ' P1 ; E = MAXI 'ABS' (R - R2) ;",
-        "A", "D", "E",
-    )  # fmt: skip
-    assert abs(moment) > 1.0
-    np.testing.assert_allclose(moment, whole)
-    assert other < 1e-9 * abs(moment)
 
 
 def test_a_point_that_no_mode_has_is_still_and_told(tmp_path):

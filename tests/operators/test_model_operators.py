@@ -4,7 +4,7 @@ import io
 
 import numpy as np
 import pytest
-from script_runs import found, ran
+from script_runs import ran
 from together import together
 
 from ssilang.cli.run import RunOptions, run_source
@@ -143,18 +143,6 @@ def test_an_elastic_body_has_none_of_the_internal_variables(found, refused):
     assert (n, p) == (0, q)
     assert q > 0.5
     assert "no cell" in refused(script + "E = REDU (REDU (T . CONTRAINTES . 1) H) G ;")
-
-
-def test_size_is_given_cell_by_cell():
-    x, y, name = found(
-        "OPTI DIME 2 ELEM QUA4 ; S = ((DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 0.3)) ET "
-        "((DROI 1 (5. 0.) (7. 0.)) TRAN 1 (0. 0.7)) ; "
-        "A = TAIL 'DIAMETRE_MIN' (MODE S MECANIQUE ELASTIQUE) ; X = MINI A ; Y = MAXI A ; "
-        "N = EXTR (EXTR A 'COMP') 1 ;",
-        "X", "Y", "N",
-    )  # fmt: skip
-    assert (x, y) == pytest.approx((0.3, 0.7))
-    assert str(name).strip() == "L"
 
 
 @together(
