@@ -11,24 +11,6 @@ _SUM = (
 )
 
 
-def test_mandatory_and_optional_arguments(run):
-    script = run(_SUM + "x = SUM2 1. 2. ; y = SUM2 1. ;")
-    assert (script["x"], script["y"]) == (3.0, 1.0)
-
-
-def test_a_missing_mandatory_argument_is_an_error(fails):
-    assert fails(_SUM + "x = SUM2 «'a'» ;") == "missing-parameter"
-
-
-def test_names_that_begin_with_an_exclamation_mark_are_not_inherited(run):
-    text = "!g = 1 ; DEBP P ; r = TYPE !g ; FINP r ; x = P ;"
-    assert run(text)["x"].rstrip() == "MOT"
-
-
-def test_assignments_vanish_at_the_end(run):
-    assert run("DEBP P ; local = 4 ; FINP ; P ; x = TYPE local ;")["x"].rstrip() == "MOT"
-
-
 def test_at_procedures_are_found_beside_the_deck(tmp_path):
     from ssilang.cli.run import run_file
 
@@ -52,24 +34,6 @@ def test_the_chain_of_calls_is_told(tmp_path):
     text = "DEBP INNER ; x = 1 / 0 ; FINP ;\nDEBP OUTER ; INNER ; FINP ;\nOUTER ;"
     error = run_text(text, output_directory=tmp_path).errors[0]
     assert [name for name, _ in error.calls] == ["INNER", "OUTER"]
-
-
-def test_replacing_a_procedure_of_the_library_is_told(tmp_path):
-    from ssilang.cli.run import run_text
-
-    text = "DEBP @BILAN t*TABLE ; FINP 7 ; t1 = TABL ; x = @BILAN t1 ;"
-    result = run_text(text, output_directory=tmp_path)
-    assert result.session.root.find("X") == 7
-    assert [w.code for w in result.session.warnings] == ["overrides-procedure"]
-
-
-def test_a_name_forgotten_in_a_procedure_is_forgotten_there_alone(run):
-    script = run(
-        "Y = 7 ; DEBP P ; Y = 3 ; OUBL Y ; FINP (TYPE Y) ; DEBP Q ; OUBL Y ; FINP (TYPE Y) ;"
-        "A = P ; B = Q ; DEBP R ; OUBL Y ; Y = 4 ; FINP Y ; C = R ;"
-    )
-    assert [str(script[name]).strip() for name in "AB"] == ["ANNULE", "ANNULE"]
-    assert (script["C"], script["Y"]) == (4, 7)
 
 
 def test_sessions_share_the_tree_of_a_file_of_the_library_until_it_changes(tmp_path, monkeypatch):
