@@ -161,19 +161,6 @@ def test_curves_in_cells_go_with_numbers(said, run, plain, tmp_path):
     assert find("X") == pytest.approx(plain)
 
 
-@together("mode", ["PLAN DEFO", "PLAN GENE"])
-def test_a_spring_stands_on_a_point_as_on_its_cell(mode, tmp_path):
-    result = ran(
-        f"OPTI DIME 2 MODE {mode} ; P = 0. 0. ; K = 0. ; "
-        "M1 = MODE P 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' (MOTS 'UX') ; "
-        "M2 = MODE (MANU 'POI1' P) 'MECANIQUE' 'ELASTIQUE' 'IMPEDANCE' (MOTS 'UX') ; "
-        "R = (RIGI M1 (MATE M1 'RAID' 4.)) - (RIGI M2 (MATE M2 'RAID' 3.)) ; "
-        "X = EXTR (R * (MANU 'CHPO' P 'UX' 1.)) P 'FX' ;",
-        output_directory=tmp_path,
-    )
-    assert result.session.root.find("X") == pytest.approx(1.0)
-
-
 @together("cells, element", [("TRI3", "DKT"), ("TRI3", "COQ3"), ("QUA4", "COQ4")])
 def test_least_squares_on_shells_keep_means_and_what_is_linear(cells, element, tmp_path):
     find = finder(

@@ -287,12 +287,6 @@ def test_strains_of_shells_turn_as_tensors(found):
     assert largest == pytest.approx(first @ np.diag([0.01, 0.02, 0.0]) @ first)
 
 
-UPRIGHT = (
-    "OPTI DIME 3 MODE TRID ELEM {cell} ; Q = (DROI 1 (0 0 0) ({x} {y} 0)) TRAN 1 (0 0 1) ; "
-    "M = MODE Q 'MECANIQUE' 'ELASTIQUE' '{element}' ; A = MATE M 'YOUN' 1. 'NU' 0.3 'EPAI' 0.1 ; "
-)
-
-
 def ring_levers(factors=None, bend=0.0):
     """Stress of each force of a ring 0.9 to 1.1, with the factors of straight pipes or bends."""
     area, inertia = np.pi * (1.1**2 - 0.9**2), np.pi / 4 * (1.1**4 - 0.9**4)

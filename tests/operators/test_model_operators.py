@@ -145,25 +145,6 @@ def test_an_elastic_body_has_none_of_the_internal_variables(found, refused):
     assert "no cell" in refused(script + "E = REDU (REDU (T . CONTRAINTES . 1) H) G ;")
 
 
-@together(
-    "dimension, mode, said",
-    [
-        (2, "PLAN CONT", "PLANCONT"),
-        (2, "PLAN DEFO", "PLANDEFO"),
-        (2, "PLAN GENE", "PLANGENE"),
-        (2, "AXIS", "AXIS"),
-        (1, "UNID", "UNIDPLANDYDZ"),
-    ],
-)
-def test_mode_is_set_again_by_its_own_word(dimension, mode, said):
-    result = ran(
-        f"OPTI DIME {dimension} MODE {mode} ; M = VALE 'MODE' ; OPTI DIME 3 ; "
-        f"OPTI DIME {dimension} ; OPTI 'MODE' M ; N = VALE 'MODE' ; "
-        f"L = (EGA M N) ET (EGA M '{said}') ;"
-    )
-    assert result.session.root.find("L") is True
-
-
 def test_a_mode_of_the_plane_gives_way_in_space():
     result = ran("OPTI 'DIME' 3 'ELEM' CUB8 'MODE' 'PLAN' ; M = VALE 'MODE' ;")
     assert result.session.root.find("M") == "TRID"

@@ -6,10 +6,6 @@ from ssilang.language.run import library
 from ssilang.language.run.scopes import Frame
 from ssilang.language.values import ANNULE
 
-_SUM = (
-    "DEBP SUM2 a*FLOTTANT b/FLOTTANT ; SI (EXIS b) ; r = a + b ; SINON ; r = a ; FINSI ; FINP r ;"
-)
-
 
 def test_at_procedures_are_found_beside_the_deck(tmp_path):
     from ssilang.cli.run import run_file

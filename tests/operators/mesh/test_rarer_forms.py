@@ -48,18 +48,6 @@ def test_skin_of_cells_in_the_direct_sense_faces_inwards(length, option, inwards
     assert ((sides < 0) == inwards).all()
 
 
-@together("skin, cells", [("E", {"TE10", "PY13"}), ("(CHAN 'TRI6' E)", {"TE10"})])
-def test_quadratic_skins_are_filled_and_keep_their_middles(skin: str, cells: set[str]) -> None:
-    script = SPACE + (
-        "OPTI ELEM CU20 ; V = ((O D 2 A) TRAN 2 (0. 1. 0.)) VOLU 2 'TRAN' Z ; E = ENVE V ; "
-        f"F = {skin} ; W = VOLU F ; N = NBNO F ; G = ENVE W ; K = NBNO G ; "
-    )
-    assert set(value(script + "X = W ELEM 'TYPE' ;").values) == cells
-    assert value(script + "X = MESU W ;") == pytest.approx(1.0)
-    # the skin's nodes are those of the volume: all cells are common
-    assert value(script + "X = NBEL (G INTE F) ;") == value(script + "X = NBEL F ;")
-
-
 CUT_FRAME = (
     "OPTI DIME 2 ELEM SEG2 ; A = DROI 6 (0. 0.) (3. 0.) ; B = DROI 2 (3. 0.) (3. 1.) ; "
     "C = DROI 6 (3. 1.) (0. 1.) ; D = DROI 2 (0. 1.) (0. 0.) ; L = A ET B ET C ET D ; "
