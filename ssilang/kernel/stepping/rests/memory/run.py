@@ -5,7 +5,7 @@ act on the jumps. All else is stepped as it is, by the loop of large problems, a
 """
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from typing import Protocol
@@ -14,8 +14,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.stepping.choose import RULES, Case, Choice
-from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.choose import RULES, Choice
+from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import advanced
 from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
@@ -29,7 +29,12 @@ from ssilang.kernel.stepping.rests.memory.kernels import (
 )
 from ssilang.kernel.stepping.rests.memory.parts import Ground, Parts, parts_of
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
-from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, PreparedBlock, Seen
+from ssilang.kernel.stepping.rests.sparse.interleaved import (
+    InterleavedLoop,
+    PreparedBlock,
+    Seen,
+    fits,
+)
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import run_interleaved, sweep_of
 from ssilang.kernel.stepping.run import History, Integration, Progress
 from ssilang.kernel.stepping.snapshot import Observer
@@ -158,15 +163,19 @@ class MemoryIntegration(Integration):
     """An integration whose loop is that of a ground's memory."""
 
     parts: Parts = field(kw_only=True)
+    effective: Effective = field(kw_only=True)
     kernels: Kernels = field(kw_only=True)
+
+    def prepare(self, inside: bool) -> None:
+        """See what observers want; the loop compares no largest values."""
+        super().prepare(inside=False)
 
     def _choice(self, dt: float) -> Choice:
         """One loop for all steps, that has the past."""
         if not self._choices:
-            case = Case(self.problem, self.motion, self.kernels.dt)
-            self.loop = MemoryLoop(self.parts, self.motion, case.rooted, self.kernels)
+            self.loop = MemoryLoop(self.parts, self.motion, self.effective, self.kernels)
             rule = next(r for r in RULES if r.name == "dissection")
-            self._choices[dt] = Choice(rule, self.loop, case.rooted.inverse.factor.name)
+            self._choices[dt] = Choice(rule, self.loop, self.effective.inverse.factor.name)
         return next(iter(self._choices.values()))
 
 
@@ -174,11 +183,13 @@ _KEPT: dict[str, Kernels] = {}
 """The memory of the last ground, by its digest: runs that are forks of this one have it."""
 
 
-def integrate_with_memory(
+def on_memory(
     problem: Problem, tolerance: float, shelf: Shelf, observers: Sequence[Observer] = (),
     progress: Progress | None = None,
-) -> History:  # fmt: skip
-    """Integrate a problem on a ground whose memory stands on a shelf, made where it is not there.
+) -> Callable[[], History]:  # fmt: skip
+    """The integration of a problem on a ground whose memory stands on a shelf, ready to run.
+
+    The memory is made where it is not there; the first motion on it runs twice, for its error.
 
     Raises
     ------
@@ -192,10 +203,17 @@ def integrate_with_memory(
     refuse_reduction(problem)
     started, share = time.perf_counter(), SHARE
     parts = parts_of(problem, _asked(problem, observers))
+    near, dt = parts.near, parts.ground.dt
+    A, end = effective_matrix(near, dt), 1.0 - near.scheme.alpha_f
+    effective = effective_of(near, A, dt, end, least=0)
+    if not fits(near, effective) or effective.R.any():
+        raise NoReduction("kernel.stepping.memory-without-mass")
     for _ in range(TRIES):
         kernels = _memory(parts.ground, share * tolerance, shelf, len(problem.times) - 1)
         if np.isnan(kernels.estimate):
-            first = MemoryIntegration(parts.near, (), progress, parts=parts, kernels=kernels)
+            first = MemoryIntegration(
+                near, parts=parts, effective=effective, kernels=kernels
+            )  # fmt: skip
             first.run()
             kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
             with shelf.held():
@@ -206,12 +224,18 @@ def integrate_with_memory(
         share *= 0.5 * tolerance / kernels.estimate
     else:
         raise NoReduction("kernel.stepping.memory-inexact", estimate=kernels.estimate)
+    run = MemoryIntegration(
+        near, observers, progress, parts=parts, effective=effective, kernels=kernels
+    )  # fmt: skip
     prepared = time.perf_counter() - started
-    run = MemoryIntegration(parts.near, observers, progress, parts=parts, kernels=kernels)
-    history = run.run()
-    history.loop = "memory"
-    history.reduction = Reduction(kernels.vectors, kernels.estimate, None, prepared)
-    return history
+
+    def integrated() -> History:
+        history = run.run()
+        history.loop = "memory"
+        history.reduction = Reduction(kernels.vectors, kernels.estimate, None, prepared)
+        return history
+
+    return integrated
 
 
 def _asked(problem: Problem, observers: Sequence[Observer]) -> BoolArray:
