@@ -89,22 +89,28 @@ class MemoryLoop(InterleavedLoop):
 
     def _steps(self, block: PreparedBlock, kept: Recorder) -> Outcome:
         """Each step of a block: the ground's motion under old forces, then all together."""
-        x, n, worst = block.motion, block.plan.newmark, 0
-        sweep = sweep_of(block.plan, len(x.u), block.factors.shape[1])
+        x, n, worst, loads = block.motion, block.plan.newmark, 0, block.factors.shape[1] + 1
+        # one load more, which acts on nothing but the jumps: a step's own motion of the ground
+        lift = np.zeros((len(x.f), loads))
+        forces = np.vstack([block.plan.forces, np.zeros(len(x.u))])
+        plan = block.plan._replace(forces=forces, lift=lift)
+        products = block.products._replace(loads=np.append(block.products.loads, 0.0))
+        sweep, unit = sweep_of(plan, len(x.u), loads), np.array([[0.0], [1.0]])
         self._ground = np.zeros((len(kept.row), *self.moved.shape))
         for k in range(len(kept.row)):
             one = slice(k, k + 1)
             tap = kept.tap._replace(row=kept.tap.row[one])
             to = kept._replace(
-                row=kept.row[one], energies=kept.energies[one], work=kept.work[:, one], tap=tap
-            )
+                row=kept.row[one], energies=kept.energies[one], tap=tap,
+                work=np.zeros((2, 1, loads)),
+            )  # fmt: skip
             before = x.f.copy()
             brought = self.past.next(before - self.start).astype(float)
-            np.add(x.delta, brought, out=x.delta)
+            lift[:, -1] = brought
+            factors = np.hstack([block.factors[k : k + 2], unit])
             _, turns, residual = run_interleaved(
-                block.plan, self.joints, x, block.products, sweep, self.newton,
-                block.factors[k : k + 2], to,
-            )  # fmt: skip
+                plan, self.joints, x, products, sweep, self.newton, factors, to
+            )
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
@@ -114,7 +120,7 @@ class MemoryLoop(InterleavedLoop):
             self.moved[1], self.moved[2] = advanced(n, step, self.moved[1], self.moved[2])
             self._ground[k] = self.moved
             self.largest = max(self.largest, float(np.abs(x.delta).max()))
-            x.energies[ELASTIC] += 0.5 * self.at @ x.f
+            x.energies[ELASTIC] += 0.5 * (self.at - brought) @ x.f
             x.energies[EXTERNAL] += 0.5 * (before + x.f) @ step
             kept.energies[k] = x.energies
         return len(kept.row), worst, 0.0
