@@ -137,6 +137,8 @@ def _integrated(
         raise entries.error("operators.dynamics.reduction-or-newton")
     from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 
+    if shelf is not None and not shelf.there:
+        line.note("operators.dynamics.memory-is-made")
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
 
 

@@ -5,7 +5,7 @@ act on the jumps. All else is stepped as it is, by the loop of large problems, a
 """
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from typing import Protocol
@@ -14,8 +14,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.stepping.choose import RULES, Case, Choice
-from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.choose import RULES, Choice
+from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import advanced
 from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
@@ -29,7 +29,12 @@ from ssilang.kernel.stepping.rests.memory.kernels import (
 )
 from ssilang.kernel.stepping.rests.memory.parts import Ground, Parts, parts_of
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
-from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, PreparedBlock, Seen
+from ssilang.kernel.stepping.rests.sparse.interleaved import (
+    InterleavedLoop,
+    PreparedBlock,
+    Seen,
+    fits,
+)
 from ssilang.kernel.stepping.rests.sparse.interleaved_loop import run_interleaved, sweep_of
 from ssilang.kernel.stepping.run import History, Integration, Progress
 from ssilang.kernel.stepping.snapshot import Observer
@@ -84,22 +89,28 @@ class MemoryLoop(InterleavedLoop):
 
     def _steps(self, block: PreparedBlock, kept: Recorder) -> Outcome:
         """Each step of a block: the ground's motion under old forces, then all together."""
-        x, n, worst = block.motion, block.plan.newmark, 0
-        sweep = sweep_of(block.plan, len(x.u), block.factors.shape[1])
+        x, n, worst, loads = block.motion, block.plan.newmark, 0, block.factors.shape[1] + 1
+        # one load more, which acts on nothing but the jumps: a step's own motion of the ground
+        lift = np.zeros((len(x.f), loads))
+        forces = np.vstack([block.plan.forces, np.zeros(len(x.u))])
+        plan = block.plan._replace(forces=forces, lift=lift)
+        products = block.products._replace(loads=np.append(block.products.loads, 0.0))
+        sweep, unit = sweep_of(plan, len(x.u), loads), np.array([[0.0], [1.0]])
         self._ground = np.zeros((len(kept.row), *self.moved.shape))
         for k in range(len(kept.row)):
             one = slice(k, k + 1)
             tap = kept.tap._replace(row=kept.tap.row[one])
             to = kept._replace(
-                row=kept.row[one], energies=kept.energies[one], work=kept.work[:, one], tap=tap
-            )
+                row=kept.row[one], energies=kept.energies[one], tap=tap,
+                work=np.zeros((2, 1, loads)),
+            )  # fmt: skip
             before = x.f.copy()
             brought = self.past.next(before - self.start).astype(float)
-            np.add(x.delta, brought, out=x.delta)
+            lift[:, -1] = brought
+            factors = np.hstack([block.factors[k : k + 2], unit])
             _, turns, residual = run_interleaved(
-                block.plan, self.joints, x, block.products, sweep, self.newton,
-                block.factors[k : k + 2], to,
-            )  # fmt: skip
+                plan, self.joints, x, products, sweep, self.newton, factors, to
+            )
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
@@ -109,7 +120,7 @@ class MemoryLoop(InterleavedLoop):
             self.moved[1], self.moved[2] = advanced(n, step, self.moved[1], self.moved[2])
             self._ground[k] = self.moved
             self.largest = max(self.largest, float(np.abs(x.delta).max()))
-            x.energies[ELASTIC] += 0.5 * self.at @ x.f
+            x.energies[ELASTIC] += 0.5 * (self.at - brought) @ x.f
             x.energies[EXTERNAL] += 0.5 * (before + x.f) @ step
             kept.energies[k] = x.energies
         return len(kept.row), worst, 0.0
@@ -158,15 +169,19 @@ class MemoryIntegration(Integration):
     """An integration whose loop is that of a ground's memory."""
 
     parts: Parts = field(kw_only=True)
+    effective: Effective = field(kw_only=True)
     kernels: Kernels = field(kw_only=True)
+
+    def prepare(self, inside: bool) -> None:
+        """See what observers want; the loop compares no largest values."""
+        super().prepare(inside=False)
 
     def _choice(self, dt: float) -> Choice:
         """One loop for all steps, that has the past."""
         if not self._choices:
-            case = Case(self.problem, self.motion, self.kernels.dt)
-            self.loop = MemoryLoop(self.parts, self.motion, case.rooted, self.kernels)
+            self.loop = MemoryLoop(self.parts, self.motion, self.effective, self.kernels)
             rule = next(r for r in RULES if r.name == "dissection")
-            self._choices[dt] = Choice(rule, self.loop, case.rooted.inverse.factor.name)
+            self._choices[dt] = Choice(rule, self.loop, self.effective.inverse.factor.name)
         return next(iter(self._choices.values()))
 
 
@@ -174,11 +189,13 @@ _KEPT: dict[str, Kernels] = {}
 """The memory of the last ground, by its digest: runs that are forks of this one have it."""
 
 
-def integrate_with_memory(
+def on_memory(
     problem: Problem, tolerance: float, shelf: Shelf, observers: Sequence[Observer] = (),
     progress: Progress | None = None,
-) -> History:  # fmt: skip
-    """Integrate a problem on a ground whose memory stands on a shelf, made where it is not there.
+) -> Callable[[], History]:  # fmt: skip
+    """The integration of a problem on a ground whose memory stands on a shelf, ready to run.
+
+    The memory is made where it is not there; the first motion on it runs twice, for its error.
 
     Raises
     ------
@@ -192,10 +209,17 @@ def integrate_with_memory(
     refuse_reduction(problem)
     started, share = time.perf_counter(), SHARE
     parts = parts_of(problem, _asked(problem, observers))
+    near, dt = parts.near, parts.ground.dt
+    A, end = effective_matrix(near, dt), 1.0 - near.scheme.alpha_f
+    effective = effective_of(near, A, dt, end, least=0)
+    if not fits(near, effective) or effective.R.any():
+        raise NoReduction("kernel.stepping.memory-without-mass")
     for _ in range(TRIES):
         kernels = _memory(parts.ground, share * tolerance, shelf, len(problem.times) - 1)
         if np.isnan(kernels.estimate):
-            first = MemoryIntegration(parts.near, (), progress, parts=parts, kernels=kernels)
+            first = MemoryIntegration(
+                near, parts=parts, effective=effective, kernels=kernels
+            )  # fmt: skip
             first.run()
             kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
             with shelf.held():
@@ -206,12 +230,18 @@ def integrate_with_memory(
         share *= 0.5 * tolerance / kernels.estimate
     else:
         raise NoReduction("kernel.stepping.memory-inexact", estimate=kernels.estimate)
+    run = MemoryIntegration(
+        near, observers, progress, parts=parts, effective=effective, kernels=kernels
+    )  # fmt: skip
     prepared = time.perf_counter() - started
-    run = MemoryIntegration(parts.near, observers, progress, parts=parts, kernels=kernels)
-    history = run.run()
-    history.loop = "memory"
-    history.reduction = Reduction(kernels.vectors, kernels.estimate, None, prepared)
-    return history
+
+    def integrated() -> History:
+        history = run.run()
+        history.loop = "memory"
+        history.reduction = Reduction(kernels.vectors, kernels.estimate, None, prepared)
+        return history
+
+    return integrated
 
 
 def _asked(problem: Problem, observers: Sequence[Observer]) -> BoolArray:

@@ -345,9 +345,9 @@ def integrate_reduced(
         if shelf is None:
             history = ReducedIntegration(problem, observers, progress, tolerance).run()
         else:
-            from ssilang.kernel.stepping.rests.memory.run import integrate_with_memory
+            from ssilang.kernel.stepping.rests.memory.run import on_memory
 
-            return integrate_with_memory(problem, tolerance, shelf, observers, progress)
+            integrated = on_memory(problem, tolerance, shelf, observers, progress)
     except NoReduction as reason:
         spent = time.perf_counter() - started
         history = integrate(problem, observers, progress)
@@ -356,6 +356,8 @@ def integrate_reduced(
     except BaseException:
         _close(observers)
         raise
+    if shelf is not None:
+        return integrated()
     _close(observers)
     return history
 

@@ -12,6 +12,7 @@ from ssilang.io.memory_file import MemoryFile
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.scientific import spla
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import closed_stiffness
 from ssilang.kernel.stepping.rests.memory import run
@@ -212,6 +213,10 @@ def _unbalanced(problem):
     return []
 
 
+def _extremes(problem):
+    return [Extremes(problem=problem)]
+
+
 def _uneven(problem):
     problem.times[-1] += 1e-3
     return []
@@ -222,6 +227,7 @@ def _uneven(problem):
     [
         (_inside, "results are asked of"),
         (_fields, "results are asked of"),
+        (_extremes, "results are asked of"),
         (_moving, "supports move"),
         (_thrown, "does not start at rest"),
         (_unbalanced, "does not start at rest"),
@@ -234,6 +240,23 @@ def test_what_a_memory_does_not_describe_runs_whole_and_says_why(file, spoil, to
     history = integrate_reduced(problem, 1e-2, observers, shelf=file)
     assert told in str(history.reduction.refused)
     assert (history.loop, file.path.exists()) == ("condensed", False)
+
+
+def test_a_building_without_mass_runs_whole(file):
+    problem = record(strength=0.01)
+    held = np.ones(problem.numbering.size)
+    held[np.union1d(building(problem), _upper(problem))] = 0.0
+    problem = replace(problem, M=sp.csr_array(sp.diags_array(held) @ problem.M), C=0.0 * problem.C)
+    history = integrate_reduced(problem, 1e-2, [], shelf=file)
+    assert "what stands on the ground has no mass" in str(history.reduction.refused)
+
+
+def test_largest_values_come_from_the_whole_model(file):
+    """The loop compares none: those that nobody asked for stay unknown."""
+    problem = record()
+    unasked = Extremes(problem=problem, asked=False)
+    assert integrate_reduced(problem, 1e-4, [unasked], shelf=file).loop == "memory"
+    assert not unasked.known
 
 
 def test_bodies_that_hang_together_have_no_ground(file):
