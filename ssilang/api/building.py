@@ -427,7 +427,6 @@ class Motion:
     def _cells(self, joint: Joint) -> tuple[Any, slice]:
         """The kernel's cells of a joint, and which of its points they are."""
         first, interface = 0, self.track.problem.interface
-        assert interface is not None
         for cells in interface.joints:
             last = first + cells.weights.size
             if cells.zone is joint.zone:

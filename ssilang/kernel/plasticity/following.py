@@ -221,7 +221,7 @@ class PathRun:
     """A calculation along its path: what stands at the end of the last accepted step."""
 
     def __init__(self, run: BulkRun) -> None:
-        if run.problem.contact is not None:
+        if run.problem.contact:
             raise KernelError("kernel.plasticity.unilateral-relations-mini-maxi")
         self.run = run
         self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)

@@ -105,7 +105,7 @@ class Case:
     @cached_property
     def stops(self) -> "ContactLoop | None":
         """The compiled loop of unilateral relations, if it can run the problem."""
-        if self.problem.contact is None:
+        if not self.problem.contact:
             return None
         from ssilang.kernel.contact.modal import contact_loop, takes
 
@@ -142,7 +142,7 @@ def _full_newton(case: Case) -> Loop:
 
 def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
     p, impact = case.problem, None
-    if p.contact is not None and not p.scheme.conserving:
+    if p.contact and not p.scheme.conserving:
         from ssilang.kernel.contact.impact import ImpactRule
 
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
@@ -169,8 +169,7 @@ RULES = (
         "adaptive", "adaptive",
         "steps adapted to contact, with joints or unilateral relations",
         "kernel.stepping.loop-adaptive",
-        lambda c: c.problem.scheme.adaptive
-        and not (c.problem.interface is None and c.problem.contact is None),
+        lambda c: c.problem.scheme.adaptive and bool(c.problem.interface or c.problem.contact),
         _adaptive, renewable=True,
     ),
     Rule(
@@ -198,7 +197,7 @@ RULES = (
         "relations", "condensed",
         "unilateral relations",
         "kernel.stepping.loop-relations",
-        lambda c: c.problem.contact is not None,
+        lambda c: bool(c.problem.contact),
         _condensed, renewable=True,
     ),
     Rule(
@@ -250,7 +249,7 @@ class Choice:
 
 def method_of(rule: Rule, problem: Problem) -> Sentence:
     """What is said of a problem's loop."""
-    return Sentence(rule.said, q=0 if problem.interface is None else problem.interface.size)
+    return Sentence(rule.said, q=problem.interface.size)
 
 
 def rule_of(case: Case, renewable: bool = False) -> Rule:
@@ -301,10 +300,9 @@ def refuse_combinations(problem: Problem, full: bool) -> None:
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full):
         raise KernelError("kernel.stepping.adapted-steps-condensed-interface")
-    plain = contact is None or (contact.friction is None and contact.associated)
-    if scheme.conserving and not plain:
+    if scheme.conserving and (contact.friction or not contact.associated):
         raise KernelError("kernel.stepping.conserving-step-no-friction")
-    codes = () if problem.interface is None else problem.interface.codes
+    codes = problem.interface.codes
     if scheme.conserving and np.isin(codes, (LawCode.LEAD, LawCode.PENDULUM)).any():
         raise KernelError("kernel.stepping.conserving-step-no-bearings")
 

@@ -34,19 +34,15 @@ class Snapshot:
     @property
     def _multipliers(self) -> FloatArray:
         """Reactions of the equalities, D^T of which is what they push by."""
-        rest = self.reaction
-        if self.problem.contact is not None:
-            rest = rest - self.problem.contact.pushing.T @ self.contact
+        rest = self.reaction - self.problem.contact.pushing.T @ self.contact
         return self.problem.constraints.multipliers(rest)
 
     @property
     def displacement(self) -> NodeField:
         """Displacement, with the multipliers LX of the conditions."""
-        nodes, values, contact = self.problem.multipliers, -self._multipliers, self.problem.contact
-        if contact is not None:
-            nodes = np.concatenate([nodes, contact.multipliers])
-            values = np.concatenate([values, contact.lagrange(self.contact)])
-        pair = (nodes, values)
+        contact = self.problem.contact
+        nodes = np.concatenate([self.problem.multipliers, contact.multipliers])
+        pair = nodes, np.concatenate([-self._multipliers, contact.lagrange(self.contact)])
         return vector_to_field(self.u, self.problem.numbering, multipliers=pair)
 
     @property
@@ -62,11 +58,8 @@ class Snapshot:
     @property
     def support_forces(self) -> FloatArray:
         """Forces (n,) of the conditions on the body."""
-        rows = self.problem.constraints.D
-        forces = rows.T @ self._multipliers
-        if self.problem.contact is not None:
-            forces = forces + self.problem.contact.pushing.T @ self.contact
-        return np.asarray(forces)
+        pushed = self.problem.contact.pushing.T @ self.contact
+        return np.asarray(self.problem.constraints.D.T @ self._multipliers + pushed)
 
     @property
     def reactions(self) -> NodeField:
@@ -77,19 +70,19 @@ class Snapshot:
     def jumps(self) -> CellField | None:
         """Jumps at the joints' points, None without joints."""
         joints = self.problem.interface
-        return None if joints is None else interface_field(joints, self.w, "jump")
+        return interface_field(joints, self.w, "jump") if joints else None
 
     @property
     def tractions(self) -> CellField | None:
         """Tractions at the joints' points, None without joints."""
         joints = self.problem.interface
-        return None if joints is None else interface_field(joints, self.t, "traction")
+        return interface_field(joints, self.t, "traction") if joints else None
 
     @property
     def plastic_strains(self) -> CellField | None:
         """Plastic jumps of the joints, None without joints."""
         joints = self.problem.interface
-        if joints is None:
+        if not joints:
             return None
         return interface_field(joints, plastic_jumps(joints, self.w, self.t), "plastic jump")
 
@@ -97,7 +90,7 @@ class Snapshot:
     def variables(self) -> CellField | None:
         """Internal variables of the joints, None without joints."""
         joints = self.problem.interface
-        return None if joints is None else state_field(joints, self.state, self.w, self.t)
+        return state_field(joints, self.state, self.w, self.t) if joints else None
 
 
 def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:

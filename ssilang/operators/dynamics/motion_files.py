@@ -178,9 +178,7 @@ def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceHi
     if asked is None:
         return None
 
-    known, named = problem.multipliers, {}
-    if problem.contact is not None:
-        known = np.concatenate([known, problem.contact.multipliers])
+    known, named = np.concatenate([problem.multipliers, problem.contact.multipliers]), {}
     for index, _ in asked.table.items():
         relations = asked.get(name := str(index).rstrip()).relations
         if not relations:

@@ -148,9 +148,8 @@ def check_fields(problem, now):
             found = field.values_at(names[field is fields[3]], problem.numbering.nodes[at])
             near(found, values[at], np.abs(values).max())
     rows, nodes = problem.constraints.C.toarray(), problem.multipliers
-    if contact is not None:
-        rows = np.vstack([rows, contact.sense[:, None] * contact.G.toarray()])
-        nodes = np.concatenate([nodes, contact.multipliers])
+    rows = np.vstack([rows, contact.sense[:, None] * contact.G.toarray()])
+    nodes = np.concatenate([nodes, contact.multipliers])
     near(-now.displacement.values_at("LX", nodes) @ rows, now.reaction, push)
 
 
@@ -161,7 +160,7 @@ def check_steps(problem, times, energies, instants, static=False, follows=None):
     """
     p, s = problem, problem.scheme
     K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
-    G = np.zeros((0, len(K))) if p.contact is None else p.contact.G.toarray()
+    G = p.contact.G.toarray()
     if static:
         M, C = 0.0 * M, 0.0 * C
     free = la.null_space(rows)

@@ -137,7 +137,7 @@ def _model_of(problem: Problem) -> str:
     """A digest of matrices and joints."""
     p = problem
     sparse, dense = [p.K, p.M, p.C, p.constraints.T], list[FloatArray]()
-    if p.interface is not None:
+    if p.interface:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
     return digest(sparse, dense)

@@ -203,7 +203,7 @@ class Trace:
         )  # fmt: skip
         self.energies = np.zeros((len(p.times), N_ENERGIES))
         self.energies[0] = energies
-        self._joints = p.joints
+        self._joints = p.interface.points
         self._take(self.model)
 
     def _take(self, m: ReducedModel) -> None:
