@@ -574,8 +574,8 @@ def point_history(
     sizes = [j.weights.shape for j in interface.joints]
     if not (0 <= zone < len(sizes) and 0 <= cell < sizes[zone][0] and 0 <= point < sizes[zone][1]):
         return None
-    j, before = interface.joints[zone], sum(a * b for a, b in sizes[:zone])
-    at = before + cell * sizes[zone][1] + point
+    j, own = interface.placed[zone]
+    at = own.start + cell * sizes[zone][1] + point
     w, t, state = (np.ascontiguousarray(x[:, at]) for x in (rows.w, rows.t, rows.state))
     bed = next((b for b in interface.beds if b.owner == at), None)
     joints = (rows.w, rows.t, rows.state)

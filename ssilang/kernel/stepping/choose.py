@@ -22,7 +22,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.sparse import iterated
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
+from ssilang.kernel.stepping.rests.sparse.loop import SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import View
 from ssilang.messages.message import Sentence
@@ -146,8 +146,7 @@ def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
         from ssilang.kernel.contact.impact import ImpactRule
 
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
-    n = newmark_of(p.scheme, case.dt)
-    return SparseSteps(SparseLoop(p, case.motion), solver, n, impact)
+    return SparseSteps(p, case.motion, solver, newmark_of(p.scheme, case.dt), impact)
 
 
 @dataclass(frozen=True)

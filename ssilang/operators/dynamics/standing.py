@@ -469,13 +469,12 @@ def unequal_joints(start: Start) -> Told:
         return
     label, numbering = bodies_of(start.problem), start.problem.numbering
     known: dict[object, tuple[float, int]] = {}
-    ends = np.cumsum([0, *(j.weights.size for j in joints.joints)])
-    for joint, first, last in zip(joints.joints, ends, ends[1:], strict=False):
+    for joint, rows in joints.placed:
         node = int(joint.zone.cells.nodes.resolve(joint.upper).ravel()[0])
         body = int(label[(numbering.nodes == node).argmax()])
         normal = tuple(joint.frames[0, 0, -1].round(3).tolist())
         key = body, joint.zone.element, joint.zone.behaviour, normal
-        kn = float(np.median(joints.parameters[first:last, Parameter.KN]))
+        kn = float(np.median(joints.parameters[rows, Parameter.KN]))
         other, there = known.setdefault(key, (kn, node))
         if max(kn, other) > UNEQUAL * min(kn, other):
             told = {"node": numbering.table.told(node), "there": numbering.table.told(there)}

@@ -40,7 +40,7 @@ from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.rests.reduced import run as reduced
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome
+from ssilang.kernel.stepping.rests.sparse.loop import SparseSteps, StepOutcome
 from ssilang.kernel.stepping.run import Integration, integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
@@ -369,11 +369,11 @@ def test_steps_along_a_path_are_equilibria_under_the_loads_found(way, seed):
 
 def parts_of(patch):
     """What adapted steps are made of: a list that fills with (end, state) of accepted parts."""
-    parts, run, step = [], SparseLoop.run, AdaptiveLoop._step
+    parts, run, step = [], SparseSteps.run, AdaptiveLoop._step
 
-    def run_one(loop, solver, n, *given):
-        outcome = run(loop, solver, n, *given)
-        parts.append((n.dt, Motion(*(x.copy() for x in loop.motion))))
+    def run_one(loop, *given):
+        outcome = run(loop, *given)
+        parts.append((loop.newmark.dt, Motion(*(x.copy() for x in loop.motion))))
         return outcome
 
     def step_one(loop, *given):
@@ -383,7 +383,7 @@ def parts_of(patch):
             del parts[tried]  # it was split
         return outcome
 
-    patch.setattr(SparseLoop, "run", run_one)
+    patch.setattr(SparseSteps, "run", run_one)
     patch.setattr(AdaptiveLoop, "_step", step_one)
     return parts
 

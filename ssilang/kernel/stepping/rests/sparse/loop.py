@@ -126,53 +126,17 @@ class Products(NamedTuple):
     Jt: Any
 
 
-def products_of(p: Problem) -> Products:
-    """Matrices of a problem for a loop of many steps."""
-    J = p.interface.J
-    return Products(*map(for_products, (p.K, p.M, p.C, p.constraints.C, J, J.T)))
-
-
 @dataclass(eq=False)
 class SparseLoop:
-    """Steps of one dt with a solver for each."""
+    """What steps are made of, beside a solver for each."""
 
     problem: Problem
     motion: Motion
 
     def __post_init__(self) -> None:
-        self._damped = self.problem.C.nnz > 0
-        self._by = products_of(self.problem)
-
-    def run(
-        self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
-        impact: ImpactRule | None = None,
-    ) -> Outcome:  # fmt: skip
-        """Steps of one dt; `impact` corrects velocities of unilateral relations."""
-        p, worst, contact, r = self.problem, 0, self.problem.contact, recorder
-        self._begin()
-        loads = factors @ p.loading.forces.T
-        imposed = factors @ p.loading.imposed.T
-        for k in range(len(r.row)):
-            rest = self._predict(n, loads[k], loads[k + 1])
-            dd = imposed[k + 1] - self._by.D @ self.motion.u
-            pushed = self.motion.contact.copy()
-            ends = factors[k : k + 2] if n.before else factors[k + 1]
-            outcome = solver.solve(self.motion, rest, dd, self._gap(ends))
-            if outcome.turns <= 0:
-                return k, outcome.turns, outcome.residual
-            worst, work = max(worst, outcome.turns), None
-            self._advance(n, outcome.du)
-            if impact is not None:
-                rate = contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
-                work = impact.correct(self.motion, rate)
-            before = balance(self.motion.energies)
-            if not np.isfinite(self.motion.u).all():
-                return k, -1, np.inf
-            self._account(n, outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
-            if work is not None:
-                lose(self.motion, work, before)
-            end_of_step(self.motion, r, k)
-        return len(r.row), worst, 0.0
+        p, J = self.problem, self.problem.interface.J
+        self._damped = p.C.nnz > 0
+        self._by = Products(*map(for_products, (p.K, p.M, p.C, p.constraints.C, J, J.T)))
 
     def _gap(self, factors: FloatArray) -> FloatArray:
         contact = self.problem.contact
@@ -294,24 +258,47 @@ def watch_whole(m: Motion, to: Peaks, k: int) -> None:
 
 
 @dataclass(eq=False)
-class SparseSteps:
-    """Steps of one dt of a sparse loop with one solver."""
+class SparseSteps(SparseLoop):
+    """Steps of one dt with one solver; `impact` corrects velocities of unilateral relations."""
 
     remembered = ("solver",)
 
-    loop: SparseLoop
     solver: StepSolver
     newmark: Newmark
     impact: ImpactRule | None = None
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""
-        return self.loop.run(self.solver, self.newmark, factors, recorder, self.impact)
+        p, m, n, worst = self.problem, self.motion, self.newmark, 0
+        self._begin()
+        loads = factors @ p.loading.forces.T
+        imposed = factors @ p.loading.imposed.T
+        for k in range(len(recorder.row)):
+            rest = self._predict(n, loads[k], loads[k + 1])
+            dd = imposed[k + 1] - self._by.D @ m.u
+            pushed = m.contact.copy()
+            ends = factors[k : k + 2] if n.before else factors[k + 1]
+            outcome = self.solver.solve(m, rest, dd, self._gap(ends))
+            if outcome.turns <= 0:
+                return k, outcome.turns, outcome.residual
+            worst, work = max(worst, outcome.turns), None
+            self._advance(n, outcome.du)
+            if self.impact is not None:
+                rate = p.contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
+                work = self.impact.correct(m, rate)
+            before = balance(m.energies)
+            if not np.isfinite(m.u).all():
+                return k, -1, np.inf
+            self._account(n, outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
+            if work is not None:
+                lose(m, work, before)
+            end_of_step(m, recorder, k)
+        return len(recorder.row), worst, 0.0
 
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""
-        self.loop.problem = problem
+        self.problem = problem
 
     def view(self, unknowns: IntArray) -> View:
         """Unknowns as they are."""
-        return whole_view(self.loop.motion, unknowns)
+        return whole_view(self.motion, unknowns)
