@@ -288,11 +288,8 @@ class PathRun:
     def save(self, time: float) -> None:
         """Hand the state to all observers."""
         run = self.run
-        s = snapshot_of(run.problem, run.motion, 0)
-        snapshot = BulkSnapshot(
-            s.problem, self.count, time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
-            run.bulk, run.state,
-        )  # fmt: skip
+        now = vars(snapshot_of(run.problem, run.motion, 0)) | {"step": self.count, "time": time}
+        snapshot = BulkSnapshot(**now, bulk=run.bulk, bulk_state=run.state)
         for observer in run.observers:
             if self.count > 0 or observer.wanted[0]:
                 observer.receive(snapshot)

@@ -69,9 +69,6 @@ def hand_over(
     if not wanting:
         return
     s = snapshot_of(problem, motion, step)
-    snapshot = BulkSnapshot(
-        s.problem, s.step, s.time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
-        bulk, state,
-    )  # fmt: skip
+    snapshot = BulkSnapshot(**vars(s), bulk=bulk, bulk_state=state)
     for observer in wanting:
         observer.receive(snapshot)

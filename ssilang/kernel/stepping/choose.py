@@ -156,11 +156,11 @@ class Rule:
     name: str
     loop: str  # the word of the summary
     when: str  # the condition, for the table
-    said: str  # code of what is said of the choice; `q` is the number of the interface's unknowns
+    said: str  # code of what is said of the choice; `q` is the number of the interface's unknowns,
+    # `relations` whether there are unilateral ones
     fits: Callable[[Case], bool]
     make: Callable[[Case], Loop]
     renewable: bool = False  # whether loads may change from step to step (CHARMECA)
-    factorises: bool = False  # whether the step's matrix is factorised at each iteration
 
 
 RULES = (
@@ -183,7 +183,7 @@ RULES = (
         "Newton's method on all unknowns is asked for",
         "kernel.stepping.loop-full-newton",
         lambda c: c.full,
-        _full_newton, renewable=True, factorises=True,
+        _full_newton, renewable=True,
     ),
     Rule(
         "relations on modes", "compiled",
@@ -191,13 +191,6 @@ RULES = (
         "kernel.stepping.loop-relations-on-modes",
         lambda c: c.stops is not None,
         lambda c: cast("ContactLoop", c.stops),
-    ),
-    Rule(
-        "relations", "condensed",
-        "unilateral relations",
-        "kernel.stepping.loop-relations",
-        lambda c: bool(c.problem.contact),
-        _condensed, renewable=True,
     ),
     Rule(
         "springs", "compiled",
@@ -248,7 +241,7 @@ class Choice:
 
 def method_of(rule: Rule, problem: Problem) -> Sentence:
     """What is said of a problem's loop."""
-    return Sentence(rule.said, q=problem.interface.size)
+    return Sentence(rule.said, q=problem.interface.size, relations=bool(problem.contact))
 
 
 def rule_of(case: Case, renewable: bool = False) -> Rule:
@@ -269,17 +262,13 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     loop = rule.make(case)
     if rule.make is _iterated:
         solver = MULTIGRID
-    elif rule.factorises:
-        solver = _each_time(case.problem)
+    elif rule.make is _full_newton:  # factorised at each iteration
+        n = case.problem.constraints.T.shape[1]
+        solver = PETSC if goes_to_petsc(case.problem.solver, n) else "SuperLU"
     else:
         used = case.rooted if isinstance(loop, InterleavedLoop) else case.effective
         solver = used.inverse.factor.name
     return Choice(rule, loop, solver)
-
-
-def _each_time(problem: Problem) -> str:
-    """The solver of a loop that factorises at each iteration."""
-    return PETSC if goes_to_petsc(problem.solver, problem.constraints.T.shape[1]) else "SuperLU"
 
 
 def only(name: str) -> tuple[Rule, ...]:

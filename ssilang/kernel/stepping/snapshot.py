@@ -12,7 +12,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.interface import interface_field, plastic_jumps, state_field
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.state import Motion, Recorder
+from ssilang.kernel.stepping.state import WHOLE, Motion, Recorder
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,18 +95,14 @@ class Snapshot:
 
 def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:
     """A copy of the state at a step."""
-    m = motion
-    parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state, m.contact)
-    return Snapshot(problem, step, float(problem.times[step]), *(x.copy() for x in parts))
+    parts = (getattr(motion, name).copy() for name in WHOLE)
+    return Snapshot(problem, step, float(problem.times[step]), *parts)
 
 
 def kept_instant(problem: Problem, recorder: Recorder, row: int, step: int) -> Snapshot:
     """The instant in a row of what was kept."""
-    r = recorder
-    return Snapshot(
-        problem, step, float(problem.times[step]), r.u[row], r.v[row], r.a[row], r.reaction[row],
-        r.w[row], r.t[row], r.state[row], r.contact[row],
-    )  # fmt: skip
+    parts = (getattr(recorder, name)[row] for name in WHOLE)
+    return Snapshot(problem, step, float(problem.times[step]), *parts)
 
 
 class Observer(Protocol):
