@@ -521,6 +521,8 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
     up), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump), LAM3, EPCO (plastic compression,
     less than zero in EPCO). Macro-elements whose ground yields: see `bed_results`.
     """
+    if not interface:  # nothing compiled is loaded
+        return CellField((), "VARIABLES INTERNES")
     blocks = []
     arrays = (interface.codes, w, t, state, interface.parameters)
     counted = state.copy()

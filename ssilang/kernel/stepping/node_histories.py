@@ -174,11 +174,9 @@ class NodeHistories(Track):
             parts[MULTIPLIER] = NodeValues(self.followed.nodes, self.followed.values(rows)[0])
         return NodeField(numbering.table, parts, "DIFFUS")
 
-    def cell_field(self, row: int, name: str) -> CellField | None:
-        """`jump`, `traction` or `variables` of the joints at an instant, None without joints."""
+    def cell_field(self, row: int, name: str) -> CellField:
+        """`jump`, `traction` or `variables` of the joints at an instant."""
         joints = self.problem.interface
-        if not joints:
-            return None
         w, t, state = (x[0] for x in self.instant(row).joints)
         if name == "variables":
             return state_field(joints, state, w, t)

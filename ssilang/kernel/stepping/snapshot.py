@@ -67,30 +67,25 @@ class Snapshot:
         return vector_to_field(self.support_forces, self.problem.numbering, dual=True)
 
     @property
-    def jumps(self) -> CellField | None:
-        """Jumps at the joints' points, None without joints."""
-        joints = self.problem.interface
-        return interface_field(joints, self.w, "jump") if joints else None
+    def jumps(self) -> CellField:
+        """Jumps at the joints' points."""
+        return interface_field(self.problem.interface, self.w, "jump")
 
     @property
-    def tractions(self) -> CellField | None:
-        """Tractions at the joints' points, None without joints."""
-        joints = self.problem.interface
-        return interface_field(joints, self.t, "traction") if joints else None
+    def tractions(self) -> CellField:
+        """Tractions at the joints' points."""
+        return interface_field(self.problem.interface, self.t, "traction")
 
     @property
-    def plastic_strains(self) -> CellField | None:
-        """Plastic jumps of the joints, None without joints."""
+    def plastic_strains(self) -> CellField:
+        """Plastic jumps of the joints."""
         joints = self.problem.interface
-        if not joints:
-            return None
         return interface_field(joints, plastic_jumps(joints, self.w, self.t), "plastic jump")
 
     @property
-    def variables(self) -> CellField | None:
-        """Internal variables of the joints, None without joints."""
-        joints = self.problem.interface
-        return state_field(joints, self.state, self.w, self.t) if joints else None
+    def variables(self) -> CellField:
+        """Internal variables of the joints."""
+        return state_field(self.problem.interface, self.state, self.w, self.t)
 
 
 def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:

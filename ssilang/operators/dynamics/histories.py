@@ -100,7 +100,7 @@ class TableObserver(Receiver):
                 return RecordedFields(len(track), make, track, VECTORS[index]), track.times
             if index in JOINTS and track.problem.interface:
                 name = JOINTS[index]
-                made = partial(self._points, name=name)
+                made = partial(track.cell_field, name=name)
                 return RecordedPoints(len(track), made, track, name), track.times
             return None
         if index not in VECTORS or self.nodes is not None:
@@ -111,11 +111,6 @@ class TableObserver(Receiver):
             values = getattr(snapshot, VECTORS[index])
             fields.append(InstantField(snapshot.problem.numbering, values, make))
         return fields, np.array([snapshot.time for snapshot in rows.values()])
-
-    def _points(self, row: int, name: str) -> CellField:
-        found = self.track.cell_field(row, name)
-        assert found is not None
-        return found
 
     def _entry(self, row: Snapshot | int) -> LazyTable:
         """The table of an instant: a snapshot, or a place among the rows."""

@@ -275,10 +275,9 @@ def masses_apart(start: Start) -> Told:
     """Masses one above another, each on a spring of its own to the ground, two of them alike."""
     problem, numbering, up = start.problem, start.problem.numbering, len(start.axes) - 1
     k, m, points = problem.K.diagonal(), problem.M.diagonal(), numbering.table.coordinates
-    ties = (problem.constraints.C, *(x.J for x in [problem.interface] if x))
     alone = np.flatnonzero((m > 0.0) & (k > 0.0) & (np.diff(problem.K.indptr) <= 2 * up + 2))
     alone = alone[abs(problem.K[alone]).sum(axis=1) == k[alone]]  # of points: never all of it
-    for tie in (*ties, *(x.G for x in [problem.contact] if x)):
+    for tie in (problem.constraints.C, problem.interface.J, problem.contact.G):
         alone = alone[abs(tie[:, alone]).sum(axis=0) == 0.0]
     for axis in np.flatnonzero(np.abs(start.shaking[:up]).sum(axis=1)):
         rows = alone[numbering.codes[alone] == numbering.code(start.axes[axis])]
