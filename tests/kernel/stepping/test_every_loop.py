@@ -57,7 +57,7 @@ LOOPS = {
     "condensed": LARGE,
     "full Newton": LARGE | {"steps": 25},
     "multigrid": LARGE | {"steps": 25},
-    "relations": {"unilateral": True},
+    "condensed, relations": {"unilateral": True},
 }
 
 
