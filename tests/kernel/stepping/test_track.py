@@ -122,7 +122,7 @@ CASES = {
     "adaptive": lambda: bouncing(shear=1e5, scheme=Scheme(adaptive=True)),
     "full Newton": lambda: bouncing(shear=1e5),
     "relations on modes": stopped,
-    "relations": lambda: stopped(dashpot=True),
+    "condensed, relations": lambda: stopped(dashpot=True),
 }
 
 
