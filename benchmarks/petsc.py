@@ -41,7 +41,6 @@ def system_of(cells: int) -> tuple[sp.csr_array, Ordering]:
     """The matrix of a step (n, n) with unit diagonal, and the places of its unknowns."""
     problem = make_problem(solid.inputs_of(solid.make_case(cells, 2))[0])
     T, joints = problem.constraints.T, problem.interface
-    assert joints is not None
     A = sp.csr_array(T.T @ effective_matrix(problem, problem.times[1] - problem.times[0]) @ T)
     scale = 1.0 / np.sqrt(A.diagonal())
     S = sp.diags_array(scale)

@@ -63,7 +63,6 @@ class Twice(loop.CondensedSolver):
         )
         found = super().solve(motion, *given)
         assert self._newton is not None
-        assert self.interface is not None
         trial = self._newton.trial
         ours = trial.y.copy()
         if self.plain is None:

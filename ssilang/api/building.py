@@ -422,13 +422,9 @@ class Motion:
 
     def _cells(self, joint: Joint) -> tuple[Any, slice]:
         """The kernel's cells of a joint, and which of its points they are."""
-        first, interface = 0, self.track.problem.interface
-        assert interface is not None
-        for cells in interface.joints:
-            last = first + cells.weights.size
+        for cells, points in self.track.problem.interface.placed:
             if cells.zone is joint.zone:
-                return cells, slice(first, last)
-            first = last
+                return cells, points
         raise refused("api.joint-of-another", self.builder.language)
 
     def _at_points(self, name: str, joint: Joint) -> FloatArray:

@@ -18,6 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.interface.condensed import Condensed
@@ -64,15 +65,14 @@ class ConservingContact:
     """Steps of one dt with unilateral relations beside the joints."""
 
     def __init__(
-        self, effective: Effective, contact: ContactRows, options: ContactOptions, J: object
+        self, effective: Effective, contact: ContactRows, options: ContactOptions, J: sp.csr_array
     ) -> None:
         self.contact, self.options = contact, options
         self.YG = effective.solve(contact.G.T.toarray())
         self.SGG: FloatArray = contact.G @ self.YG
         self.SJJ = effective.S
-        n = len(self.SJJ)
-        self.SJG: FloatArray = J @ self.YG if n else np.zeros((0, len(contact)))  # type: ignore[operator]
-        self.SGJ: FloatArray = contact.G @ effective.Y if n else np.zeros((len(contact), 0))
+        self.SJG: FloatArray = J @ self.YG
+        self.SGJ: FloatArray = contact.G @ effective.Y
 
     def solve(self, joints: Joints, y0: FloatArray, gap: FloatArray, dg0: FloatArray) -> Found:
         """A step from gaps (m,) that would change by dg0 (m,) without joints and reactions."""
@@ -161,12 +161,10 @@ class ConservingSolver:
     def __init__(self, problem: Problem, effective: Effective, rows: ContactRows) -> None:
         joints, share = problem.interface, 1 - problem.scheme.alpha_f
         self.effective, self.rows, self.interface = effective, rows, joints
-        J = None if joints is None else joints.J
-        self.contact = ConservingContact(effective, rows, problem.contact_options, J)
+        self.contact = ConservingContact(effective, rows, problem.contact_options, joints.J)
         self._condensed = Condensed(effective.S, effective.R, share)
-        if joints is not None:
-            self._trial = new_trial((joints.n_points, joints.dimension), joints.size, mean=True)
-            self._K = np.zeros((joints.size, joints.size))
+        self._trial = new_trial((joints.n_points, joints.dimension), joints.size, mean=True)
+        self._K = np.zeros((joints.size, joints.size))
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """The step's increment; `gap` (2, m) are those of both ends for du = 0."""
@@ -174,11 +172,10 @@ class ConservingSolver:
         du = e.solve(r)
         if dd.any():
             du = du + e.imposed(dd)
-        y0 = np.zeros(0) if joints is None else joints.J @ du
-        found = self.contact.solve(self, y0, gap[0], self.rows.G @ du + gap[1] - gap[0])
+        found = self.contact.solve(self, joints.J @ du, gap[0], self.rows.G @ du + gap[1] - gap[0])
         motion.contact[:] = found.P
         du = du + self.contact.YG @ found.P
-        if joints is not None and found.turns > 0:
+        if joints and found.turns > 0:
             du = du - e.Y @ found.h
             accept(self._trial, self._now)
         return StepOutcome(du, found.turns, found.residual)
@@ -190,14 +187,12 @@ class ConservingSolver:
 
     def respond(self, y: FloatArray) -> FloatArray:
         """h at the increment y of the jumps."""
-        assert self.interface is not None
         self._trial.y[:] = y
         evaluate(self.interface.points, self._condensed, self._now, self._trial)
         return self._trial.h.copy()
 
     def tangent(self) -> FloatArray:
         """dh/dy at the last response."""
-        assert self.interface is not None
         interface_stiffness(self.interface.points, self._trial.D, self._K)
         return self._condensed.c * self._K - self.effective.R
 

@@ -46,7 +46,7 @@ class ImpactRule:
         if self.options.correction == "MASSE" or self.options.persistent:
             self._by_mass = _mass_motions(problem, effective, own)[1]
         self._slips: FloatArray | None = None
-        if contact.friction is not None:
+        if contact.friction:
             self._slips = _mass_motions(problem, effective, contact.friction.H)[1]
         self._by_step: FloatArray | None = None
         if self.options.correction == "RIGIDITE":
@@ -121,7 +121,7 @@ class ImpactRule:
         The average acceleration would turn a rest of velocity round at each step for ever.
         """
         friction = self.contact.friction
-        if friction is None or self._slips is None:
+        if self._slips is None:
             return
         held = np.repeat(self.contact.sticking(motion.contact, motion.u), friction.width)
         if not held.any():
@@ -150,9 +150,9 @@ def solves_bodies(problem: Problem) -> bool:
     Not where rows rub: sticking places would take part in the impact.
     """
     contact, options = problem.contact, problem.contact_options
-    if contact is None or len(contact) < 2 or options.correction == "FAUX":
+    if len(contact) < 2 or options.correction == "FAUX":
         return False
-    if contact.friction is not None:
+    if contact.friction:
         return False
     return options.method != "PENALITE" and contact.associated and problem.constraints.associated
 

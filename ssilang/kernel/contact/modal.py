@@ -37,9 +37,9 @@ EXACT = ("LAGRANGE", "AUGMENTE")
 def takes(problem: Problem) -> bool:
     """Whether `ContactLoop` may run a problem: few unknowns, relations alone, supports at rest."""
     contact, options = problem.contact, problem.contact_options
-    if contact is None or problem.interface is not None or len(contact) == 0:
+    if problem.interface or len(contact) == 0:
         return False
-    if contact.friction is not None or not contact.associated:
+    if contact.friction or not contact.associated:
         return False
     exact = options.method in EXACT and options.coefficient is None
     soft = options.method == "PENALITE" and (options.coefficient or 0.0) > 0.0
@@ -56,7 +56,7 @@ def contact_loop(
     if effective.inverse.singular:
         return None
     modes = modes_of(problem, effective)
-    if modes is None or len(modes.sense) or problem.contact is None:
+    if modes is None or len(modes.sense):
         return None
     stops = _stops(problem, problem.contact, modes, closed, effective.dt)
     rows, m = _rows(stops), len(problem.contact)

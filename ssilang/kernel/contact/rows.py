@@ -11,7 +11,7 @@ constant` of the unilateral row it belongs to while that is closed, or the value
 `watched` (a tension times a coefficient) where it belongs to none.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -28,31 +28,30 @@ TOUCHING = 1e-11  # of the largest gap or displacement, which solvers leave: clo
 
 @dataclass(frozen=True, eq=False)
 class ContactRows:
-    """Unilateral conditions on one numbering."""
+    """Unilateral conditions on one numbering; false where there are none, and nothing rubs."""
 
     G: sp.csr_array  # (m, n) rows times their sense
     sense: FloatArray  # (m,) +1 MINI, -1 MAXI
     multipliers: IntArray  # (m,) multiplier nodes
     imposed: FloatArray  # (m, k) imposed values times the sense, by load curve
+    friction: "FrictionRows"  # places that rub; forces are the reactions p (m,) and the frictions
     # (m, n) rows that the reactions push by, times the sense; None: those of G
     dual: sp.csr_array | None = None
-    # places that rub; forces are then the reactions p (m,) and the frictions
-    friction: "FrictionRows | None" = None
 
     def __len__(self) -> int:
         return len(self.sense)
 
+    def __bool__(self) -> bool:
+        return self.size > 0
+
     @cached_property
     def pushing(self) -> sp.csr_array:
         """Rows (size, n) that all forces push by."""
-        own = self.G if self.dual is None else self.dual
-        return own if self.friction is None else _stacked(own, self.friction.H)
+        return _stacked(self.G if self.dual is None else self.dual, self.friction.H)
 
     @cached_property
     def seen(self) -> sp.csr_array:
         """Rows of gaps, slips and watched tensions."""
-        if self.friction is None:
-            return self.G
         return _stacked(self.G, self.friction.H, self.friction.watched)
 
     @property
@@ -67,8 +66,6 @@ class ContactRows:
 
     def at_rest(self, u: FloatArray, gaps: FloatArray) -> FloatArray:
         """What `seen` has of its own in a step from u (n,) with gaps (m,) before it moves."""
-        if self.friction is None:
-            return gaps
         f = self.friction
         return np.concatenate([gaps, np.zeros(f.H.shape[0]), f.offset + f.watched @ u])
 
@@ -91,14 +88,10 @@ class ContactRows:
 
     def rubbed(self, forces: FloatArray, du: FloatArray) -> float:
         """Energy lost by friction in a step of mean forces (size,)."""
-        if self.friction is None:
-            return 0.0
         return -float(forces[len(self) :] @ (self.friction.H @ du))
 
     def sticking(self, forces: FloatArray, u: FloatArray) -> BoolArray:
-        """Places that hold by friction; none without friction."""
-        if self.friction is None:
-            return np.zeros(0, bool)
+        """Places that hold by friction."""
         return self.friction.sticking(forces[: len(self)], forces[len(self) :], u)
 
     def penalty_energy(self, gaps: FloatArray, coefficient: float | None) -> float:
@@ -115,12 +108,13 @@ def _stacked(*parts: sp.csr_array) -> sp.csr_array:
 
 
 def split_rows(
-    rows: ConstraintRows, imposed: FloatArray
-) -> tuple[ConstraintRows, FloatArray, ContactRows | None]:
-    """Equalities with their imposed values (n_rows, k), and unilateral rows if there are any."""
+    rows: ConstraintRows,
+    imposed: FloatArray,
+    friction: "tuple[Friction, ...]",
+    numbering: Numbering,
+) -> tuple[ConstraintRows, FloatArray, ContactRows]:
+    """Equalities with their imposed values (n_rows, k), and unilateral rows with what rubs."""
     unilateral = rows.sense != 0
-    if not unilateral.any():
-        return rows, imposed, None
     keep, turn = np.flatnonzero(~unilateral), np.flatnonzero(unilateral)
     C = sp.csr_array(rows.C[keep])
     D = C if rows.associated or _same(C, rows.D[keep]) else sp.csr_array(rows.D[keep])
@@ -133,21 +127,10 @@ def split_rows(
         sense,
         rows.multipliers[turn],
         sense[:, None] * imposed[turn],
+        friction_rows(friction, numbering, rows.multipliers[turn]),
         None if own else sp.csr_array(turned @ rows.D[turn]),
     )
     return equalities, imposed[keep], contact
-
-
-def with_friction(
-    contact: ContactRows | None, friction: "FrictionRows | None"
-) -> ContactRows | None:
-    """The rows with friction beside them; rows of no relation where only friction is."""
-    if friction is None:
-        return contact
-    if contact is None:
-        none, n = np.zeros(0), friction.H.shape[1]
-        contact = ContactRows(sp.csr_array((0, n)), none, none.astype(np.int64), np.zeros((0, 0)))
-    return replace(contact, friction=friction)
 
 
 def _same(C: sp.csr_array, D: sp.csr_array) -> bool:
@@ -194,7 +177,7 @@ STICKING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class FrictionRows:
-    """Places that rub."""
+    """Places that rub; false without any."""
 
     H: sp.csr_array  # (k d, n) slips, d rows a place
     width: int  # d, 1 in the plane, 2 in space
@@ -203,6 +186,9 @@ class FrictionRows:
     constant: FloatArray  # (k,)
     watched: sp.csr_array  # (k, n) rows whose values are the limits where `normal` is -1
     offset: FloatArray  # (k,) values of these at zero displacement
+
+    def __bool__(self) -> bool:
+        return len(self.normal) > 0
 
     def sticking(self, pushes: FloatArray, tau: FloatArray, u: FloatArray) -> BoolArray:
         """Places (k,) whose friction tau (k d,) stays under its limit."""
@@ -217,12 +203,10 @@ class FrictionRows:
 
 def friction_rows(
     parts: tuple[Friction, ...], numbering: Numbering, multipliers: IntArray
-) -> FrictionRows | None:
+) -> FrictionRows:
     """Friction on a numbering; `multipliers` (m,) are those of the unilateral rows in order."""
-    if not parts:
-        return None
-    n = numbering.size
-    H, watched, normal = [], [], []
+    n, none = numbering.size, [np.zeros(0)]
+    H, watched, normal = [sp.csr_array((0, n))], [sp.csr_array((0, n))], [np.zeros(0, np.int64)]
     order = np.argsort(multipliers)
     for part in parts:
         rows = constraint_matrix(Matrix(part.slip.table, (), (part.slip,)), numbering)
@@ -238,10 +222,10 @@ def friction_rows(
             watched.append(found.C)
     return FrictionRows(
         sp.csr_array(sp.vstack(H)),
-        parts[0].width,
+        parts[0].width if parts else 1,
         np.concatenate(normal),
-        np.concatenate([p.coefficient for p in parts]),
-        np.concatenate([p.constant for p in parts]),
+        np.concatenate(none + [p.coefficient for p in parts]),
+        np.concatenate(none + [p.constant for p in parts]),
         sp.csr_array(sp.vstack(watched)),
-        np.concatenate([p.offset for p in parts]),
+        np.concatenate(none + [p.offset for p in parts]),
     )

@@ -45,7 +45,7 @@ class ContactForces:
 
     def held(self, W: FloatArray, q: FloatArray) -> FloatArray:
         """Forces (size,) for `seen = q + W forces`."""
-        if self.contact.friction is not None:
+        if self.contact.friction:
             return self.with_motions(W, q, np.zeros((len(q), 0)), np.zeros((W.shape[1], 0)))[0]
         found = METHODS[self.options.method](W, q, self.options.coefficient, self.active)
         self.active = found.active
@@ -65,7 +65,7 @@ class ContactForces:
         """
         work = np.zeros(0) if r is None else r
         friction, m = self.contact.friction, len(self.contact)
-        if friction is None:
+        if not friction:
             found = solve_contact(ContactProblem(W, q, B, E, work, np.zeros(m, bool)), self.active)
             self.active = found.active
             return found.p, found.a
@@ -106,7 +106,7 @@ class ContactSolver:
         g0 = self.contact.at_rest(motion.u, gap) + self.contact.seen @ du
         if self.free.shape[1]:
             return self._held_by_contact(motion, r, du, g0)
-        if self.interface is None:
+        if not self.interface:
             found = self.forces.held(self.S, g0)
             motion.contact[:] = found
             return StepOutcome(du + self.Y @ found, 1, 0.0)
@@ -132,7 +132,6 @@ class ContactSolver:
 
     def _with_joints(self, motion: Motion, du: FloatArray, g0: FloatArray) -> StepOutcome:
         joints, e, seen = self.interface, self.effective, self.contact.seen
-        assert joints is not None
         SJP, SGJ = joints.J @ self.Y, seen @ e.Y
         trial, found = response.new_trial(motion.w.shape, joints.size), motion.contact.copy()
         now = motion.joints
@@ -176,8 +175,8 @@ def stopped_motions(contact: ContactRows, free: FloatArray) -> FloatArray:
 
 def step_solver(problem: Problem, effective: Effective) -> StepSolver:
     """The condensed interface, with active sets where there are unilateral relations."""
-    if problem.contact is not None and problem.scheme.conserving:
+    if not problem.contact:
+        return CondensedSolver(problem, effective)
+    if problem.scheme.conserving:
         return ConservingSolver(problem, effective, problem.contact)
-    if problem.contact is not None:
-        return ContactSolver(problem, effective, problem.contact)
-    return CondensedSolver(problem, effective)
+    return ContactSolver(problem, effective, problem.contact)

@@ -176,21 +176,16 @@ def footings_of(interface: Interface, numbering: Numbering) -> tuple[Footing, ..
     a zone, and each macro-element.
     """
     found: list[Footing] = []
-    start = 0
-    starts = []
-    for j in interface.joints:
-        starts.append(start)
-        start += j.weights.size
-    faces = [i for i, j in enumerate(interface.joints) if _is_face(j)]
-    for cells in _hanging_together([interface.joints[i] for i in faces]):
-        parts = [(i, c) for i, c in zip(faces, cells, strict=True) if len(c)]
-        found.append(_footing([(interface.joints[i], starts[i], c) for i, c in parts], numbering))
-    for j, first in zip(interface.joints, starts, strict=True):
+    faces = [(j, rows.start) for j, rows in interface.placed if _is_face(j)]
+    for cells in _hanging_together([j for j, _ in faces]):
+        parts = [(*face, c) for face, c in zip(faces, cells, strict=True) if len(c)]
+        found.append(_footing(parts, numbering))
+    for j, rows in interface.placed:
         every = np.arange(len(j.upper))
         if is_macro(j.zone):
-            found += [_macro(j, first + int(c), int(c), interface) for c in every]
+            found += [_macro(j, rows.start + int(c), int(c), interface) for c in every]
         elif not _is_face(j):
-            found.append(_footing([(j, first, every)], numbering))
+            found.append(_footing([(j, rows.start, every)], numbering))
     return tuple(sorted(found, key=lambda f: -f.area))
 
 
@@ -279,18 +274,11 @@ def _with_ends(footing: Footing, parts: list[tuple[JointCells, int]]) -> Footing
         fit = np.linalg.pinv(np.stack([np.ones(len(s)), s], axis=1))
         both = np.array([[1.0, -1.0], [1.0, 1.0]]) @ fit
         blocks.append(sp.csr_array(sp.kron(sp.eye_array(n), both)))
-    lengths = [
-        w.reshape(n, -1).sum(axis=1)
-        for (_, n), w in zip(parts, _split(footing.weights, parts), strict=True)
-    ]
+    points = [n * j.shape.shape[0] for j, n in parts]
+    weights = np.split(footing.weights, np.cumsum(points)[:-1])
+    lengths = [w.reshape(n, -1).sum(axis=1) for (_, n), w in zip(parts, weights, strict=True)]
     ends = sp.csr_array(sp.block_diag(blocks, format="csr"))
     return replace(footing, ends=ends, lengths=np.concatenate(lengths))
-
-
-def _split(values: FloatArray, parts: list[tuple[JointCells, int]]) -> list[FloatArray]:
-    """Values of the points by zone."""
-    sizes = [n * j.shape.shape[0] for j, n in parts]
-    return np.split(values, np.cumsum(sizes)[:-1])
 
 
 def _axes(footing: Footing, mode: Mode) -> tuple[FloatArray, FloatArray]:

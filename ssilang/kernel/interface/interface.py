@@ -30,7 +30,13 @@ from ssilang.kernel.interface.bed import (
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.family import ROTATIONS, component_order, displacement_names
 from ssilang.kernel.interface.kinematics import JointCells, joint_cells
-from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
+from ssilang.kernel.interface.laws.columns import (
+    N_PARAMETERS,
+    N_STATE,
+    LawCode,
+    Parameter,
+    Variable,
+)
 from ssilang.kernel.interface.laws.law import Law
 from ssilang.kernel.interface.laws.law_table import (
     elastic_tangent,
@@ -53,7 +59,7 @@ SOFT = 1e4  # stiffness of closed joints times compliance, up to which single pr
 
 @dataclass(frozen=True, eq=False)
 class Interface:
-    """Joints of a problem, ready for compiled code.
+    """Joints of a problem, ready for compiled code; false where there are none.
 
     Attributes
     ----------
@@ -88,6 +94,9 @@ class Interface:
     parameters: FloatArray
     beds: tuple[Bed, ...] = ()
     apart: FloatArray | float = 0.0
+
+    def __bool__(self) -> bool:
+        return bool(self.joints)
 
     @cached_property
     def points(self) -> Joints:
@@ -161,7 +170,7 @@ def joint_stiffness(joints: Joints, D: FloatArray, size: int) -> sp.csr_array:
     """Stiffness (size, size) on the jumps of pairs of tangents D (n_points, d, d)."""
     B, d = joints.B, D.shape[1]
     blocks = np.einsum("p,pia,pij,pjb->pab", joints.weights, B, D, B, optimize=True)
-    places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(len(D), -1)
+    places = (joints.pairs[:, :, None] * d + np.arange(d)).reshape(B.shape[0], B.shape[2])
     rows = np.broadcast_to(places[:, :, None], blocks.shape).ravel()
     columns = np.broadcast_to(places[:, None, :], blocks.shape).ravel()
     return sp.csr_array((blocks.ravel(), (rows, columns)), shape=(size, size))
@@ -189,6 +198,10 @@ def interface_of(
     MeshError, MaterialError
         For joints without area, reversed, or with inadmissible parameters.
     """
+    if not zones:
+        none, no_parameters = np.zeros(0, np.int64), np.zeros((0, N_PARAMETERS))
+        J, B = sp.csr_array((0, numbering.size)), np.zeros((0, 1, 1))
+        return Interface((), 1, J, np.zeros((0, 1), np.int64), B, np.zeros(0), none, no_parameters)
     joints, tables, codes, given_tables = [], [], [], []
     ordered = sorted(zones, key=lambda z: law_of(z.behaviour).macro)
     for zone in ordered:
@@ -508,6 +521,8 @@ def state_field(interface: Interface, state: FloatArray, w: FloatArray, t: Float
     up), PLA1, PLA2 (slip), PLA3 (plastic and open normal jump), LAM3, EPCO (plastic compression,
     less than zero in EPCO). Macro-elements whose ground yields: see `bed_results`.
     """
+    if not interface:  # nothing compiled is loaded
+        return CellField((), "VARIABLES INTERNES")
     blocks = []
     arrays = (interface.codes, w, t, state, interface.parameters)
     counted = state.copy()
@@ -561,8 +576,8 @@ def point_history(
     sizes = [j.weights.shape for j in interface.joints]
     if not (0 <= zone < len(sizes) and 0 <= cell < sizes[zone][0] and 0 <= point < sizes[zone][1]):
         return None
-    j, before = interface.joints[zone], sum(a * b for a, b in sizes[:zone])
-    at = before + cell * sizes[zone][1] + point
+    j, own = interface.placed[zone]
+    at = own.start + cell * sizes[zone][1] + point
     w, t, state = (np.ascontiguousarray(x[:, at]) for x in (rows.w, rows.t, rows.state))
     bed = next((b for b in interface.beds if b.owner == at), None)
     joints = (rows.w, rows.t, rows.state)

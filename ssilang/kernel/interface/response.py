@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
-from ssilang.kernel.interface.copies import copy_rows, copy_state
+from ssilang.kernel.interface.copies import clear, copy_rows, copy_state
 from ssilang.kernel.interface.laws.columns import N_STATE, LawCode, Parameter, Variable
 from ssilang.kernel.interface.laws.point_laws import point_energies, respond
 from ssilang.kernel.interface.laws.sdm_law import normal_energy, opening_loss
@@ -150,9 +150,7 @@ def add_stiffness_forces(
 def interface_stiffness(joints: Joints, D: FloatArray, K: FloatArray) -> None:
     """Dense stiffness K (q, q) from local tangents D (n_points, d, d)."""
     pairs, B, weights = joints.pairs, joints.B, joints.weights
-    for row in range(K.shape[0]):
-        for column in range(K.shape[1]):
-            K[row, column] = 0.0
+    clear(K)
     for p in range(len(B)):
         add_point_stiffness(pairs[p], B[p], weights[p], D[p], K)
 

@@ -221,7 +221,7 @@ class PathRun:
     """A calculation along its path: what stands at the end of the last accepted step."""
 
     def __init__(self, run: BulkRun) -> None:
-        if run.problem.contact is not None:
+        if run.problem.contact:
             raise KernelError("kernel.plasticity.unilateral-relations-mini-maxi")
         self.run = run
         self.solver = FollowingSolver(run.problem, run.problem.K, 1.0, run.bulk, run.state)
@@ -288,11 +288,8 @@ class PathRun:
     def save(self, time: float) -> None:
         """Hand the state to all observers."""
         run = self.run
-        s = snapshot_of(run.problem, run.motion, 0)
-        snapshot = BulkSnapshot(
-            s.problem, self.count, time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
-            run.bulk, run.state,
-        )  # fmt: skip
+        now = vars(snapshot_of(run.problem, run.motion, 0)) | {"step": self.count, "time": time}
+        snapshot = BulkSnapshot(**now, bulk=run.bulk, bulk_state=run.state)
         for observer in run.observers:
             if self.count > 0 or observer.wanted[0]:
                 observer.receive(snapshot)

@@ -190,7 +190,7 @@ class BulkSolver(FullNewtonSolver):
         Finite displacements take whole steps: bending stretches at first, then falls at once. So
         does contact: parts of a step meet none of its conditions.
         """
-        length, halved = 1.0, self.bulk.searched and self.contact is None
+        length, halved = 1.0, self.bulk.searched and not self.contact
         for _ in range(SEARCHES if halved else 1):
             found = self._trial(motion, r, now.du + length * step, pushed)
             if found.size < now.size or found.residual <= TOLERANCE:
@@ -207,9 +207,9 @@ class BulkSolver(FullNewtonSolver):
         K, force = self._joints(motion, du, joints)
         linear = self.A @ du
         free = r - linear - force - self.share * (answer.force - self.force)
-        push = self._push(pushed)
+        push: FloatArray = self.contact.pushing.T @ pushed
         rest = self.constraints.V.T @ (free + push)
-        parts = (r, linear, answer.force, self.force, force, np.asarray(push))
+        parts = (r, linear, answer.force, self.force, force, push)
         stiff = max(float(np.abs(M.data).max(initial=0.0)) for M in (self.A, answer.tangent))
         # at a limit load displacements grow without end: none beyond the size of the body counts
         moved = min(float(np.abs(du).max(initial=0.0)), self.extent)
@@ -225,7 +225,7 @@ class BulkSolver(FullNewtonSolver):
 
 def _positive_factors(problem: Problem, bulk: Bulk) -> PositiveFactors | None:
     """Cholesky factors for large bodies with symmetric tangents and no contact."""
-    plain = type(bulk) is Bulk and bulk.symmetric and problem.contact is None
+    plain = type(bulk) is Bulk and bulk.symmetric and not problem.contact
     if not plain or not problem.constraints.associated:
         return None
     if problem.solver.name not in (None, DISSECTION):

@@ -94,7 +94,7 @@ class BulkRun:
         """Internal forces less loads (n,), without inertia; `force` is that of the bodies."""
         p, m = self.problem, self.motion
         rest: FloatArray = p.K @ m.u + force - p.loading.forces @ factors
-        return rest if p.interface is None else rest + p.interface.J.T @ m.f
+        return rest + p.interface.J.T @ m.f if p.interface else rest
 
     def account(self, before: float, work: float) -> None:
         """Energies of bodies and joints after a step; `before` was the bodies' stored energy."""
@@ -104,7 +104,7 @@ class BulkRun:
         m.energies[ELASTIC] = 0.5 * m.u @ (p.K @ m.u) + stored
         joints = p.interface
         m.energies[LOST] = 0.0
-        if joints is not None:
+        if joints:
             m.energies[STORED], m.energies[LOST] = interface_energies(
                 joints.points, m.w, m.t, m.state
             )
@@ -205,7 +205,7 @@ def _static_step(
             if not outcome.turns:  # singular: of what nothing holds, from the first step on
                 virgin = run.bulk.respond(run.bulk.unloaded(), 0.0 * run.motion.u, times[0])
                 effective_of(run.problem, run.problem.K + virgin.tangent, 1.0, 1.0)
-            if run.problem.interface is not None and not (run.motion.t[:, -1] < 0.0).any():
+            if run.problem.interface and not (run.motion.t[:, -1] < 0.0).any():
                 raise lost(run.problem, run.motion, k, outcome)
             told = {"k": k, "time": solver.time, "residual": outcome.residual}
             told |= {"n_residuals": len(solver.residuals), "halvings": HALVINGS}
@@ -223,7 +223,7 @@ def _increment(
     change = after - before
     solver.guess = _carried_on(run.last, change)
     pushed = m.contact.copy()
-    gap = NOTHING if p.contact is None else p.contact.gaps(m.u, after)
+    gap = p.contact.gaps(m.u, after) if p.contact else NOTHING
     outcome = solver.solve(m, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
@@ -234,7 +234,7 @@ def _increment(
     m.energies[EXTERNAL] += outcome.du @ (p.loading.forces @ (0.5 * (before + after)) + driven)
     mean = 0.5 * (pushed + m.contact)
     m.energies[EXTERNAL] += support_work(p, 0.5 * (old + m.reaction), mean, outcome.du, dd, change)
-    if p.contact is not None:
+    if p.contact:
         run.lost += p.contact.rubbed(mean, outcome.du)
     run.account(stored, solver.work)
     run.last = (outcome.du, change)
@@ -320,7 +320,7 @@ class _BulkLoop(SparseLoop):
         self._solvers: list[tuple[float, BulkSolver, ImpactRule | None]] = []
         self._closed = initial.closed_at_start(run.problem)
         self._increments = np.zeros((0, run.problem.numbering.size))
-        self._carries = type(run.bulk) is Bulk and run.problem.contact is None
+        self._carries = type(run.bulk) is Bulk and not run.problem.contact
         self._begin()
 
     def memory(self) -> dict[str, Any]:
@@ -344,7 +344,7 @@ class _BulkLoop(SparseLoop):
         A = effective_matrix(self.problem, dt)
         solver = self._made(A, dt, share)
         impact = None
-        if self.problem.contact is not None:
+        if self.problem.contact:
             effective = effective_of(self.problem, A, dt, share)
             impact = ImpactRule(self.problem, effective, self.problem.contact, self._closed)
         self._solvers = [*self._solvers[-3:], (dt, solver, impact)]
@@ -393,12 +393,12 @@ class _BulkLoop(SparseLoop):
         driven = driven + run.bulk.pushed(run.state)
         self._advance(n, outcome.du)
         before, work = balance(m.energies), None
-        if impact is not None and p.contact is not None:
+        if impact is not None:
             work = impact.correct(m, p.contact.imposed @ (factors[1] - factors[0]) / dt)
         # the bodies' forces are no loads: their part in the work of the loads is taken back
         loads = np.stack([load0 - old, load1 - solver.force])
         self._account(n, outcome.du, dd, loads, pushed, factors)
-        if p.contact is not None:
+        if p.contact:
             run.lost += p.contact.rubbed(0.5 * (pushed + m.contact), outcome.du)
         m.energies[EXTERNAL] += 0.5 * outcome.du @ (old + solver.force + driven)
         run.account(stored, solver.work)

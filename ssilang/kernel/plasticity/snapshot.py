@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
@@ -26,34 +26,28 @@ class BulkSnapshot(Snapshot):
         return CellField(tuple(self.bulk.stresses(self.bulk_state)), "CONTRAINTES")
 
     @property
-    def joint_tractions(self) -> CellField | None:
-        """Tractions of the joints alone, None without joints."""
+    def joint_tractions(self) -> CellField:
+        """Tractions of the joints alone."""
         return super().tractions
 
     @property
-    def tractions(self) -> CellField | None:
+    def tractions(self) -> CellField:
         """Stresses of the plastic bodies and tractions of the joints."""
         blocks = self.bulk.stresses(self.bulk_state)
-        return CellField((*blocks, *_blocks(super().tractions)), "CONTRAINTES")
+        return CellField((*blocks, *super().tractions.blocks), "CONTRAINTES")
 
     @property
-    def variables(self) -> CellField | None:
+    def variables(self) -> CellField:
         """Internal variables of bodies and joints."""
         blocks = self.bulk.variables(self.bulk_state)
-        if not blocks and super().variables is None:
-            return None
-        return CellField((*blocks, *_blocks(super().variables)), "VARIABLES INTERNES")
+        return CellField((*blocks, *super().variables.blocks), "VARIABLES INTERNES")
 
     @property
     def plastic_strains(self) -> CellField:
         """Plastic strains of the bodies and plastic jumps of the joints."""
         blocks = self.bulk.plastic_strains(self.bulk_state)
-        joints = _blocks(super().plastic_strains)
+        joints = super().plastic_strains.blocks
         return CellField((*blocks, *joints), "DEFORMATIONS INELASTIQUES")
-
-
-def _blocks(field: CellField | None) -> tuple[CellFieldBlock, ...]:
-    return () if field is None else field.blocks
 
 
 def hand_over(
@@ -69,9 +63,6 @@ def hand_over(
     if not wanting:
         return
     s = snapshot_of(problem, motion, step)
-    snapshot = BulkSnapshot(
-        s.problem, s.step, s.time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
-        bulk, state,
-    )  # fmt: skip
+    snapshot = BulkSnapshot(**vars(s), bulk=bulk, bulk_state=state)
     for observer in wanting:
         observer.receive(snapshot)

@@ -106,7 +106,7 @@ def joint_conditioning(problem: Problem) -> JointConditioning | None:
     Not computed above `LARGEST` unknowns.
     """
     joints, contrast = problem.interface, stiffness_contrast(problem)
-    if joints is None or contrast is None or problem.numbering.size > LARGEST:
+    if not joints or contrast is None or problem.numbering.size > LARGEST:
         return None
     T, V = problem.constraints.T, problem.constraints.V
     dt = float(np.diff(problem.times).max())

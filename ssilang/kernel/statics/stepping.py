@@ -92,7 +92,7 @@ def step_statics(
 
 def _solver_of(problem: Problem) -> tuple[StepSolver, Inverse | None]:
     """What solves the steps: the condensed interface with its inverse, or multigrid."""
-    if problem.interface is not None and pays(problem, problem.K):
+    if problem.interface and pays(problem, problem.K):
         return IteratedSolver(problem, iterated_system(problem, problem.K, 1.0), 1.0), None
     effective = effective_of(problem, problem.K, 0.0, 1.0, free=True)
     whole = replace(problem, scheme=Scheme())  # forces of the steps' ends, whatever scheme follows
@@ -117,7 +117,7 @@ def _at_load_step(
 def _cuts(problem: Problem) -> int:
     """How often a step may be halved, or -1: whole footings lift off and yield within one."""
     joints = problem.interface
-    return -1 if joints is None or not any(is_macro(j.zone) for j in joints.joints) else HALVINGS
+    return HALVINGS if any(is_macro(j.zone) for j in joints.joints) else -1
 
 
 def _cut_step(
@@ -151,9 +151,7 @@ def _initial_motion(problem: Problem) -> Motion:
 
 def _imbalance(problem: Problem, motion: Motion, factors: FloatArray) -> FloatArray:
     rest = problem.K @ motion.u - problem.loading.forces @ factors
-    if problem.interface is not None:
-        rest = rest + problem.interface.J.T @ motion.f
-    return rest
+    return np.asarray(rest + problem.interface.J.T @ motion.f)
 
 
 def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> StepOutcome:
@@ -161,7 +159,7 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     r = -_imbalance(problem, motion, factors[1])
     dd = problem.loading.imposed @ factors[1] - problem.constraints.C @ motion.u
     contact = problem.contact
-    gap = NOTHING if contact is None else contact.gaps(motion.u, factors[1])
+    gap = contact.gaps(motion.u, factors[1])
     pushed, lost = motion.contact.copy(), motion.energies[LOST]
     old_lost = _lost_in_joints(problem, motion)
     outcome = solver.solve(motion, r, dd, gap)
@@ -174,7 +172,7 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
     old = motion.reaction.copy()
     motion.u[:] += outcome.du
     _polish(problem, solver, motion, factors[1])
-    if contact is None and problem.interface is not None and _unheld(problem, motion, factors[1]):
+    if not contact and problem.interface and _unheld(problem, motion, factors[1]):
         return StepOutcome(outcome.du, 0, np.inf)
     motion.reaction[:] = _imbalance(problem, motion, factors[1])
     mean = 0.5 * (factors[0] + factors[1])
@@ -184,19 +182,19 @@ def _step(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatAr
         factors[1] - factors[0],
     )  # fmt: skip
     # loads that start out of balance grow, in the first step, from nothing
-    if contact is None and problem.constraints.associated:
+    if not contact and problem.constraints.associated:
         motion.energies[EXTERNAL] += 0.5 * old @ own
     motion.energies[ELASTIC] = 0.5 * motion.u @ (problem.K @ motion.u)
-    if contact is not None and problem.contact_options.method == "PENALITE":
+    if contact and problem.contact_options.method == "PENALITE":
         motion.energies[ELASTIC] += contact.penalty_energy(
             contact.gaps(motion.u, factors[1]), problem.contact_options.coefficient
         )
     joints = problem.interface
-    if joints is not None:
+    if joints:
         motion.energies[STORED], motion.energies[LOST] = interface_energies(
             joints.points, motion.w, motion.t, motion.state
         )
-    if contact is not None and contact.friction is not None:
+    if contact.friction:
         rubbed = contact.rubbed(0.5 * (pushed + motion.contact), outcome.du)
         motion.energies[LOST] = lost - old_lost + _lost_in_joints(problem, motion) + rubbed
     return outcome
@@ -208,8 +206,6 @@ def _flies_off(problem: Problem, du: FloatArray, factors: FloatArray) -> bool:
     `du` is the step less what supports impose.
     """
     joints = problem.interface
-    if joints is None:
-        return False
     points = problem.numbering.table.coordinates[problem.numbering.nodes]
     jumps = joints.J @ du
     if np.abs(jumps).max(initial=0.0) <= np.ptp(points, axis=0).max(initial=0.0):
@@ -224,15 +220,14 @@ def _unheld(problem: Problem, motion: Motion, factors: FloatArray) -> bool:
     """Whether forces are out of balance: open joints, and a solution of rounding errors."""
     rest = _imbalance(problem, motion, factors)
     inner = np.abs(problem.constraints.V.T @ rest).max(initial=0.0)
-    joints = problem.interface
-    pulls = np.abs(joints.J.T @ motion.f).max(initial=0.0) if joints is not None else 0.0
+    pulls = np.abs(problem.interface.J.T @ motion.f).max(initial=0.0)
     loads = np.abs(problem.loading.forces @ factors).max(initial=0.0)
     return bool(inner > UNHELD * (loads + pulls + np.abs(rest).max(initial=0.0)))
 
 
 def _lost_in_joints(problem: Problem, motion: Motion) -> float:
     joints = problem.interface
-    if joints is None:
+    if not joints:
         return 0.0
     return float(interface_energies(joints.points, motion.w, motion.t, motion.state)[1])
 
@@ -241,7 +236,7 @@ def _check_balanced(
     problem: Problem, inverse: Inverse | None, motion: Motion, factors: FloatArray
 ) -> None:
     """Refuse loads that drive bodies which nothing holds; those without a load stay at rest."""
-    if inverse is None or not inverse.singular or problem.contact is not None:
+    if inverse is None or not inverse.singular or problem.contact:
         return
     work = inverse.work(-problem.constraints.V.T @ _imbalance(problem, motion, factors))
     driven = inverse.kernel[:, np.abs(work) > DRIVEN]
@@ -252,7 +247,7 @@ def _check_balanced(
 
 def _polish(problem: Problem, solver: StepSolver, motion: Motion, factors: FloatArray) -> None:
     """One more solution for what rounding left out of balance (stiff joints on soft bodies)."""
-    if problem.contact is not None:
+    if problem.contact:
         return
     T = problem.constraints.V
     rest = T.T @ _imbalance(problem, motion, factors)
@@ -307,9 +302,9 @@ def _ground_gives_way(
 def lost(problem: Problem, motion: Motion, step: int, outcome: StepOutcome) -> ConvergenceError:
     """What is said of a step without equilibrium: ground that yields, joints all open, or not."""
     joints, at = problem.interface, dict[str, Any](step=step, time=problem.times[step])
-    if joints is not None and joints.beds:
+    if joints.beds:
         return _ground_gives_way(problem, joints, motion, step)
-    if joints is not None and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
+    if joints and (outcome.turns == 0 or not (motion.t[:, -1] < 0).any()):
         node = int(joints.joints[0].zone.cells.nodes.resolve(joints.joints[0].upper).ravel()[0])
         at |= {"n_points": joints.n_points, "node": problem.numbering.table.told(node)}
         return ConvergenceError("kernel.statics.no-equilibrium-full-uplift", **at)

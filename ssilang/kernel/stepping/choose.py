@@ -22,7 +22,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 from ssilang.kernel.stepping.rests.sparse import iterated
 from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, fits
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, SparseSteps, StepSolver
+from ssilang.kernel.stepping.rests.sparse.loop import SparseSteps, StepSolver
 from ssilang.kernel.stepping.state import Motion, Outcome, Recorder
 from ssilang.kernel.stepping.track import View
 from ssilang.messages.message import Sentence
@@ -105,7 +105,7 @@ class Case:
     @cached_property
     def stops(self) -> "ContactLoop | None":
         """The compiled loop of unilateral relations, if it can run the problem."""
-        if self.problem.contact is None:
+        if not self.problem.contact:
             return None
         from ssilang.kernel.contact.modal import contact_loop, takes
 
@@ -142,12 +142,11 @@ def _full_newton(case: Case) -> Loop:
 
 def _sparse(case: Case, solver: StepSolver) -> SparseSteps:
     p, impact = case.problem, None
-    if p.contact is not None and not p.scheme.conserving:
+    if p.contact and not p.scheme.conserving:
         from ssilang.kernel.contact.impact import ImpactRule
 
         impact = ImpactRule(p, case.effective, p.contact, case.closed)
-    n = newmark_of(p.scheme, case.dt)
-    return SparseSteps(SparseLoop(p, case.motion), solver, n, impact)
+    return SparseSteps(p, case.motion, solver, newmark_of(p.scheme, case.dt), impact)
 
 
 @dataclass(frozen=True)
@@ -157,11 +156,11 @@ class Rule:
     name: str
     loop: str  # the word of the summary
     when: str  # the condition, for the table
-    said: str  # code of what is said of the choice; `q` is the number of the interface's unknowns
+    said: str  # code of what is said of the choice; `q` is the number of the interface's unknowns,
+    # `relations` whether there are unilateral ones
     fits: Callable[[Case], bool]
     make: Callable[[Case], Loop]
     renewable: bool = False  # whether loads may change from step to step (CHARMECA)
-    factorises: bool = False  # whether the step's matrix is factorised at each iteration
 
 
 RULES = (
@@ -169,8 +168,7 @@ RULES = (
         "adaptive", "adaptive",
         "steps adapted to contact, with joints or unilateral relations",
         "kernel.stepping.loop-adaptive",
-        lambda c: c.problem.scheme.adaptive
-        and not (c.problem.interface is None and c.problem.contact is None),
+        lambda c: c.problem.scheme.adaptive and bool(c.problem.interface or c.problem.contact),
         _adaptive, renewable=True,
     ),
     Rule(
@@ -185,7 +183,7 @@ RULES = (
         "Newton's method on all unknowns is asked for",
         "kernel.stepping.loop-full-newton",
         lambda c: c.full,
-        _full_newton, renewable=True, factorises=True,
+        _full_newton, renewable=True,
     ),
     Rule(
         "relations on modes", "compiled",
@@ -193,13 +191,6 @@ RULES = (
         "kernel.stepping.loop-relations-on-modes",
         lambda c: c.stops is not None,
         lambda c: cast("ContactLoop", c.stops),
-    ),
-    Rule(
-        "relations", "condensed",
-        "unilateral relations",
-        "kernel.stepping.loop-relations",
-        lambda c: c.problem.contact is not None,
-        _condensed, renewable=True,
     ),
     Rule(
         "springs", "compiled",
@@ -250,7 +241,7 @@ class Choice:
 
 def method_of(rule: Rule, problem: Problem) -> Sentence:
     """What is said of a problem's loop."""
-    return Sentence(rule.said, q=0 if problem.interface is None else problem.interface.size)
+    return Sentence(rule.said, q=problem.interface.size, relations=bool(problem.contact))
 
 
 def rule_of(case: Case, renewable: bool = False) -> Rule:
@@ -271,17 +262,13 @@ def choose(case: Case, renewable: bool = False) -> Choice:
     loop = rule.make(case)
     if rule.make is _iterated:
         solver = MULTIGRID
-    elif rule.factorises:
-        solver = _each_time(case.problem)
+    elif rule.make is _full_newton:  # factorised at each iteration
+        n = case.problem.constraints.T.shape[1]
+        solver = PETSC if goes_to_petsc(case.problem.solver, n) else "SuperLU"
     else:
         used = case.rooted if isinstance(loop, InterleavedLoop) else case.effective
         solver = used.inverse.factor.name
     return Choice(rule, loop, solver)
-
-
-def _each_time(problem: Problem) -> str:
-    """The solver of a loop that factorises at each iteration."""
-    return PETSC if goes_to_petsc(problem.solver, problem.constraints.T.shape[1]) else "SuperLU"
 
 
 def only(name: str) -> tuple[Rule, ...]:
@@ -301,10 +288,9 @@ def refuse_combinations(problem: Problem, full: bool) -> None:
     scheme, contact = problem.scheme, problem.contact
     if scheme.adaptive and (scheme.conserving or full):
         raise KernelError("kernel.stepping.adapted-steps-condensed-interface")
-    plain = contact is None or (contact.friction is None and contact.associated)
-    if scheme.conserving and not plain:
+    if scheme.conserving and (contact.friction or not contact.associated):
         raise KernelError("kernel.stepping.conserving-step-no-friction")
-    codes = () if problem.interface is None else problem.interface.codes
+    codes = problem.interface.codes
     if scheme.conserving and np.isin(codes, (LawCode.LEAD, LawCode.PENDULUM)).any():
         raise KernelError("kernel.stepping.conserving-step-no-bearings")
 

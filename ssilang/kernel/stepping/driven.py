@@ -117,9 +117,8 @@ def changed(problem: Problem, start: Additions, end: Additions) -> Problem:
         [loading.imposed, _imposed(start, multipliers), _imposed(end, multipliers)]
     )
     contact = problem.contact
-    if contact is not None:
-        values = [contact.sense * _imposed(a, contact.multipliers) for a in (start, end)]
-        contact = replace(contact, imposed=np.column_stack([contact.imposed, *values]))
+    values = [contact.sense * _imposed(a, contact.multipliers) for a in (start, end)]
+    contact = replace(contact, imposed=np.column_stack([contact.imposed, *values]))
     loading = Loading(forces, imposed, loading.curves)
     return replace(problem, K=K, C=C, loading=loading, contact=contact)
 

@@ -91,22 +91,23 @@ def effective_of(
     """
     T, V, joints = problem.constraints.T, problem.constraints.V, problem.interface
     symmetric = problem.constraints.associated
-    q = joints.size if joints else 0
+    q = joints.size
     R = np.zeros((q, q))
-    right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(V.T @ joints.J.T)
+    right = sp.csc_array(V.T @ joints.J.T)
     order = ordering_of(problem, right, least)
     inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
-    if inverse.singular and joints is not None:
+    if inverse.singular and joints:
         R = share * joints.closed_stiffness()
         A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
         inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
-    if inverse.singular and not (free and joints is None):
+    if inverse.singular and (joints or not free):
         motions = T @ inverse.kernel
         raise singular("kernel.stepping.motions-without-mass", problem.numbering, motions)
-    S, root = R, None
-    if joints is not None:
-        root = root_response(inverse, right)
-        S = _compliance(problem, inverse, right) if root is None else np.asarray(root.J @ root.Y)
+    root = root_response(inverse, right)
+    if root is None:
+        S = joints.J @ _responses(problem.constraints, inverse, right)
+    else:
+        S = np.asarray(root.J @ root.Y)
     return Effective(dt, A, problem.constraints, inverse, right, np.ascontiguousarray(S), R, root)
 
 
@@ -118,11 +119,6 @@ def _responses(constraints: Constraints, inverse: Inverse, right: sp.csc_array) 
         part = right[:, start : start + COLUMNS].toarray()
         Y[:, start : start + COLUMNS] = constraints.T @ inverse.solve(part)
     return Y
-
-
-def _compliance(problem: Problem, inverse: Inverse, right: sp.csc_array) -> FloatArray:
-    assert problem.interface is not None
-    return problem.interface.J @ _responses(problem.constraints, inverse, right)
 
 
 def ordering_of(problem: Problem, right: sp.csc_array, least: int = SMALL) -> Ordering | None:

@@ -71,15 +71,13 @@ class Extremes(Track):
         self.unknowns = np.zeros(0, np.int64)
         if not self.known:
             return
-        rows = [p.constraints.C, p.constraints.D]
-        rows += [] if p.contact is None else [p.contact.pushing]
+        rows = (p.constraints.C, p.constraints.D, p.contact.pushing)
         self.held = np.unique(np.concatenate([A.indices for A in rows])).astype(np.int64)
         self.balance = balance_of(p, self.held)
         self.unknowns = np.arange(p.numbering.size)
         if self.inside:
             self.unknowns = self.balance.near
-        points = 0 if p.interface is None else p.interface.n_points
-        self.peaks = peaks_of(p.numbering.size, points)
+        self.peaks = peaks_of(p.numbering.size, p.interface.n_points)
         self.forces, self.forces_when = np.zeros(p.numbering.size), np.zeros(p.numbering.size)
 
     def receive(self, snapshot: Snapshot) -> None:
@@ -128,7 +126,7 @@ class Extremes(Track):
             made["REACTIONS", dual] = _largest(self.forces, self.forces_when, mine)
         joints = self.problem.interface
         for i, name in enumerate(JOINTS):
-            if joints is None or not to.joints.shape[1]:
+            if not to.joints.shape[1]:
                 break
             points = np.arange(joints.n_shown) if name == "OUVERTURE" else joints.pressing
             if len(points):

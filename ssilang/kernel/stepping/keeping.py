@@ -307,7 +307,7 @@ def digest(matrices: Iterable[sp.csr_array], arrays: Iterable[NDArray[Any]]) -> 
 def digest_of(problem: Problem) -> str:
     """A digest of all that the steps of a problem depend on."""
     p = problem
-    stops = [] if p.contact is None else list(_leaves(p.contact))
+    stops = list(_leaves(p.contact)) if p.contact else []
     matrices = [p.K, p.M, p.C, p.constraints.C, p.constraints.D, p.constraints.T]
     matrices += [x for x in stops if isinstance(x, sp.csr_array)]
     arrays: list[NDArray[Any]] = [
@@ -315,7 +315,7 @@ def digest_of(problem: Problem) -> str:
         *(x for curve in p.loading.curves for x in curve), p.u, p.v, p.state, p.times,
         *(x for x in stops if isinstance(x, np.ndarray)),
     ]  # fmt: skip
-    if p.interface is not None:
+    if p.interface:
         matrices.append(p.interface.J)
         arrays += [p.interface.codes, p.interface.parameters, p.interface.weights, p.interface.B]
     words = f"{p.scheme} {p.contact_options}".encode()

@@ -40,10 +40,10 @@ class Forces:
         pushed, contact = rows.tap.contact, rows.problem.contact
         if len(self.at):
             rest = rows.reactions(balance_of(rows.problem, self.at))
-            if contact is not None:
+            if contact:
                 rest = rest - pushed @ contact.pushing[:, self.at]
             found += rest @ self.forces
-        return found if contact is None else found + pushed @ self.contact.T
+        return found + pushed @ self.contact.T if contact else found
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,16 +56,13 @@ class Followed(Forces):
 def followed_of(problem: Problem, nodes: IntArray) -> Followed:
     """The relations whose multipliers are among some nodes."""
     p, contact = problem, problem.contact
-    equal, one_sided, size = np.flatnonzero(np.isin(p.multipliers, nodes)), np.zeros(0, int), 0
-    whole, sense = p.multipliers[equal], np.zeros(0)
-    if contact is not None:
-        one_sided, size = np.flatnonzero(np.isin(contact.multipliers, nodes)), contact.size
-        whole = np.concatenate([whole, contact.multipliers[one_sided]])
-        sense = contact.sense[one_sided]
+    equal = np.flatnonzero(np.isin(p.multipliers, nodes))
+    one_sided = np.flatnonzero(np.isin(contact.multipliers, nodes))
+    whole = np.concatenate([p.multipliers[equal], contact.multipliers[one_sided]])
     first, m = len(equal), len(whole)
     columns = sp.csr_array(sp.hstack([_pushers(p, equal), sp.csc_array((p.K.shape[0], m - first))]))
     places = (first + np.arange(m - first), one_sided)
-    pushed = sp.csr_array((-sense, places), shape=(m, size))
+    pushed = sp.csr_array((-contact.sense[one_sided], places), shape=(m, contact.size))
     at, order = np.flatnonzero(np.diff(columns.indptr)), np.argsort(whole, kind="stable")
     return Followed(at, columns[at][:, order], pushed[order], whole[order])
 
@@ -78,21 +75,16 @@ def resultants_of(problem: Problem, nodes: IntArray) -> dict[str, Forces]:
     p, numbering, contact = problem, problem.numbering, problem.contact
     equal = np.flatnonzero(np.isin(p.multipliers, nodes))
     forces = sp.csr_array(-_pushers(p, equal) @ p.constraints.D[equal])
-    held, size = np.zeros(0, np.int64), 0
-    if contact is not None:
-        held, size = np.flatnonzero(np.isin(contact.multipliers, nodes)), contact.size
-        if contact.friction is not None:
-            places = np.flatnonzero(np.isin(contact.friction.normal, held))
-            width = contact.friction.width
-            slips = (places[:, None] * width + np.arange(width)).ravel()
-            held = np.concatenate([held, len(contact) + slips])
+    held, width = np.flatnonzero(np.isin(contact.multipliers, nodes)), contact.friction.width
+    places = np.flatnonzero(np.isin(contact.friction.normal, held))
+    slips = (places[:, None] * width + np.arange(width)).ravel()
+    held = np.concatenate([held, len(contact) + slips])
     found = {}
     for code, dual in enumerate(numbering.duals):
         one = sp.csc_array((numbering.codes == code).astype(float)[:, None])
-        own, pushed = sp.csr_array(forces @ one), sp.csr_array((1, size))
-        if contact is not None:
-            total = (contact.pushing[held] @ one).toarray()[:, 0]
-            pushed = sp.csr_array((total, (np.zeros(len(held), int), held)), shape=(1, size))
+        own, total = sp.csr_array(forces @ one), (contact.pushing[held] @ one).toarray()[:, 0]
+        places = np.zeros(len(held), int), held
+        pushed = sp.csr_array((total, places), shape=(1, contact.size))
         if own.count_nonzero() or pushed.count_nonzero():
             at = np.flatnonzero(np.diff(own.indptr))
             found[dual] = Forces(at, sp.csr_array(own[at]), pushed)
@@ -182,11 +174,9 @@ class NodeHistories(Track):
             parts[MULTIPLIER] = NodeValues(self.followed.nodes, self.followed.values(rows)[0])
         return NodeField(numbering.table, parts, "DIFFUS")
 
-    def cell_field(self, row: int, name: str) -> CellField | None:
-        """`jump`, `traction` or `variables` of the joints at an instant, None without joints."""
+    def cell_field(self, row: int, name: str) -> CellField:
+        """`jump`, `traction` or `variables` of the joints at an instant."""
         joints = self.problem.interface
-        if joints is None:
-            return None
         w, t, state = (x[0] for x in self.instant(row).joints)
         if name == "variables":
             return state_field(joints, state, w, t)
@@ -218,8 +208,6 @@ class NodeHistories(Track):
     ) -> FloatArray | None:
         """History of a component of `cell_field` at a point (from 0) of a cell of a zone."""
         joints = self.problem.interface
-        if joints is None:
-            return None
         parts = [
             point_history(joints, rows.joints, name, component, (zone, cell, point))
             for rows in self.pieces
@@ -289,7 +277,7 @@ class FootingHistories(Track):
 
 def footing_histories(problem: Problem, wanted: BoolArray) -> FootingHistories | None:
     """The observer of a problem's largest footings; None where it has no joints."""
-    if problem.interface is None:
+    if not problem.interface:
         return None
     every = footings_of(problem.interface, problem.numbering)
     footings, left = every[:MOST], len(every[MOST:])

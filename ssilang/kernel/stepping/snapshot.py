@@ -12,7 +12,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface.interface import interface_field, plastic_jumps, state_field
 from ssilang.kernel.matrices.assembly import vector_to_field
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.state import Motion, Recorder
+from ssilang.kernel.stepping.state import WHOLE, Motion, Recorder
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,19 +34,15 @@ class Snapshot:
     @property
     def _multipliers(self) -> FloatArray:
         """Reactions of the equalities, D^T of which is what they push by."""
-        rest = self.reaction
-        if self.problem.contact is not None:
-            rest = rest - self.problem.contact.pushing.T @ self.contact
+        rest = self.reaction - self.problem.contact.pushing.T @ self.contact
         return self.problem.constraints.multipliers(rest)
 
     @property
     def displacement(self) -> NodeField:
         """Displacement, with the multipliers LX of the conditions."""
-        nodes, values, contact = self.problem.multipliers, -self._multipliers, self.problem.contact
-        if contact is not None:
-            nodes = np.concatenate([nodes, contact.multipliers])
-            values = np.concatenate([values, contact.lagrange(self.contact)])
-        pair = (nodes, values)
+        contact = self.problem.contact
+        nodes = np.concatenate([self.problem.multipliers, contact.multipliers])
+        pair = nodes, np.concatenate([-self._multipliers, contact.lagrange(self.contact)])
         return vector_to_field(self.u, self.problem.numbering, multipliers=pair)
 
     @property
@@ -62,11 +58,8 @@ class Snapshot:
     @property
     def support_forces(self) -> FloatArray:
         """Forces (n,) of the conditions on the body."""
-        rows = self.problem.constraints.D
-        forces = rows.T @ self._multipliers
-        if self.problem.contact is not None:
-            forces = forces + self.problem.contact.pushing.T @ self.contact
-        return np.asarray(forces)
+        pushed = self.problem.contact.pushing.T @ self.contact
+        return np.asarray(self.problem.constraints.D.T @ self._multipliers + pushed)
 
     @property
     def reactions(self) -> NodeField:
@@ -74,46 +67,37 @@ class Snapshot:
         return vector_to_field(self.support_forces, self.problem.numbering, dual=True)
 
     @property
-    def jumps(self) -> CellField | None:
-        """Jumps at the joints' points, None without joints."""
-        joints = self.problem.interface
-        return None if joints is None else interface_field(joints, self.w, "jump")
+    def jumps(self) -> CellField:
+        """Jumps at the joints' points."""
+        return interface_field(self.problem.interface, self.w, "jump")
 
     @property
-    def tractions(self) -> CellField | None:
-        """Tractions at the joints' points, None without joints."""
-        joints = self.problem.interface
-        return None if joints is None else interface_field(joints, self.t, "traction")
+    def tractions(self) -> CellField:
+        """Tractions at the joints' points."""
+        return interface_field(self.problem.interface, self.t, "traction")
 
     @property
-    def plastic_strains(self) -> CellField | None:
-        """Plastic jumps of the joints, None without joints."""
+    def plastic_strains(self) -> CellField:
+        """Plastic jumps of the joints."""
         joints = self.problem.interface
-        if joints is None:
-            return None
         return interface_field(joints, plastic_jumps(joints, self.w, self.t), "plastic jump")
 
     @property
-    def variables(self) -> CellField | None:
-        """Internal variables of the joints, None without joints."""
-        joints = self.problem.interface
-        return None if joints is None else state_field(joints, self.state, self.w, self.t)
+    def variables(self) -> CellField:
+        """Internal variables of the joints."""
+        return state_field(self.problem.interface, self.state, self.w, self.t)
 
 
 def snapshot_of(problem: Problem, motion: Motion, step: int) -> Snapshot:
     """A copy of the state at a step."""
-    m = motion
-    parts = (m.u, m.v, m.a, m.reaction, m.w, m.t, m.state, m.contact)
-    return Snapshot(problem, step, float(problem.times[step]), *(x.copy() for x in parts))
+    parts = (getattr(motion, name).copy() for name in WHOLE)
+    return Snapshot(problem, step, float(problem.times[step]), *parts)
 
 
 def kept_instant(problem: Problem, recorder: Recorder, row: int, step: int) -> Snapshot:
     """The instant in a row of what was kept."""
-    r = recorder
-    return Snapshot(
-        problem, step, float(problem.times[step]), r.u[row], r.v[row], r.a[row], r.reaction[row],
-        r.w[row], r.t[row], r.state[row], r.contact[row],
-    )  # fmt: skip
+    parts = (getattr(recorder, name)[row] for name in WHOLE)
+    return Snapshot(problem, step, float(problem.times[step]), *parts)
 
 
 class Observer(Protocol):

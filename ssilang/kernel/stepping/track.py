@@ -218,10 +218,8 @@ class Balance:
         found = -expand(p.loading.forces[self.at], rows.factors)
         for part in forces:
             found += part.T
-        if p.interface is not None:
-            J = p.interface.J[:, self.at]
-            found = found + joint_forces(p, rows.joints.t) @ J if J.nnz else found
-        return found
+        J = p.interface.J[:, self.at]
+        return found + joint_forces(p.interface, rows.joints.t) @ J if J.nnz else found
 
 
 def balance_of(problem: Problem, at: IntArray) -> Balance:

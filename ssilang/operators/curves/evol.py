@@ -355,8 +355,8 @@ def _tell_rounding(
 def _tell_held_side(call: Call, fields: instants.RecordedFields, name: str, node: int) -> None:
     """Warn of a fixed side of a joint that is read, and its other side moves and was not."""
     problem, code = fields.track.problem, "operators.curves.held-side"
-    table, joints = problem.numbering.table, problem.interface
-    for joint in () if joints is None else joints.joints:
+    table = problem.numbering.table
+    for joint in problem.interface.joints:
         ends = np.stack([table.resolve(s).ravel() for s in (joint.lower, joint.upper)])
         for other in ends[::-1][ends == node][:1].tolist():
             found = fields.track.history(fields.name, name, other)

@@ -15,6 +15,7 @@ from ssilang.io.checkpoint import Checkpoints, Kept, Rows, changed_names
 from ssilang.kernel.stepping.keeping import State, digest_of, fitting, leaves, rebuilt, stride_of
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot
+from ssilang.kernel.stepping.state import WHOLE
 from ssilang.kernel.stepping.track import Rows as TrackRows
 from ssilang.kernel.stepping.track import Track, View
 from ssilang.operators.files.outputs import digests_of_read, run_output
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from ssilang.kernel.plasticity.bulk import State as BulkState
 
 Bodies = tuple["Bulk", "BulkState"]
-
-PARTS = ("u", "v", "a", "reaction", "w", "t", "state", "contact")
-"""Parts of an instant."""
 
 
 @runtime_checkable
@@ -81,7 +79,7 @@ class KeptCalculation:
 
     def receive(self, snapshot: Snapshot) -> None:
         """Keep an instant for those that are given it again."""
-        found = [snapshot.step, *(getattr(snapshot, name) for name in PARTS)]
+        found = [snapshot.step, *(getattr(snapshot, name) for name in WHOLE)]
         if self.bodies is not None:
             found += leaves(getattr(snapshot, "bulk_state"))  # noqa: B009
         self._waiting.append(found)
@@ -184,7 +182,7 @@ class KeptCalculation:
 
     def _rows(self) -> Rows:
         """The instants that wait, part by part."""
-        names = ["step", *PARTS]
+        names = ["step", *WHOLE]
         columns = [np.stack([np.asarray(x) for x in c]) for c in zip(*self._waiting, strict=True)]
         names += [f"body{i}" for i in range(len(columns) - len(names))]
         return dict(zip(names, columns, strict=False))
@@ -194,7 +192,7 @@ class KeptCalculation:
 
         times = self.problem.times
         for k, step in enumerate(rows["step"].tolist() if "step" in rows else ()):
-            parts = {name: rows[name][k] for name in PARTS}
+            parts = {name: rows[name][k] for name in WHOLE}
             at = (self.problem, step, float(times[step]))
             if self.bodies is None:
                 yield Snapshot(*at, **parts)

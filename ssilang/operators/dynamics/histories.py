@@ -69,7 +69,7 @@ class TableObserver(Receiver):
 
     def __post_init__(self) -> None:
         self.nodes = self.track.nodes
-        words = NODAL_WORDS if self.track.problem.interface is None else ALL_WORDS
+        words = ALL_WORDS if self.track.problem.interface else NODAL_WORDS
         self.table = LazyRows(self._entry, words, self._stand_ins, self.track)
 
     @property
@@ -98,9 +98,9 @@ class TableObserver(Receiver):
             if index in VECTORS:
                 make = partial(track.node_field, name=VECTORS[index])
                 return RecordedFields(len(track), make, track, VECTORS[index]), track.times
-            if index in JOINTS and track.problem.interface is not None:
+            if index in JOINTS and track.problem.interface:
                 name = JOINTS[index]
-                made = partial(self._points, name=name)
+                made = partial(track.cell_field, name=name)
                 return RecordedPoints(len(track), made, track, name), track.times
             return None
         if index not in VECTORS or self.nodes is not None:
@@ -112,20 +112,15 @@ class TableObserver(Receiver):
             fields.append(InstantField(snapshot.problem.numbering, values, make))
         return fields, np.array([snapshot.time for snapshot in rows.values()])
 
-    def _points(self, row: int, name: str) -> CellField:
-        found = self.track.cell_field(row, name)
-        assert found is not None
-        return found
-
     def _entry(self, row: Snapshot | int) -> LazyTable:
         """The table of an instant: a snapshot, or a place among the rows."""
         if isinstance(row, int):
-            words = NODAL_WORDS if self.track.problem.interface is None else ALL_WORDS
+            words = ALL_WORDS if self.track.problem.interface else NODAL_WORDS
             entry = LazyTable(partial(self._recorded, row), words, partial(self._instant, row))
             entry.set(Mot("TEMP"), float(self.track.instant(row).times[0]))
             return entry
         words = ALL_WORDS
-        if row.problem.interface is None:
+        if not row.problem.interface:
             words = BODY_WORDS if hasattr(row, "body_stresses") else NODAL_WORDS
         entry = LazyTable(
             partial(_found, row, self.nodes), words, partial(_stand_in, row, self.nodes)

@@ -51,13 +51,9 @@ class VtkObserver:
         }
         cells: dict[str, CellField] = {}
         bodies: CellField | None = getattr(snapshot, "body_stresses", None)
-        jumps = snapshot.jumps
-        tractions = snapshot.tractions
-        if bodies is not None:
-            tractions = getattr(snapshot, "joint_tractions", None)
-        if jumps is not None and tractions is not None:
-            cells |= {"opening": jumps, "traction": tractions}
-        if snapshot.variables is not None:
+        if snapshot.problem.interface:
+            tractions = getattr(snapshot, "joint_tractions", snapshot.tractions)
+            cells |= {"opening": snapshot.jumps, "traction": tractions}
             cells |= joint_points(snapshot.variables)
         stress = self.stress(u) if self.stress is not None else None
         found = [f for f in (stress, bodies) if f is not None]
@@ -88,12 +84,9 @@ SHOWN = {"joint_state": "ETAT", "stored_energy": "ESTO", "lost_energy": "EPER"}
 
 
 def joint_points(variables: CellField) -> dict[str, CellField]:
-    """State and energies of joints, for cells: the most open point, and means of energies.
-
-    None where the variables are of bodies alone.
-    """
+    """State and energies of joints, for cells: the most open point, and means of energies."""
     found, joints = {}, [b for b in variables.blocks if "ETAT" in b.components]
-    for name, component in SHOWN.items() if joints else ():
+    for name, component in SHOWN.items():
         blocks = []
         for block in joints:
             values = block.components[component]
@@ -178,9 +171,7 @@ def force_track(entries: Entries, problem: Problem, saved: BoolArray) -> ForceHi
     if asked is None:
         return None
 
-    known, named = problem.multipliers, {}
-    if problem.contact is not None:
-        known = np.concatenate([known, problem.contact.multipliers])
+    known, named = np.concatenate([problem.multipliers, problem.contact.multipliers]), {}
     for index, _ in asked.table.items():
         relations = asked.get(name := str(index).rstrip()).relations
         if not relations:

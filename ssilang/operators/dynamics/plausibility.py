@@ -119,8 +119,8 @@ def _motion_against_supports(start: Start) -> Told:
 
 
 def _imposed_elsewhere(start: Start) -> Told:
-    problem, inputs, contact = start.problem, start.inputs, start.problem.contact
-    known = [problem.multipliers, *([] if contact is None else [contact.multipliers])]
+    problem, inputs = start.problem, start.inputs
+    known = problem.multipliers, problem.contact.multipliers
     for part in () if inputs.load is None else inputs.load.parts:
         count = max(imposed_outside(f, np.concatenate(known)) for f, _ in nodal_terms(part))
         if count:
@@ -130,7 +130,7 @@ def _imposed_elsewhere(start: Start) -> Told:
 def _not_conserved(start: Start) -> Told:
     problem, inputs = start.problem, start.inputs
     joints, zones = problem.interface, () if inputs.model is None else inputs.model.zones
-    if joints is not None and problem.scheme.conserving and not conserved(joints):
+    if joints and problem.scheme.conserving and not conserved(joints):
         laws = [law_of(z.behaviour) for z in zones if is_joint(z)]
         names = [n for n, law in LAWS.items() if law in laws and law.code is not LawCode.SDM]
         yield "operators.dynamics.conserving-other-laws", {"laws": names}
@@ -196,7 +196,7 @@ def _on_supports(start: Start) -> Told:
         told = {"name": name, "other_side": other_side}
         yield "operators.dynamics.load-on-supports", told
     problem, forces = start.problem, start.problem.loading.forces
-    if problem.interface is None:
+    if not problem.interface:
         return
     bare = held(problem) & (problem.K.diagonal() == 0.0) & (problem.M.diagonal() == 0.0)
     for k in np.flatnonzero(forces[bare].any(axis=0)).tolist():
@@ -209,20 +209,20 @@ def _on_supports(start: Start) -> Told:
 
 def _held_on_the_other_side(problem: Problem, inputs: Inputs) -> IntArray:
     """Unknowns (n,) held on one side of joints whose other side stands on nothing."""
-    nodes, still, none = problem.numbering.nodes, held(problem), np.zeros(0, np.int64)
-    if (joints := problem.interface) is None:
-        return none
+    nodes, still = problem.numbering.nodes, held(problem)
+    if not problem.interface:
+        return np.zeros(0, np.int64)
     resolve, zones = problem.numbering.table.resolve, inputs.model.zones if inputs.model else ()
     bodies = [resolve(z.cells.raw).ravel() for z in zones if not is_joint(z)]
     borne = abs(problem.constraints.C).sum(axis=0) + problem.K.diagonal() != 0.0
     laden = (problem.M.diagonal() != 0.0) | problem.loading.forces.any(axis=1)
     lying = np.concatenate([nodes[laden], *bodies])
     bare = ~still & ~borne & ~np.isin(nodes, lying)
-    sides = [[resolve(s).ravel() for s in (j.lower, j.upper)] for j in joints.joints]
+    sides = [[resolve(s).ravel() for s in (j.lower, j.upper)] for j in problem.interface.joints]
     for a, b in (way for pair in sides for way in (pair, pair[::-1])):
         if np.isin(a, nodes[still]).all() and np.isin(b, nodes[bare]).all():
             return np.flatnonzero(still & np.isin(nodes, a))
-    return none
+    return np.zeros(0, np.int64)
 
 
 def _sinks(start: Start) -> Told:
@@ -232,21 +232,21 @@ def _sinks(start: Start) -> Told:
 
 def _loose(start: Start) -> Told:
     problem = start.problem
-    alone = problem.interface is None and problem.contact is None
+    alone = not (problem.interface or problem.contact)
     if alone and problem.numbering.size > MOST_ALONE:
         return
-    zones, loose = () if (joints := problem.interface) is None else joints.joints, [*start.loose()]
-    slides = joints is not None and bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
+    joints, loose = problem.interface, [*start.loose()]
+    slides = bool((joints.parameters[:, Parameter.KS1] == 0.0).any())
     away = (s for s in start.swings if np.isinf(s.period) and start.stirs(s.motion, start.size))
     if not loose and problem.constraints.C.nnz and any(True for _ in away):
-        told: dict[str, Any] = {"macro": any(is_macro(j.zone) for j in zones), "slides": slides}
-        yield "operators.dynamics.turns-away", told
+        macro = any(is_macro(j.zone) for j in joints.joints)
+        yield "operators.dynamics.turns-away", {"macro": macro, "slides": slides}
     for found in loose:
         told = {"node": found.node, "axis": found.axis}
         if found.pressed:
             yield "operators.dynamics.nothing-presses", told
         else:
-            told |= {"joints": problem.interface is not None, "slides": slides}
+            told |= {"joints": bool(joints), "slides": slides}
             yield "operators.dynamics.slides-away", told
 
 
@@ -263,7 +263,7 @@ def _swings(start: Start) -> Told:
     least, lasts = min((s.period for s in found), default=0.0), float(np.ptp(problem.times))
     if lasts < BRIEF * least < np.inf and len(problem.times) > TRIED:
         yield "operators.dynamics.ends-early", {"lasts": lasts, "period": least}
-    strikes = problem.interface is not None or problem.contact or any(s.sudden for s in found)
+    strikes = problem.interface or len(problem.contact) or any(s.sudden for s in found)
     if longest < FEWEST * dt and not strikes and start.shaking.any():
         told = {"period": longest, "steps": longest / dt}
         yield "operators.dynamics.shaken-as-rigid", told
@@ -305,7 +305,7 @@ def warn_of_motion(entries: Entries, start: Start, track: NodeHistories) -> None
     u, moved = last.values("u")[0], bool(last.values("v")[0].any())
     ended = track.unknowns, u, moved, bool(problem.C.count_nonzero())
     workspace(entries.call.session).ended = ended
-    loose = start.bodies() if problem.interface or problem.contact else ()
+    loose = start.bodies() if problem.interface or len(problem.contact) else ()
     turn = float(np.abs(u[round_about[track.unknowns]]).max(initial=0.0))
     tips = max((_turn(problem, body.own, track.unknowns, u) for body in loose), default=0.0)
     if turn > TURNED or tips > TIPPED:
@@ -322,9 +322,9 @@ def _turn(problem: Problem, own: BoolArray, kept: IntArray, u: FloatArray) -> fl
     return float(np.linalg.norm(np.linalg.lstsq(motions[mine], u[mine])[0][3:]))
 
 
-def warn_of_bowls(entries: Entries, joints: Interface | None, track: NodeHistories) -> None:
+def warn_of_bowls(entries: Entries, joints: Interface, track: NodeHistories) -> None:
     """Warn of pendulums that travel so far that their bowl is steeper than their law has it."""
-    if joints is None or not len(track) or not (joints.codes == LawCode.PENDULUM).any():
+    if not len(track) or not (joints.codes == LawCode.PENDULUM).any():
         return
     ways = np.linalg.norm(track.joints("w")[..., :-1], axis=-1).max(axis=0)
     radii = joints.parameters[:, Parameter.RAYO]
@@ -411,8 +411,8 @@ def warn_of_contact(
         return
     if any(map(entries.call.session.warned, OF_MASS)):
         return  # of the mass that is left
-    joints, code = problem.interface, "operators.dynamics.contact-not-resolved"
-    keeps = joints is not None and conserved(joints)
+    code = "operators.dynamics.contact-not-resolved"
+    keeps = conserved(problem.interface)
     told = {n: getattr(found, n) for n in ("dt", "contact_time", "wanted_dt")}
     if (kept := keeps and problem.scheme.conserving) or off is None or off > RESOLVED:
         entries.warn(code, **told, conserved=keeps, kept=kept)
@@ -428,9 +428,7 @@ def warn_overloaded(entries: Entries, problem: Problem) -> None:
 def warn_massless(entries: Entries, problem: Problem) -> None:
     """Warn where a body that only joints hold, or all, has no mass: forgotten, most often."""
     joints = problem.interface
-    bodies = []
-    if joints is not None:
-        bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
+    bodies = loose_bodies(problem, np.zeros((joints.n_points, joints.dimension)))
     massless = [body for body in bodies if body.mass == 0.0]
     if massless:
         node = problem.numbering.table.told(massless[0].node)
@@ -448,7 +446,7 @@ def _taken_for(problem: Problem, node: int) -> str:
     numbering, joints, K = problem.numbering, problem.interface, sp.csr_array(problem.K)
     nodes, points = numbering.nodes, numbering.table.coordinates
     stiff, here = abs(K).sum(axis=1) > 0.0, nodes == node
-    if joints is None or stiff[here].any() or problem.constraints.C[:, here].nnz:
+    if not joints or stiff[here].any() or problem.constraints.C[:, here].nnz:
         return ""
     normal = joints.B[:, -1].reshape(-1, joints.dimension).sum(axis=0)
     near = ROUNDING * np.ptp(points[nodes], axis=0).max()
@@ -540,7 +538,7 @@ def warn_at_rest(entries: Entries, problem: Problem) -> None:
     moved = loading.forces[:, acting].any() or loading.imposed[:, acting].any()
     given = moved or problem.u.any() or problem.v.any() or entries.get("REPRISE") is not None
     unseen = entries.call.session.warned("operators.dynamics.load-missed")
-    if not (given or unseen or problem.contact is not None or entries.flag("CHARMECA")):
+    if not (given or unseen or problem.contact or entries.flag("CHARMECA")):
         entries.warn("operators.dynamics.nothing-moves")
     energies, first = entries.table.get(Mot("ENERGIES")), float(problem.times[0])
     before = energies.get(Mot("TEMPS")) if isinstance(energies, Table) else None

@@ -172,7 +172,6 @@ def _largest(extremes: Extremes) -> list[dict[str, Any]]:
         if name:
             place: Sequence[float] = table.coordinates[problem.numbering.nodes[peak.place]]
         else:
-            assert problem.interface is not None
             place = joint_places(problem.interface)[peak.place]
         told = {"kind": kind, "component": name, "value": peak.value}
         told |= {"time": float(problem.times[peak.step])}

@@ -28,7 +28,7 @@ ENERGIES = ("CINETIQUE", "ELASTIQUE", "JOINTS", "DISSIPEE", "AMORTIE", "EXTERIEU
 
 def conserved(joints: Interface) -> bool:
     """Whether 'CONSERVATIF' keeps the energy of joints."""
-    return bool((joints.codes == LawCode.SDM).all())
+    return bool(joints) and bool((joints.codes == LawCode.SDM).all())
 
 
 def _energy(history: History, word: str) -> ListReel:
@@ -62,7 +62,7 @@ def report(
     line: dict[str, Any] = {
         "procedure": entries.procedure,
         "unknowns": problem.numbering.size,
-        "interface_unknowns": problem.interface.size if problem.interface else 0,
+        "interface_unknowns": problem.interface.size,
         "steps": steps,
         "loop": history.loop,
         "method": method,
@@ -91,7 +91,7 @@ def report(
     lasting = warn_impacts(entries, problem, history)
     told = lasting is not None and lasting > CHANGED
     # at an impact of relations alone it is off for a step: what lasts is told by itself
-    impacts = problem.contact is not None and problem.interface is None and not in_statics
+    impacts = problem.contact and not problem.interface and not in_statics
     if impacts and not told and lasting is not None and line["energy_imbalance"]:
         line["energy_imbalance_joules"] *= lasting / line["energy_imbalance"]
         line["energy_imbalance"] = lasting
@@ -118,7 +118,7 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float 
     `kernel.contact.impact`. Schemes that damp take energy on purpose, as impacts of multipliers
     without correction do.
     """
-    if problem.contact is None or problem.interface is not None or len(history.times) <= LASTING:
+    if not problem.contact or problem.interface or len(history.times) <= LASTING:
         return None
     if not history.energies[:, 0].any():
         return None
@@ -142,11 +142,11 @@ def warn_impacts(entries: Entries, problem: Problem, history: History) -> float 
 
 def _causes(problem: Problem, added: bool) -> list[str]:
     """What may put the energies of a motion out of balance, by what it has; likeliest first."""
-    contact, options = problem.contact is not None, problem.contact_options
+    contact, options = bool(problem.contact), problem.contact_options
     joints, kept = problem.interface, problem.scheme.conserving
     found = {
-        "operators.dynamics.imbalance-joint": joints is not None and conserved(joints) and not kept,
-        "operators.dynamics.imbalance-law": joints is not None and not conserved(joints),
+        "operators.dynamics.imbalance-joint": conserved(joints) and not kept,
+        "operators.dynamics.imbalance-law": bool(joints) and not conserved(joints),
         "operators.dynamics.imbalance-stops": contact and not kept,
         "operators.dynamics.imbalance-velocities": contact
         and (options.correction != "FAUX" or options.persistent),

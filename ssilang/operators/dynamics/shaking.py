@@ -59,7 +59,7 @@ NAMES = {"ACCE": "ACCE", "VITE": "VITE", "VELO": "VITE", "DEPL": "DEPL", "DISP":
 def warn_of_shaking(entries: Entries, start: Start) -> None:
     """Warn of motions that are no earthquake's, of what damps or holds what they should move."""
     found = [*_Entering(start).told(entries)] if start.axes else []
-    if (joints := start.problem.interface) is not None:
+    if joints := start.problem.interface:
         found += [*_held_footings(start, joints), *_sheared(start, joints)]
     for code, told in found:
         entries.warn(code, **told)
@@ -319,7 +319,7 @@ def beside_free_field(start: Start) -> Told:
 def bridged(start: Start) -> Told:
     """Springs and dashpots that act where joints open; ground held where these stand on it."""
     problem, inputs = start.problem, start.inputs
-    if (joints := problem.interface) is None:
+    if not (joints := problem.interface):
         return
     own = without_zones(inputs.stiffness, joint_zones(inputs.model or Model(())))
     springs = [b for b in own.blocks if b.raw_nodes.shape[1] <= PAIR]
@@ -347,8 +347,6 @@ def bridged(start: Start) -> Told:
 def stops_on_held(start: Start) -> Told:
     """Sides in contact that are held whole, on cells that go on below them."""
     contact, numbering = start.problem.contact, start.problem.numbering
-    if contact is None:
-        return
     for sign in (1.0, -1.0):
         own = sign * contact.G.data > 0.0
         if not own.any():

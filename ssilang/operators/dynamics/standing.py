@@ -74,7 +74,7 @@ def out_of_balance(start: Start) -> Told:
     if not problem.u.any() or not 0 < loading.forces.size < LARGE:
         return
     held, forces = T.T @ _held_at_start(problem), T.T @ loading.forces
-    if problem.contact is not None and problem.contact.G.shape[0] <= FEW_STOPS:
+    if 0 < len(problem.contact) <= FEW_STOPS:
         stops = (T.T @ problem.contact.G.T).toarray()  # whatever they bear
         held, forces = (f - stops @ np.linalg.lstsq(stops, f)[0] for f in (held, forces))
     share = shares(forces, held[:, None])[:, 0]
@@ -93,7 +93,7 @@ def rest_of_others(start: Start) -> Told:
     """
     problem, joints = start.problem, start.problem.interface
     loading, T = problem.loading, problem.constraints.T
-    if joints is None or problem.contact is not None or not problem.u.any():
+    if not joints or problem.contact or not problem.u.any():
         return
     acting, of_joints = T.T @ (loading.forces @ start.factors[0]), abs(joints.J @ T).sum(axis=0) > 0
     held = _held_at_start(problem), closed_forces(problem, problem.u)
@@ -135,8 +135,7 @@ def weight_of_part(start: Start) -> Told:
 
 def _held_at_start(problem: Problem) -> FloatArray:
     """Forces (n,) of stiffness and joints for the displacements of the start."""
-    joints, held = problem.interface, problem.K @ problem.u
-    return np.asarray(held if joints is None else held + joints.J.T @ joint_state(problem).f)
+    return np.asarray(problem.K @ problem.u + problem.interface.J.T @ joint_state(problem).f)
 
 
 def velocity_of_rest(start: Start) -> Told:
@@ -180,7 +179,7 @@ def rotary_alone(start: Start) -> Told:
 def stops_turned(start: Start) -> Told:
     """Stops that keep two nodes from parting, at the very distance at which these lie."""
     contact, numbering = start.problem.contact, start.problem.numbering
-    if contact is None or not len(contact) or not {*numbering.unknowns} & {*AXES}:
+    if not len(contact) or not {*numbering.unknowns} & {*AXES}:
         return
     along = np.array([AXES.index(u) if u in AXES else 0 for u in numbering.unknowns])
     G, points = contact.G, numbering.table.coordinates
@@ -199,9 +198,9 @@ def stops_across(start: Start) -> Told:
     """Stops of which none acts: no load, no motion of the start moves anything along one."""
     problem, factors = start.problem, start.factors
     contact, C = problem.contact, problem.constraints.C
-    if contact is None or not len(contact) or (contact.imposed @ factors.T).max() > 0.0:
+    if not len(contact) or (contact.imposed @ factors.T).max() > 0.0:
         return
-    rows = [C, contact.G, *([] if problem.interface is None else [problem.interface.J])]
+    rows = C, contact.G, problem.interface.J
     linked = sp.coo_array(abs(problem.K) + abs(problem.M) + abs(problem.C))
     strong = linked.data > ROUNDING * linked.diagonal()[linked.row]
     pairs = cast(IntArray, linked.row[strong]), cast(IntArray, linked.col[strong])
@@ -216,7 +215,7 @@ def stops_across(start: Start) -> Told:
 def hangs_on_springs(start: Start) -> Told:
     """Bodies that turning springs at their highest node alone hold: a footing's, at the top."""
     problem, numbering = start.problem, start.problem.numbering
-    if problem.interface is not None or problem.contact is not None:
+    if problem.interface or problem.contact:
         return
     springs = [b for b in start.inputs.stiffness.blocks if b.raw_nodes.shape[1] == 1]
     turning = [b for b in springs if not {*TURNS}.isdisjoint(b.unknowns)]
@@ -276,10 +275,9 @@ def masses_apart(start: Start) -> Told:
     """Masses one above another, each on a spring of its own to the ground, two of them alike."""
     problem, numbering, up = start.problem, start.problem.numbering, len(start.axes) - 1
     k, m, points = problem.K.diagonal(), problem.M.diagonal(), numbering.table.coordinates
-    ties = (problem.constraints.C, *(x.J for x in [problem.interface] if x))
     alone = np.flatnonzero((m > 0.0) & (k > 0.0) & (np.diff(problem.K.indptr) <= 2 * up + 2))
     alone = alone[abs(problem.K[alone]).sum(axis=1) == k[alone]]  # of points: never all of it
-    for tie in (*ties, *(x.G for x in [problem.contact] if x)):
+    for tie in (problem.constraints.C, problem.interface.J, problem.contact.G):
         alone = alone[abs(tie[:, alone]).sum(axis=0) == 0.0]
     for axis in np.flatnonzero(np.abs(start.shaking[:up]).sum(axis=1)):
         rows = alone[numbering.codes[alone] == numbering.code(start.axes[axis])]
@@ -298,13 +296,13 @@ def bodies_stand(start: Start) -> Told:
     """Bodies that joints or stops alone bear: from which side, where; with what weight, all."""
     problem, loading, force = start.problem, start.problem.loading, start.weight
     drops = bool(loading.forces[:, start.changing].any())
-    drops = drops and not (problem.contact or problem.u.any() or problem.v.any())
+    drops = drops and not (len(problem.contact) or problem.u.any() or problem.v.any())
     left = np.abs(problem.constraints.T.T @ force)  # by supports
     drops = drops and bool(left.max(initial=0.0) > OFF * np.abs(force).max(initial=0.0))
     for body in start.bodies():
         node, up, mass, weight = body.node, body.up, body.mass, body.weight
         # joints that open for good are told behind the motion
-        for axis, way in body.ways.items() if problem.contact is not None else ():
+        for axis, way in body.ways.items() if problem.contact else ():
             borne = [start.touches(s * way) for s in (1.0, -1.0)]
             push = start.factors @ (loading.forces.T @ way)
             out = float(push.mean()) * (1.0 if borne[1] else -1.0)
@@ -326,7 +324,7 @@ def bodies_stand(start: Start) -> Told:
             if same or (times > TIMES and start.shaking.any()):
                 told = {"mass": mass, "weight": weight, "times": times}
                 yield "operators.dynamics.mass-over-weight", {**told, "node": node}
-            if (problem.interface is None or problem.contact is None) and not start.touches(up):
+            if not (problem.interface and problem.contact) and not start.touches(up):
                 yield from _beside_its_base(start, body)
 
 
@@ -335,7 +333,7 @@ def braked(start: Start) -> Told:
 
     What is proportional to a stiffness does not act on a body that moves as a whole.
     """
-    problem, joints = start.problem, start.problem.interface
+    problem = start.problem
     steps, times = start.factors[:, start.changing], problem.times
     most = np.abs(steps).max(axis=0, initial=0.0)
     rate = np.abs(np.diff(steps, axis=0) / np.diff(times)[:, None]).max(axis=0, initial=0.0)
@@ -355,7 +353,7 @@ def braked(start: Start) -> Told:
             if lifts and alpha > BRAKED * rocks > 0.0 and rate > rocks:  # else slow, to equilibrium
                 fall = weight / mass / alpha
                 yield "operators.dynamics.falls-braked", {**told, "alpha": alpha, "fall": fall}
-            swings = 0.0 if joints is None else _bearing_stiffness(joints, way, weight)
+            swings = _bearing_stiffness(problem.interface, way, weight)
             pulsation = np.sqrt(swings / mass)
             if alpha > 2.0 * OF_BEARINGS * pulsation > 0.0:
                 told |= {"alpha": alpha, "frequency": pulsation / (2.0 * np.pi), "axis": axis}
@@ -367,9 +365,8 @@ def braked(start: Start) -> Told:
 def weak_cores(start: Start) -> Told:
     """Lead cores that yield under next to nothing of the weight above, or never."""
     joints = start.problem.interface
-    lead = [] if joints is None else joints.codes == LawCode.LEAD
+    lead = joints.codes == LawCode.LEAD
     for body in start.bodies() if np.any(lead) else ():
-        assert joints is not None
         own = lead & (joints.jumps(body.up)[:, -1] > 0.0)
         cores = joints.parameters[:, Parameter.QD]
         bearing = [(float(cores[own].sum()), body.weight)]
@@ -429,11 +426,9 @@ def weights_twice(
 def _beside_its_base(start: Start, body: Body) -> Told:
     """A resultant of what presses a body that lies beside all that bears it."""
     problem, joints = start.problem, start.problem.interface
-    stops = None if problem.contact is None else problem.contact.G
-    numbering, rows = problem.numbering, stops if joints is None else joints.J
-    assert rows is not None
+    numbering, rows = problem.numbering, joints.J if joints else problem.contact.G
     rows = rows * (-1.0 if (rows @ body.up).sum() < 0.0 else 1.0)  # named from above
-    lifts = (rows @ body.up).reshape(-1, 1 if joints is None else joints.dimension)
+    lifts = (rows @ body.up).reshape(-1, joints.dimension)
     under = lifts[:, -1] > 1.0 - BESIDE
     if lifts[~under].any() or lifts[:, :-1].any() or not under.any():
         return
@@ -447,7 +442,7 @@ def _beside_its_base(start: Start, body: Body) -> Told:
         if start.holds(turn):
             continue
         levers, ends = (rows @ turn).reshape(lifts.shape)[under, -1], np.zeros(int(under.sum()))
-        if joints is not None:
+        if joints:
             middle, half = _normal_jumps(joints, turn)
             levers, ends = np.append(levers, middle), np.append(ends, half)
         elif (rows @ turn)[~under].any():  # stops that act along other axes
@@ -469,17 +464,16 @@ def _normal_jumps(joints: Interface, motion: FloatArray) -> tuple[FloatArray, Fl
 
 def unequal_joints(start: Start) -> Told:
     """Joints of one law and kind under one body, one part of them far stiffer than another."""
-    if (joints := start.problem.interface) is None:
+    if not (joints := start.problem.interface):
         return
     label, numbering = bodies_of(start.problem), start.problem.numbering
     known: dict[object, tuple[float, int]] = {}
-    ends = np.cumsum([0, *(j.weights.size for j in joints.joints)])
-    for joint, first, last in zip(joints.joints, ends, ends[1:], strict=False):
+    for joint, rows in joints.placed:
         node = int(joint.zone.cells.nodes.resolve(joint.upper).ravel()[0])
         body = int(label[(numbering.nodes == node).argmax()])
         normal = tuple(joint.frames[0, 0, -1].round(3).tolist())
         key = body, joint.zone.element, joint.zone.behaviour, normal
-        kn = float(np.median(joints.parameters[first:last, Parameter.KN]))
+        kn = float(np.median(joints.parameters[rows, Parameter.KN]))
         other, there = known.setdefault(key, (kn, node))
         if max(kn, other) > UNEQUAL * min(kn, other):
             told = {"node": numbering.table.told(node), "there": numbering.table.told(there)}
@@ -489,7 +483,7 @@ def unequal_joints(start: Start) -> Told:
 def ground_twice(start: Start) -> Told:
     """Macro-elements on ground that is meshed: the cells give way, and the element again."""
     problem, numbering = start.problem, start.problem.numbering
-    if (joints := problem.interface) is None:
+    if not (joints := problem.interface):
         return
     label = bodies_of(problem)
     zoned = [(b.nodes.ravel(), b.zone) for b in start.inputs.stiffness.blocks if b.zone is not None]
@@ -510,7 +504,7 @@ def matter_amiss(start: Start) -> Told:
         return
     numbering, joints = problem.numbering, problem.interface
     label, below = bodies_of(problem), held(problem)
-    for joint in () if joints is None else joints.joints:
+    for joint in joints.joints:
         below |= np.isin(numbering.nodes, joint.zone.cells.nodes.resolve(joint.lower))
     ground = np.isin(cells[:, 0], numbering.nodes[np.isin(label, label[below])])
     height, density, speed = cells[:, 1:].T
@@ -535,13 +529,12 @@ def matter_amiss(start: Start) -> Told:
 def footing_too_wide(start: Start) -> Told:
     """Macro-elements wider than the model is large, many times: millimetres among metres."""
     joints = start.problem.interface
-    macro = joints is not None and any(is_macro(j.zone) for j in joints.joints)
+    macro = any(is_macro(j.zone) for j in joints.joints)
     if macro and (wide := _width(start.problem)) > WIDE * start.size > 0.0:
         yield "operators.dynamics.footing-too-wide", {"width": wide, "size": start.size}
 
 
 def _width(problem: Problem) -> float:
     """The largest width of macro-elements."""
-    joints = problem.interface
     widths = [Parameter.LARG, Parameter.LONG, Parameter.RAYO]
-    return 0.0 if joints is None else float(joints.parameters[:, widths].max(initial=0.0))
+    return float(problem.interface.parameters[:, widths].max(initial=0.0))

@@ -36,7 +36,6 @@ def extremes_table(extremes: Extremes) -> Table:
     for (kind, name), peak in extremes.found().items():
         entry = Table.of({"VALEUR": peak.value, "TEMPS": float(problem.times[peak.step])})
         if not name:
-            assert problem.interface is not None
             x = problem.numbering.table.shown(joint_places(problem.interface)[peak.place])
             entry.set(Mot("COORDONNEES"), ListReel(x))
             made.set(Mot(kind), entry)
@@ -59,7 +58,7 @@ def extremes_later(problem: Problem, again: Callable[[Extremes], object]) -> Laz
         return found[0].get(kind)
 
     joints = problem.interface
-    known = 2 if joints is None else None if len(joints.pressing) else 3
+    known = 2 if not joints else None if len(joints.pressing) else 3
     return LazyTable(find, promises(*KINDS[:known]))
 
 
@@ -91,7 +90,7 @@ class UpliftWatch(Track):
     def of(cls, problem: Problem) -> "UpliftWatch | None":
         """The watch of a problem with joints that can open; None without."""
         joints = problem.interface
-        if joints is None or any(is_macro(j.zone) for j in joints.joints):
+        if not joints or any(is_macro(j.zone) for j in joints.joints):
             return None
         return cls(even(len(problem.times), SAMPLES), np.zeros(0, np.int64))
 

@@ -207,7 +207,7 @@ def _stretch(
         warn_of_strains(given, reached.values.get("DEPLACEMENTS"))
     moved = reached.values.get("DEPLACEMENTS")
     told = dynamic or entries.call.session.warned("operators.dynamics.load-on-supports")
-    stays = moved is not None and problem.contact is None and not (told or is_anywhere(moved))
+    stays = moved is not None and not problem.contact and not (told or is_anywhere(moved))
     if stays and _pushes(load, float(times[-1])):
         entries.warn("operators.statics.nothing-moves")
     judged = not finite and not dynamic and not all(map(is_joint, zones))  # whose size is none

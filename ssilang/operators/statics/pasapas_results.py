@@ -97,27 +97,22 @@ class ResultTables(Receiver):
         if self._last is not None and self._last[0] is snapshot:
             return self._last[1]
         u = snapshot.displacement
-        tractions = snapshot.tractions
-        blocks = (*self.stresses.at(u, snapshot.time), *(tractions.blocks if tractions else ()))
+        blocks = (*self.stresses.at(u, snapshot.time), *snapshot.tractions.blocks)
         values = {
             "TEMPS": snapshot.time,
             "DEPLACEMENTS": u,
             "REACTIONS": snapshot.reactions,
             "CONTRAINTES": self._in_order(CellField(blocks, "CONTRAINTES")),
-            "VARIABLES_INTERNES": self._in_order(
-                snapshot.variables or CellField((), "VARIABLES INTERNES")
-            ),
+            "VARIABLES_INTERNES": self._in_order(snapshot.variables),
+            "DEFORMATIONS_INELASTIQUES": self._in_order(snapshot.plastic_strains),
         }
-        values["DEFORMATIONS_INELASTIQUES"] = self._in_order(
-            snapshot.plastic_strains or CellField((), "DEFORMATIONS INELASTIQUES")
-        )
         if self.material is not None:
             bodies = (z for z in self.zones if not is_joint(z) and z.formulation == "MECANIQUE")
             seen = (z for z in bodies if has_second_order(z) or not self.finite)
             strained = (z for z in seen if family_of(z).strain_names(z))
             strains = [self._strain(z, self.material, u, snapshot.time) for z in strained]
-            jumps = snapshot.jumps.blocks if snapshot.jumps else ()
-            values["DEFORMATIONS"] = self._in_order(CellField((*strains, *jumps), "DEFORMATIONS"))
+            strains += snapshot.jumps.blocks
+            values["DEFORMATIONS"] = self._in_order(CellField(tuple(strains), "DEFORMATIONS"))
         if self.dynamic:
             values |= {"VITESSES": snapshot.velocity, "ACCELERATIONS": snapshot.acceleration}
         warm = named_at(self.load, "T", snapshot.time)

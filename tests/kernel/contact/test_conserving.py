@@ -179,8 +179,9 @@ def test_a_stop_that_another_s_push_drives_into_is_met_and_one_that_it_lifts_off
     """The second gap, 0.5, would close by 0.3; the first reaction takes 0.9 of itself off or on."""
     for lever, wanted in ((0.9, [1.0, 0.0]), (-0.9, [1.27 / 0.19, 1.2 / 0.19])):
         flexibility = np.array([[1.0, lever], [lever, 1.0]])
-        effective = SimpleNamespace(solve=lambda b, W=flexibility: W @ b, S=np.zeros((0, 0)))
-        step = ConservingContact(effective, TwoStops(), options, None)
+        none, no_joints = np.zeros((0, 2)), {"S": np.zeros((0, 0)), "Y": np.zeros((2, 0))}
+        effective = SimpleNamespace(solve=lambda b, W=flexibility: W @ b, **no_joints)
+        step = ConservingContact(effective, TwoStops(), options, none)
         gap, alone = np.array([0.0, 0.5]), np.array([-1.0, -0.3])
         found = step.solve(SimpleNamespace(size=0), np.zeros(0), gap, alone)
         np.testing.assert_allclose(found.P, wanted, rtol=1e-6, atol=1e-9)

@@ -137,7 +137,7 @@ def test_work_energies_and_multipliers_of_two_rows_that_push_elsewhere_and_rub()
     G, D, H, watched = (sp.csr_array(random.normal(size=(m, 4))) for m in (2, 2, 3, 2))
     sense, imposed = np.array([1.0, -1.0]), random.normal(size=(2, 3))
     friction = SimpleNamespace(H=H, watched=watched, offset=np.array([0.5, -2.0]))
-    rows = ContactRows(G, sense, np.arange(2), imposed, D, friction)  # type: ignore[arg-type]
+    rows = ContactRows(G, sense, np.arange(2), imposed, friction, D)  # type: ignore[arg-type]
     dc, u = random.normal(size=3), random.normal(size=4)
     forces = np.array([3.0, 0.0, 1.0, -2.0, 4.0])
     du = np.linalg.lstsq(G.toarray(), imposed @ dc, rcond=None)[0]

@@ -8,7 +8,6 @@ from references.recorder import Recorder
 from together import together
 
 from ssilang.kernel.interface.footing import Footing, Loads, footings_of
-from ssilang.kernel.interface.interface import Interface
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.stepping import node_histories
 from ssilang.kernel.stepping.node_histories import FootingHistories, footing_histories
@@ -61,16 +60,15 @@ def raft(cells: int = 24, soil_first: bool = False, turn: npt.NDArray[np.float64
 
 def structure_of(problem: Problem) -> npt.NDArray[np.int64]:
     """Nodes of the side that moves: the one above."""
-    raw = np.concatenate([j.zone.cells.raw for j in interface_of(problem).joints])
+    raw = np.concatenate([j.zone.cells.raw for j in problem.interface.joints])
     first, second = np.split(raw, 2, axis=1)
-    down = interface_of(problem).joints[0].frames[0, 0, -1, -1] < 0.0
+    down = problem.interface.joints[0].frames[0, 0, -1, -1] < 0.0
     return np.unique(second if down else first)
 
 
 def turned(problem: Problem, lift: float, about_y: float, about_z: float = 0.0) -> Loads:
     """Loads of the only footing under a rigid motion of its upper side on springs."""
     interface = problem.interface
-    assert interface is not None
     (footing,) = footings_of(interface, problem.numbering)
     x = footing.places[:, 0]
     w = np.zeros((1, interface.n_points, interface.dimension))
@@ -137,17 +135,12 @@ def test_a_raft_in_space_turned_about_y(soil_first: bool) -> None:
     assert found.pressure[0] == pytest.approx(2.0 * N / (0.5 * WIDTH * LENGTH), rel=0.02)
 
 
-def interface_of(problem: Problem) -> Interface:
-    assert problem.interface is not None
-    return problem.interface
-
-
 def test_joints_that_share_no_node_are_different_footings() -> None:
     """The largest is first; two points beside them are a third, and every point belongs to one."""
     bench = strip(8, bench=strip(4, left=10.0, width=2.0))
     bench.joint("SEG2", [[bench.node(-9.0, -1.0), bench.node(-9.0, 0.0)]], "JOI1", KN=K, KS=K)
     problem = problem_of(bench)
-    found = footings_of(interface_of(problem), problem.numbering)
+    found = footings_of(problem.interface, problem.numbering)
     assert [len(f.points) for f in found] == [16, 8, 1]
     assert [f.centre[0] for f in found] == pytest.approx([0.0, 11.0, -9.0], abs=1e-12)
     assert sorted(np.concatenate([f.points for f in found])) == list(range(25))
@@ -164,7 +157,7 @@ TURNS = {
 @together("turn", TURNS.values())
 def test_axes_lie_in_the_base_and_a_rigid_rotation_is_read_about_them(turn) -> None:
     problem = problem_of(raft(2, turn=turn))
-    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    (footing,) = footings_of(problem.interface, problem.numbering)
     n = turn[:, 2]
     np.testing.assert_allclose(footing.normal, n, atol=1e-12)
     np.testing.assert_allclose(footing.axes @ n, 0.0, atol=1e-12)
@@ -182,7 +175,7 @@ def test_axes_lie_in_the_base_and_a_rigid_rotation_is_read_about_them(turn) -> N
 def test_a_ring_does_not_turn() -> None:
     bench = strip(4, left=1.0, bench=Bench(Mode.AXISYMMETRIC))
     problem = problem_of(bench)
-    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    (footing,) = footings_of(problem.interface, problem.numbering)
     assert footing.axes.shape == (0, 3)
     assert footing.turn.shape[0] == 0
 
@@ -195,7 +188,7 @@ def test_pairs_on_a_line_turn_about_the_line_across() -> None:
         pairs = [[bench.node(*p, z) for z in (-1.0, 0.5)] for p in places]
         bench.joint("SEG2", [p[::-1] if first else p for p in pairs], "JOI1", KN=K, KS=K)
         problem = problem_of(bench)
-        (footing,) = footings_of(interface_of(problem), problem.numbering)
+        (footing,) = footings_of(problem.interface, problem.numbering)
         np.testing.assert_allclose(footing.centre, [1.0, 4 / 3 * side, 0.5], atol=1e-12)
         np.testing.assert_allclose(np.abs(footing.axes), [[0.8, 0.6, 0.0]], atol=1e-12)
         assert side * footing.axes[0, 0] * footing.axes[0, 1] < 0.0
@@ -218,7 +211,7 @@ def test_a_macro_element_tells_its_law() -> None:
     for node in ends:
         bench.spring(1.0, node, unknown="RZ")
     problem = problem_of(bench)
-    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    (footing,) = footings_of(problem.interface, problem.numbering)
     loads = footing.loads(np.array([[[2e-3, -1e-3]]]), np.array([[[-7e3, -9e4]]]), np.zeros((1, 0)))
     assert (loads.force[0], loads.moment[0], loads.rotation[0]) == (9e4, -7e3, 2e-3)
     assert (loads.share[0], loads.opening[0]) == pytest.approx((0.625, 3e-3))
@@ -229,7 +222,7 @@ def test_a_macro_element_tells_its_law() -> None:
     for node in ends:
         space.mass(1.0, node, ("UX", "UY", "UZ", "RX", "RY", "RZ"))
     problem = space.problem(np.array([0.0, 1e-3]))
-    (footing,) = footings_of(interface_of(problem), problem.numbering)
+    (footing,) = footings_of(problem.interface, problem.numbering)
     np.testing.assert_allclose(footing.axes @ [0.36, 0.48, 0.8], 0.0, atol=1e-15)
     np.testing.assert_allclose(footing.axes @ footing.axes.T, np.eye(2), atol=1e-15)
 
@@ -240,7 +233,7 @@ def test_two_pairs_of_points_are_one_footing_and_a_pair_alone_does_not_rock() ->
         cells = [[bench.node(x, -1.0), bench.node(x, 0.0)] for x in places]
         bench.joint("SEG2", cells, "JOI1", KN=K, KS=0.0)
         problem = problem_of(bench)
-        (found,) = footings_of(interface_of(problem), problem.numbering)
+        (found,) = footings_of(problem.interface, problem.numbering)
         return found
 
     two, one = pairs(-1.5, 1.5), pairs(0.0)

@@ -40,7 +40,7 @@ from ssilang.kernel.stepping.newmark import Scheme
 from ssilang.kernel.stepping.problem import problem as problem_module
 from ssilang.kernel.stepping.rests.reduced import run as reduced
 from ssilang.kernel.stepping.rests.sparse.adaptive import AdaptiveLoop
-from ssilang.kernel.stepping.rests.sparse.loop import SparseLoop, StepOutcome
+from ssilang.kernel.stepping.rests.sparse.loop import SparseSteps, StepOutcome
 from ssilang.kernel.stepping.run import Integration, integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC, LOST, STORED, Motion
 
@@ -57,7 +57,7 @@ LOOPS = {
     "condensed": LARGE,
     "full Newton": LARGE | {"steps": 25},
     "multigrid": LARGE | {"steps": 25},
-    "relations": {"unilateral": True},
+    "condensed, relations": {"unilateral": True},
 }
 
 
@@ -148,9 +148,8 @@ def check_fields(problem, now):
             found = field.values_at(names[field is fields[3]], problem.numbering.nodes[at])
             near(found, values[at], np.abs(values).max())
     rows, nodes = problem.constraints.C.toarray(), problem.multipliers
-    if contact is not None:
-        rows = np.vstack([rows, contact.sense[:, None] * contact.G.toarray()])
-        nodes = np.concatenate([nodes, contact.multipliers])
+    rows = np.vstack([rows, contact.sense[:, None] * contact.G.toarray()])
+    nodes = np.concatenate([nodes, contact.multipliers])
     near(-now.displacement.values_at("LX", nodes) @ rows, now.reaction, push)
 
 
@@ -161,7 +160,7 @@ def check_steps(problem, times, energies, instants, static=False, follows=None):
     """
     p, s = problem, problem.scheme
     K, M, C, rows = (A.toarray() for A in (p.K, p.M, p.C, p.constraints.C))
-    G = np.zeros((0, len(K))) if p.contact is None else p.contact.G.toarray()
+    G = p.contact.G.toarray()
     if static:
         M, C = 0.0 * M, 0.0 * C
     free = la.null_space(rows)
@@ -370,11 +369,11 @@ def test_steps_along_a_path_are_equilibria_under_the_loads_found(way, seed):
 
 def parts_of(patch):
     """What adapted steps are made of: a list that fills with (end, state) of accepted parts."""
-    parts, run, step = [], SparseLoop.run, AdaptiveLoop._step
+    parts, run, step = [], SparseSteps.run, AdaptiveLoop._step
 
-    def run_one(loop, solver, n, *given):
-        outcome = run(loop, solver, n, *given)
-        parts.append((n.dt, Motion(*(x.copy() for x in loop.motion))))
+    def run_one(loop, *given):
+        outcome = run(loop, *given)
+        parts.append((loop.newmark.dt, Motion(*(x.copy() for x in loop.motion))))
         return outcome
 
     def step_one(loop, *given):
@@ -384,7 +383,7 @@ def parts_of(patch):
             del parts[tried]  # it was split
         return outcome
 
-    patch.setattr(SparseLoop, "run", run_one)
+    patch.setattr(SparseSteps, "run", run_one)
     patch.setattr(AdaptiveLoop, "_step", step_one)
     return parts
 

@@ -87,7 +87,7 @@ CASES = {
     ),
     "relations on modes": ("relations on modes", feet),
     "penalty on modes": ("relations on modes", lambda: feet(PENALTY)),
-    "relations": ("relations", lambda: feet(damping="dashpots", moving=True)),
+    "relations": ("condensed", lambda: feet(damping="dashpots", moving=True)),
     "condensed": ("condensed", lambda: soil_block(steps=60, size=(16, 8, 4))),
     "multigrid": (
         "multigrid", lambda: replace(soil_block(60, size=(16, 8, 4)), solver=Solver("multigrid"))

@@ -122,7 +122,7 @@ CASES = {
     "adaptive": lambda: bouncing(shear=1e5, scheme=Scheme(adaptive=True)),
     "full Newton": lambda: bouncing(shear=1e5),
     "relations on modes": stopped,
-    "relations": lambda: stopped(dashpot=True),
+    "condensed, relations": lambda: stopped(dashpot=True),
 }
 
 
@@ -437,7 +437,7 @@ def frame_with_ties():
     return problem, np.sort(np.array(marks)), nodes
 
 
-@pytest.mark.parametrize("rule", ["relations on modes", "relations", "conserving"])
+@pytest.mark.parametrize("rule", ["relations on modes", "condensed", "conserving"])
 def test_multipliers_of_relations_are_followed(rule, monkeypatch):
     monkeypatch.setattr(choose, "RULES", only(rule))
     problem, marks, nodes = frame_with_ties()

@@ -21,7 +21,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
+from ssilang.kernel.interface.newton import solve_interface, workspace
 from ssilang.kernel.interface.response import accept
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
 from ssilang.kernel.plasticity.newton import RIGID, TOLERANCE, BulkSolver
@@ -186,9 +186,9 @@ class AcceleratedSolver(BulkSolver):
         self._reference: tuple[FloatArray | None, Reference] | None = None
         self._part: tuple[IntArray, Reference, Part] | None = None
         self._stiff = float(np.abs(A.data).max(initial=0.0))
-        self._jumps: Workspace | None = None
-        if (joints := problem.interface) is not None:
-            self._jumps = workspace((joints.n_points, joints.dimension), joints.size)
+        joints = problem.interface
+        shape = (joints.n_points, joints.dimension)
+        self._jumps = workspace(shape, joints.size) if joints else None
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """The accelerated iteration, and Newton's method where it leads nowhere."""
@@ -313,7 +313,7 @@ class AcceleratedSolver(BulkSolver):
         linear = self.A @ du
         rest, parts = step.r - linear, [step.r, linear, answer.force, self.force]
         rest -= self.share * (answer.force - self.force)
-        if self.interface is not None and self._jumps is not None:
+        if self._jumps is not None:
             pushed = self.interface.J.T @ (self.share * (self._jumps.trial.f - step.motion.f))
             rest -= pushed
             parts.append(pushed)
@@ -363,7 +363,7 @@ class AcceleratedSolver(BulkSolver):
         e, b = known.effective, step.forwarded.copy()
         b[step.part.places] -= step.p
         du = known.T @ e.inverse.factor.solve(b)
-        if self.interface is not None:
+        if self.interface:
             h = self._jumped(e, step.motion, self.interface.J @ du, step.held)
             if h is None:
                 return False
@@ -376,7 +376,6 @@ class AcceleratedSolver(BulkSolver):
     ) -> FloatArray | None:
         """Forces (q,) on the jumps by which the joints differ from the linear step."""
         joints, work = self.interface, self._jumps
-        assert joints is not None
         assert work is not None
         work.trial.y0[:] = y0 if held is None else y0 + joints.J @ held
         work.trial.y[:] = work.trial.y0
@@ -403,12 +402,11 @@ class AcceleratedSolver(BulkSolver):
 def is_accelerated(problem: Problem, bulk: Bulk, A: sp.csr_array) -> bool:
     """Whether steps may keep a factor: symmetric, no contact, small strains, a factor that pays."""
     plain = type(bulk) is Bulk and bulk.symmetric and len(bulk.zones) > 0
-    if not plain or problem.contact is not None or not problem.constraints.associated:
+    if not plain or problem.contact or not problem.constraints.associated:
         return False
     if problem.solver.name not in (None, DISSECTION):
         return False
     joints, T = problem.interface, problem.constraints.T
-    right = sp.csc_array((T.shape[1], 0)) if joints is None else sp.csc_array(T.T @ joints.J.T)
-    order = ordering_of(problem, right)
+    order = ordering_of(problem, sp.csc_array(T.T @ joints.J.T))
     whole = sp.csr_array(A + bulk.terms.matrix(np.ones(len(bulk.terms.indices))))
     return order is not None and factor_pays(sp.csr_array(T.T @ whole @ T), order, MANY_SOLVES)

@@ -34,11 +34,7 @@ class DenseSolver(BulkSolver):
         self._reduced = self._Vt @ self._dense @ self._T
         self._placed = places_of(bulk.terms, V, T, share)
         self._stiff = float(np.abs(A.data).max(initial=0.0))
-        J = (
-            np.zeros((0, A.shape[0]))
-            if problem.interface is None
-            else problem.interface.J.toarray()
-        )
+        J = problem.interface.J.toarray()
         self._nothing, self._none = response.new_trial((0, 0), 0), np.zeros((0, 0))
         self._at_play = np.zeros((5, A.shape[0]))
         self._J, self._JT, self._VJ = J, J @ self._T, self._Vt @ J.T
@@ -53,7 +49,7 @@ class DenseSolver(BulkSolver):
         linear = np.dot(self._dense, du, out=at_play[1])
         free = r - linear - self.share * (answer.force - self.force)
         joints, K = self._nothing, self._none
-        if self.interface is not None:
+        if self.interface:
             joints = response.new_trial(motion.w.shape, len(motion.f))
             K, at_play[4] = self._jumped(motion, du, joints)
             free -= at_play[4]
@@ -68,7 +64,6 @@ class DenseSolver(BulkSolver):
     ) -> tuple[FloatArray, FloatArray]:
         """Stiffness (q, q) of the joints, forces (n,) by which they differ from the start."""
         joints = self.interface
-        assert joints is not None
         trial.y[:] = self._J @ du
         trial.delta[:] = motion.delta + trial.y
         response.interface_response(joints.points, motion.state, trial.delta, trial)
@@ -80,12 +75,12 @@ class DenseSolver(BulkSolver):
     ) -> tuple[FloatArray, FloatArray]:
         """What the tangents of a trial ask for beyond it, beside a motion of the supports."""
         whole = self._reduced + (self._placed @ now.answer.terms).reshape(self._reduced.shape)
-        if self.interface is not None:
+        if self.interface:
             whole += self._VJ @ (now.K @ self._JT)
         rest = now.rest
         if held is not None:
             moved = self._dense @ held + self.share * (now.answer.tangent @ held)
-            if self.interface is not None:
+            if self.interface:
                 moved += self._J.T @ (now.K @ (self._J @ held))
             rest = rest - self._Vt @ moved
         try:
@@ -116,5 +111,5 @@ def places_of(terms: Pattern, V: sp.csr_array, T: sp.csr_array, share: float) ->
 
 def is_small(problem: Problem, bulk: Bulk) -> bool:
     """Whether matrices may be dense: few unknowns, small strains, no contact, no solver asked."""
-    plain = type(bulk) is Bulk and len(bulk.zones) > 0 and problem.contact is None
+    plain = type(bulk) is Bulk and len(bulk.zones) > 0 and not problem.contact
     return plain and problem.numbering.size <= FEW and problem.solver.name is None

@@ -35,7 +35,7 @@ def bodies_of(problem: Problem) -> IntArray:
     """
     if problem not in _KNOWN:
         joints, K = problem.interface, problem.K
-        turning = () if joints is None else [j for j in joints.joints if has_rotations(j.zone)]
+        turning = [j for j in joints.joints if has_rotations(j.zone)]
         if turning:  # whose turns or shear stand in the stiffness
             sides = [np.stack([j.lower, j.upper]).reshape(2, -1) for j in turning]
             K = without_pairs(K, problem.numbering, *np.concatenate(sides, axis=1))
@@ -53,9 +53,8 @@ def translation(problem: Problem, normals: FloatArray) -> FloatArray:
     mean = normals.mean(axis=0)
     mean = mean / (np.linalg.norm(mean) or 1.0)
     motion = np.zeros(problem.numbering.size)
-    joints = problem.interface
-    assert joints is not None
-    for name, value in zip(displacement_names(joints.joints[0].zone), mean, strict=True):
+    zone = problem.interface.joints[0].zone
+    for name, value in zip(displacement_names(zone), mean, strict=True):
         motion[problem.numbering.where(name)] = value
     return np.where(held(problem), 0.0, motion)
 
@@ -63,7 +62,7 @@ def translation(problem: Problem, normals: FloatArray) -> FloatArray:
 def loose_bodies(problem: Problem, t: FloatArray) -> list[LooseBody]:
     """Bodies that only joints hold along the mean normal, at tractions t (n_points, d)."""
     joints = problem.interface
-    if joints is None:
+    if not joints:
         return []
     d = joints.dimension
     normals = joints.B[:, -1].reshape(joints.n_points, -1, d)
@@ -96,7 +95,6 @@ def _bodies_at_points(
 ) -> NDArray[np.bool_]:
     """Which bodies each joint point touches, (n_points, n_bodies)."""
     joints = problem.interface
-    assert joints is not None
     d, n = joints.dimension, joints.n_points
     member = sp.csr_array((np.ones(len(label)), (np.arange(len(label)), label)))
     touched = (abs(joints.J) @ member).toarray().reshape(-1, d, member.shape[1])
@@ -109,9 +107,7 @@ def _bodies_at_points(
 
 
 def _node_at_joint(problem: Problem, mine: NDArray[np.bool_]) -> int:
-    joints = problem.interface
-    assert joints is not None
-    columns = np.unique(joints.J.indices)
+    columns = np.unique(problem.interface.J.indices)
     return int(problem.numbering.nodes[columns[mine[columns]]].min())
 
 

@@ -39,16 +39,14 @@ class JointState:
 def joint_state(problem: Problem, u: FloatArray | None = None) -> JointState:
     """Joints at the initial displacement, or at another one, from the problem's state."""
     joints = problem.interface
-    if joints is None:
-        empty = np.zeros((0, 1))
-        return JointState(np.zeros(0), np.zeros(0), empty, empty, empty, np.zeros((0, 1, 1)))
     n, d = joints.n_points, joints.dimension
     delta = joints.J @ (problem.u if u is None else u)
     w, t, D = np.zeros((n, d)), np.zeros((n, d)), np.zeros((n, d, d))
     state, f = np.zeros_like(problem.state), np.zeros(joints.size)
-    local_jumps(joints.points, delta, w)
-    respond(joints.codes, w, problem.state, joints.parameters, t, state, D)
-    interface_forces(joints.points, t, f)
+    if joints:  # without them nothing compiled is loaded
+        local_jumps(joints.points, delta, w)
+        respond(joints.codes, w, problem.state, joints.parameters, t, state, D)
+        interface_forces(joints.points, t, f)
     return JointState(delta, f, w, t, state, D)
 
 
@@ -58,7 +56,7 @@ def motion_at_rest(problem: Problem) -> Motion:
     return Motion(
         problem.u.copy(), zero, zero.copy(), joints.delta, joints.f, joints.w, joints.t,
         joints.state, zero.copy(), initial_energies(problem, zero, joints),
-        np.zeros(0 if problem.contact is None else problem.contact.size),
+        np.zeros(problem.contact.size),
     )  # fmt: skip
 
 
@@ -83,16 +81,12 @@ def initial_acceleration(problem: Problem, v: FloatArray, joints: JointState) ->
     """
     load = problem.loading.forces @ problem.loading.at(problem.times[:1])[0]
     rest = load - problem.K @ problem.u - problem.C @ v
-    if problem.interface is not None:
-        rest = rest - problem.interface.J.T @ joints.f
-    return accelerated(problem, rest)
+    return accelerated(problem, rest - problem.interface.J.T @ joints.f)
 
 
 def closed_at_start(problem: Problem) -> BoolArray:
     """Unilateral rows that touch in the initial state."""
     contact = problem.contact
-    if contact is None:
-        return np.zeros(0, bool)
     gaps = contact.gaps(problem.u, problem.loading.at(problem.times[:1])[0])
     # gaps of a body at rest on rigid ground are rounding of its own displacements
     codes, of_gaps = problem.numbering.codes, np.unique(contact.G.indices)
@@ -117,14 +111,14 @@ def with_contact(
     touching : array (m,)
     """
     contact = problem.contact
-    none = np.zeros(0 if contact is None else contact.size)
-    if contact is None or problem.contact_options.method == "PENALITE":
+    none = np.zeros(contact.size)
+    if not contact or problem.contact_options.method == "PENALITE":
         return a, none
     factors = problem.loading.at(problem.times[:2])
     rate = contact.imposed @ (factors[1] - factors[0]) / (problem.times[1] - problem.times[0])
     speed = contact.G @ v - rate
     chosen = np.flatnonzero(touching & (speed <= 1e-12 * np.abs(v).max(initial=0.0)))
-    if contact.friction is not None:
+    if contact.friction:
         return _with_friction(problem, contact, v, a, chosen)
     G, D = contact.G[chosen], contact.pushing[chosen]
     moved = accelerated(problem, D.T.toarray())
@@ -151,7 +145,6 @@ def _with_friction(
 ) -> tuple[FloatArray, FloatArray]:
     """As `with_contact` with friction at the chosen rows: slips of an instant decide its sense."""
     friction, m = contact.friction, len(contact)
-    assert friction is not None
     forces = np.zeros(contact.size)
     row = np.full(m + 1, -1)  # the last one is that of places without a row
     row[chosen] = np.arange(len(chosen))
@@ -246,13 +239,12 @@ def _least_squares(mass: sp.csr_array, force: FloatArray) -> FloatArray:
 def initial_energies(problem: Problem, v: FloatArray, joints: JointState) -> FloatArray:
     """Energies at the start, in the order of `state` (no work done yet)."""
     stored = lost = 0.0
-    p = problem.interface
-    if p is not None:
+    if p := problem.interface:
         stored, lost = interface_energies(p.points, joints.w, joints.t, joints.state)
     kinetic = 0.5 * v @ (problem.M @ v)
     elastic = 0.5 * problem.u @ (problem.K @ problem.u)
     contact, options = problem.contact, problem.contact_options
-    if contact is not None and options.method == "PENALITE":
+    if options.method == "PENALITE":
         gaps = contact.gaps(problem.u, problem.loading.at(problem.times[:1])[0])
         elastic += contact.penalty_energy(gaps, options.coefficient)
     return np.array([kinetic, elastic, stored, lost, 0.0, 0.0])

@@ -94,8 +94,7 @@ class MovingSupports:
         p = self.problem
         MX, CX, KX = p.M @ X, p.C @ X, p.K @ X
         forces = np.ascontiguousarray(-(self._T.T @ np.hstack([MX, CX, KX])).T)
-        lift = np.zeros((0, X.shape[1])) if p.interface is None else p.interface.J @ X
-        return Columns(X, MX, CX, KX, forces, lift)
+        return Columns(X, MX, CX, KX, forces, p.interface.J @ X)
 
     def begin(self, motion: Motion, factors: FloatArray) -> tuple[Columns, Course]:
         """Columns, and their course over the times of `factors` (n_steps + 1, k)."""

@@ -185,7 +185,7 @@ class Start:
 
     def sunk(self) -> Iterator[Sunk]:
         """Bodies that closed joints alone hold, by less than what loads push them with."""
-        for body in self.bodies() if self.problem.interface is not None else ():
+        for body in self.bodies() if self.problem.interface else ():
             for axis, motion in body.ways.items():
                 held = self._closed(motion)
                 if held > 0.0 and body.size > 0.0 and not self.holds(motion):
@@ -206,8 +206,7 @@ class Start:
         largest = float(np.abs(pushed).max(initial=0.0))
         excited = largest > ROUNDING * float(np.abs(forces).max(initial=0.0))
         closed, *ways = self._closed(motion), *(self.touches(s * motion) for s in (1.0, -1.0))
-        rubs = getattr(problem.contact, "friction", None)
-        closed = closed or (rubs is not None and np.abs(rubs.H @ motion).max(initial=0.0))
+        closed = closed or np.abs(problem.contact.friction.H @ motion).max(initial=0.0)
         if all(ways):
             return "held"
         if any(ways):
@@ -239,14 +238,13 @@ class Start:
     def _closed(self, motion: FloatArray) -> float:
         """Stiffness against a motion of joints that are pressed."""
         joints = self.problem.interface
-        if joints is None or not (delta := joints.J @ motion).any():
+        if not (delta := joints.J @ motion).any():
             return 0.0
         return float(delta @ (joints.closed_stiffness() @ delta))
 
     def touches(self, motion: FloatArray) -> bool:
         """Whether stops or joints act against a small motion from the start."""
-        contact = self.problem.contact
-        if contact is not None and (contact.G @ motion < -ROUNDING).any():
+        if (self.problem.contact.G @ motion < -ROUNDING).any():
             return True
         joints = joint_state(self.problem, LITTLE * motion)
         return bool(joints.f @ joints.delta > LITTLE**3 * self._closed(motion))
@@ -260,7 +258,7 @@ def swings(problem: Problem, factors: FloatArray) -> Iterator[Swing]:
     Supports that move ask for what the inertia of the displacement that follows them does.
     """
     T, given = problem.constraints.T, _loads(problem, factors)
-    if T.shape[1] > MOST_MOTIONS or problem.contact or not given:
+    if T.shape[1] > MOST_MOTIONS or len(problem.contact) or not given:
         return
     K = closed_stiffness(problem)
     largest = float(abs(K).max()) if K.nnz else 0.0
@@ -352,11 +350,8 @@ def against_supports(problem: Problem) -> dict[str, IntArray]:
 def masses_alone(problem: Problem) -> IntArray:
     """Nodes (n,) with mass or dashpots that nothing holds, joins, pushes or moves."""
     joints, contact, loading = problem.interface, problem.contact, problem.loading
-    others = [problem.K, problem.constraints.C]
-    others += [] if joints is None else [joints.J]
-    others += [] if contact is None else [contact.G]
     used = np.zeros(problem.numbering.size, bool)
-    for matrix in others:
+    for matrix in (problem.K, problem.constraints.C, joints.J, contact.G):
         used[matrix.indices[matrix.data != 0.0]] = True
     used |= loading.forces.any(axis=1) | (problem.u != 0.0) | (problem.v != 0.0)
     nodes = problem.numbering.nodes
@@ -412,7 +407,7 @@ def contact_resolution(problem: Problem) -> Resolution | None:
     nodes count for nothing). Bodies without mass do not count: they ring whatever the step.
     """
     joints = problem.interface
-    if joints is None or problem.M.nnz == 0:
+    if not joints or problem.M.nnz == 0:
         return None
     if not any(law_of(j.zone.behaviour).opens for j in joints.joints):
         return None
@@ -465,7 +460,7 @@ def overloads(problem: Problem, factors: FloatArray) -> list[Overload]:
         Of the loads at an instant.
     """
     joints = problem.interface
-    if joints is None or not joints.beds:
+    if not joints.beds:
         return []
     label = bodies_of(problem)
     force = problem.loading.forces @ factors
@@ -488,7 +483,6 @@ def overloads(problem: Problem, factors: FloatArray) -> list[Overload]:
 
 def _above(problem: Problem, bed: Bed) -> list[int]:
     """Displacements of a macro-element's upper node."""
-    assert problem.interface is not None
     joints, cell = problem.interface.cell_of(bed)
     node = int(joints.zone.cells.nodes.resolve(joints.upper[cell]).ravel()[0])
     return [problem.numbering.index_of(node, name) for name in displacement_names(joints.zone)]
@@ -507,8 +501,6 @@ def stiffness_contrast(problem: Problem) -> float | None:
     alone).
     """
     joints = problem.interface
-    if joints is None:
-        return None
     closed = np.diag(joints.closed_stiffness())
     of_joints = abs(joints.J).T @ closed
     of_bodies = problem.K.diagonal()

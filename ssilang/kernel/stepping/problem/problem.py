@@ -12,13 +12,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.modified_mass import without_contact_mass
-from ssilang.kernel.contact.rows import (
-    ContactRows,
-    Friction,
-    friction_rows,
-    split_rows,
-    with_friction,
-)
+from ssilang.kernel.contact.rows import ContactRows, Friction, split_rows
 from ssilang.kernel.contact.unilateral import ContactOptions
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.elements.families import stiffness as zone_stiffness
@@ -35,7 +29,6 @@ from ssilang.kernel.interface.interface import (
     without_zones,
 )
 from ssilang.kernel.interface.laws.law_table import law_of
-from ssilang.kernel.interface.response import Joints
 from ssilang.kernel.materials.model import Model, Zone
 from ssilang.kernel.matrices import assembly
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
@@ -63,13 +56,13 @@ class Problem:
     constraints: Constraints
     multipliers: IntArray  # (n_rows,) multiplier nodes of the conditions
     loading: Loading
-    interface: Interface | None
+    interface: Interface
     u: FloatArray  # (n,) initial displacement
     v: FloatArray  # (n,) initial velocity
     state: FloatArray  # (n_points, N_STATE) initial state of the joints
     times: FloatArray  # (n_steps + 1,) strictly increasing, the initial time first
+    contact: ContactRows  # unilateral relations
     scheme: Scheme = field(default_factory=Scheme)
-    contact: ContactRows | None = None  # unilateral relations
     contact_options: ContactOptions = field(default_factory=ContactOptions)
     solver: Solver = FIRST_FIT  # which solver takes the systems of its steps
 
@@ -77,15 +70,7 @@ class Problem:
     def small(self) -> bool:
         """Whether the compiled loops on all modes serve."""
         few = self.numbering.size <= MOST_SMALL and self.constraints.T.shape[1] <= SMALL
-        return few and self.contact is None and self.constraints.associated
-
-    @property
-    def joints(self) -> Joints:
-        """Points of the interface, none without joints."""
-        if self.interface is not None:
-            return self.interface.points
-        empty, none = np.zeros((0, 0)), np.zeros(0, dtype=np.int64)
-        return Joints(np.zeros((0, 1), np.int64), np.zeros((0, 1, 1)), np.zeros(0), none, empty)
+        return few and not self.contact and self.constraints.associated
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,15 +121,11 @@ def make_problem(inputs: Inputs) -> Problem:
     relations = tuple(r for m in given for r in m.relations)
     rows = assembly.constraint_matrix(Matrix(stiffness.table, (), relations), numbering)
     loading = loading_of(inputs.load, numbering, rows.multipliers)
-    rows, imposed, contact = split_rows(rows, loading.imposed)
+    rows, imposed, contact = split_rows(rows, loading.imposed, inputs.friction, numbering)
     loading = replace(loading, imposed=imposed)
-    multipliers = np.zeros(0, np.int64) if contact is None else contact.multipliers
-    contact = with_friction(contact, friction_rows(inputs.friction, numbering, multipliers))
-    if contact is not None and contact.imposed.shape[1] != imposed.shape[1]:
-        contact = replace(contact, imposed=np.zeros((len(contact), imposed.shape[1])))
     constraints = constraints_of(rows, numbering.size <= SMALL)
     check_values(constraints, loading.imposed, numbering)
-    interface = interface_of(zones, inputs.characteristics, numbering) if zones else None
+    interface = interface_of(zones, inputs.characteristics, numbering)
     assembled = {k: _assembled(m, numbering) for k, m in matrices.items()}
     for name, matrix in assembled.items():
         if not np.isfinite(matrix.data).all():
@@ -153,24 +134,19 @@ def make_problem(inputs: Inputs) -> Problem:
         if not np.isfinite(ordinates).all():
             raise FieldError("kernel.stepping.load-curve-values-not")
     assembly.refuse_negative_mass(assembled["M"], numbering, HISTORIES)
-    if contact is not None and inputs.contact_options.modified_mass:
+    if contact and inputs.contact_options.modified_mass:
         assembled["M"] = without_contact_mass(assembled["M"], assembled["K"], contact.G)
     u, v = (_start(field, numbering) for field in (inputs.displacement, inputs.velocity))
-    state = _joint_states(interface, inputs.variables)
-    if interface is not None and inputs.inside is not None:
+    state = interface.initial_state()
+    if interface and inputs.variables is not None:
+        state = state_from_field(interface, inputs.variables)
+    if interface and inputs.inside is not None:
         interface = parted(interface, state, interface.jumps(u), inputs.inside)
     return Problem(
         numbering, assembled["K"], assembled["M"], assembled["C"], constraints, rows.multipliers,
-        loading, interface, u, v, state, times,
-        inputs.scheme, contact, inputs.contact_options, inputs.solver,
+        loading, interface, u, v, state, times, contact,
+        inputs.scheme, inputs.contact_options, inputs.solver,
     )  # fmt: skip
-
-
-def _joint_states(interface: Interface | None, given: CellField | None) -> FloatArray:
-    """Initial state of the joints: never loaded, or from internal variables."""
-    if interface is None:
-        return np.zeros((0, 0))
-    return interface.initial_state() if given is None else state_from_field(interface, given)
 
 
 def _checked_times(times: FloatArray) -> FloatArray:
@@ -241,15 +217,11 @@ def reactions(
     """`M a + C v + K u + J^T f - F` of several instants, one a row."""
     p = problem
     total: FloatArray = (p.M @ a.T + p.C @ v.T + p.K @ u.T).T - loads
-    if p.interface is not None:
-        total = total + joint_forces(problem, t) @ p.interface.J
-    return total
+    return total + joint_forces(p.interface, t) @ p.interface.J if p.interface else total
 
 
-def joint_forces(problem: Problem, t: FloatArray) -> FloatArray:
+def joint_forces(joints: Interface, t: FloatArray) -> FloatArray:
     """Forces (n_rows, q) on the jumps of the interface from tractions (n_rows, n_points, d)."""
-    joints = problem.interface
-    assert joints is not None
     d, x = joints.dimension, joints.points
     local = np.einsum("p,rpi,pik->rpk", x.weights, t, x.B)
     places = (x.pairs[:, :, None] * d + np.arange(d)).reshape(len(x.pairs), -1)
@@ -267,7 +239,7 @@ def closed_stiffness(problem: Problem) -> sp.csr_array:
 def closed_forces(problem: Problem, motions: Any) -> Any:
     """What stiffness and closed joints hold motions (n, ...) with, sparse as they are."""
     forces, joints = problem.K @ motions, problem.interface
-    if joints is None:
+    if not joints:
         return forces
     return forces + joints.J.T @ (sp.csr_array(joints.closed_stiffness()) @ (joints.J @ motions))
 

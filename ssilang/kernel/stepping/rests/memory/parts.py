@@ -13,6 +13,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.scientific import sp
+from ssilang.kernel.interface.interface import interface_of
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import Supernode, supernodes
 from ssilang.kernel.solvers.factor import FIRST_FIT
@@ -54,7 +55,6 @@ class Ground:
     @cached_property
     def J(self) -> sp.csr_array:  # noqa: N802
         """Its part (q, r) of the jumps."""
-        assert self.problem.interface is not None
         return sp.csr_array(self.problem.interface.J @ self.T)
 
     @cached_property
@@ -76,7 +76,8 @@ class Ground:
         p = self.problem
         constraints = copy(p.constraints)
         constraints.T = constraints.V = self.T
-        alone = replace(p, constraints=constraints, interface=None, solver=FIRST_FIT)
+        none = interface_of((), None, p.numbering)
+        alone = replace(p, constraints=constraints, interface=none, solver=FIRST_FIT)
         A = effective_matrix(alone, self.dt)
         inverse = effective_of(alone, A, self.dt, 1.0, free=True, least=0).inverse
         factor = inverse.factor
@@ -132,7 +133,7 @@ def parts_of(problem: Problem, asked: BoolArray) -> Parts:
     far = body == np.argmax(np.bincount(body, minlength=1))
     own = sp.csr_array(T[:, far])
     rows = np.flatnonzero(np.diff(own.indptr))
-    if joints is None or count < 2 or not joints.J[:, rows].nnz:
+    if count < 2 or not joints.J[:, rows].nnz:
         raise NoReduction("kernel.stepping.memory-one-body")
     if p.loading.imposed.any():
         raise NoReduction("kernel.stepping.memory-supports-move")

@@ -94,11 +94,10 @@ def modes_of(problem: Problem, effective: Effective) -> Modes | None:
         return None
     m[np.abs(m) <= NOTHING * np.abs(m).max(initial=0.0)] = 0.0
     X = T @ inner
-    J = np.zeros((0, len(m))) if problem.interface is None else problem.interface.J @ X
     return Modes(
         X, T, inner, m, np.diag(c).copy(), np.einsum("ji,ji->i", inner, K @ inner),
-        np.ascontiguousarray(J), np.ascontiguousarray(problem.loading.forces.T @ X), B @ inner,
-        sense,
+        np.ascontiguousarray(problem.interface.J @ X),
+        np.ascontiguousarray(problem.loading.forces.T @ X), B @ inner, sense,
     )  # fmt: skip
 
 
@@ -123,7 +122,7 @@ class SmallLoop:
     def __init__(self, problem: Problem, motion: Motion, effective: Effective, modes: Modes):
         self.problem, self.motion, self.modes = problem, motion, modes
         self._newmark = newmark_of(problem.scheme, effective.dt)
-        self._joints = problem.joints
+        self._joints = problem.interface.points
         self._seen: FloatArray | None = None  # displacement up to which z is known
         self._z = np.zeros((3, modes.size))
         plain = not len(modes.sense)

@@ -151,7 +151,7 @@ def refuse_reduction(problem: Problem) -> None:
     KernelError
         For unilateral and non-associated relations, adaptive or conserving steps.
     """
-    if problem.contact is not None:
+    if problem.contact:
         raise KernelError("kernel.stepping.reduction-unilateral")
     if not problem.constraints.associated:
         raise KernelError("kernel.stepping.reduction-not-associated")
@@ -187,14 +187,14 @@ class Basis:
 
     def _project(self, problem: Problem, largest: int) -> None:
         """Matrices on the motions."""
-        T, joints = problem.constraints.T, problem.interface
+        T = problem.constraints.T
         self.problem, self.T = problem, T
         self.K, self.M, C = (sp.csr_array(T.T @ X @ T) for X in (problem.K, problem.M, problem.C))
         damping = split(C, self.M, self.K, largest)
         if damping is None:
             raise NoReduction("kernel.stepping.damping-not-symmetric")
         self.damping = damping
-        self.J = sp.csr_array((0, T.shape[1]) if joints is None else joints.J @ T)
+        self.J = sp.csr_array(problem.interface.J @ T)
 
     def meet(self, problem: Problem) -> None:
         """Take the loads and the start of a motion."""

@@ -115,7 +115,7 @@ def _name_of(problem: Problem) -> str:
         sparse.append(p.constraints.C)
         dense += [p.loading.imposed, p.loading.at(p.times[:2])]
     sparse += [p.K, p.M, p.C, p.constraints.T]
-    if p.interface is not None:
+    if p.interface:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
     return f"{digest(sparse, dense)} {_step_of(p):.9g}"

@@ -75,7 +75,7 @@ class Trace:
         )  # fmt: skip
         self.energies = np.zeros((len(p.times), N_ENERGIES))
         self.energies[0] = energies
-        self._joints, m = p.joints, self.model
+        self._joints, m = p.interface.points, self.model
         self._steps: dict[float, ReducedStep] = {}
         q, own = len(m.J), self.problem.loading.forces.shape[1]
         lift = np.zeros((q, m.forces.shape[1]))

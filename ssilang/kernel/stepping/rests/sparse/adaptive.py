@@ -102,7 +102,4 @@ class AdaptiveLoop:
     def _closed(self) -> BoolArray:
         """Joints, then relations, that push."""
         joints = self.motion.t[:, -1] < 0.0
-        contact = self.problem.contact
-        if contact is None:
-            return joints
-        return np.concatenate([joints, contact.closed(self.motion.contact)])
+        return np.concatenate([joints, self.problem.contact.closed(self.motion.contact)])

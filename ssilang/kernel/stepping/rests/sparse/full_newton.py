@@ -37,9 +37,7 @@ class FullNewtonSolver:
         self.A, self.share, self.constraints = A, share, problem.constraints
         self.solver = problem.solver
         self.interface, self.contact = problem.interface, problem.contact
-        self.forces = (
-            None if self.contact is None else ContactForces(self.contact, problem.contact_options)
-        )
+        self.forces = ContactForces(self.contact, problem.contact_options)
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """Newton from the linear prediction with the joints as they are."""
@@ -50,7 +48,7 @@ class FullNewtonSolver:
         for turn in range(1, MOST_TURNS + 1):
             K, force = self._joints(motion, du, trial)
             free = r - self.A @ du - force
-            rest = self.constraints.V.T @ (free + self._push(pushed))
+            rest = self.constraints.V.T @ (free + self.contact.pushing.T @ pushed)
             scale = np.abs(r).max(initial=0.0) + np.abs(self.A @ du).max(initial=0.0)
             scale += np.abs(pushed).max(initial=0.0)
             residual = float(np.abs(rest).max(initial=0.0)) / max(scale, 1e-300)
@@ -65,12 +63,6 @@ class FullNewtonSolver:
             du = du + step
         return StepOutcome(du, -MOST_TURNS, residual)
 
-    def _push(self, forces: FloatArray) -> FloatArray | float:
-        """Forces (n,) of relations and friction."""
-        if self.contact is None:
-            return 0.0
-        return self.contact.pushing.T @ forces
-
     def _turn(
         self,
         motion: Motion,
@@ -83,7 +75,7 @@ class FullNewtonSolver:
         """Increment of du for what is out of balance without contact, and the contact forces."""
         T, V = self.constraints.T, self.constraints.V
         matrix = sp.csr_array(V.T @ A @ T)
-        if self.contact is None or self.forces is None:
+        if not self.contact:
             return T @ factorise(matrix, False, self.solver).solve(V.T @ free), pushed
         inverse, rows = invert(matrix, False, self.solver), self.contact
         kernel: FloatArray = T @ inverse.kernel
@@ -107,7 +99,7 @@ class FullNewtonSolver:
         self, motion: Motion, du: FloatArray, trial: Trial
     ) -> tuple[sp.csr_array, FloatArray]:
         joints, n = self.interface, len(du)
-        if joints is None:
+        if not joints:
             return sp.csr_array((n, n)), np.zeros(n)
         trial.y[:] = joints.J @ du
         trial.delta[:] = motion.delta + trial.y
@@ -130,6 +122,5 @@ class FullNewtonSolver:
         return self.share * K
 
     def _commit(self, motion: Motion, trial: Trial) -> None:
-        if self.interface is not None:
-            now = motion.joints
-            accept(trial, now)
+        if self.interface:
+            accept(trial, motion.joints)

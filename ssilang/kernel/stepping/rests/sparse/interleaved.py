@@ -56,11 +56,11 @@ def fits(problem: Problem, effective: Effective) -> bool:
     Associated relations, no unilateral ones, few curves of imposed values, and a factor by
     dissection.
     """
-    if problem.contact is not None or not problem.constraints.associated:
+    if problem.contact or not problem.constraints.associated:
         return False
     if effective.inverse.singular or problem.loading.imposed.any(axis=0).sum() > MOST:
         return False
-    if problem.interface is not None and effective.root is None:
+    if problem.interface and effective.root is None:
         return False
     return isinstance(effective.inverse.factor, DissectedFactor)
 
@@ -96,9 +96,9 @@ class InterleavedLoop:
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)
-        self.joints, joints = problem.joints, problem.interface
-        soft = q > SINGLE and joints is not None and joints.is_soft(effective.S)
-        self.J = sp.csr_array((0, n)) if problem.interface is None else problem.interface.J @ self.T
+        joints, self.joints = problem.interface, problem.interface.points
+        soft = q > SINGLE and joints.is_soft(effective.S)
+        self.J = joints.J @ self.T
         self.newton = workspace(motion.w.shape, q, single=soft and not effective.R.any())
         self._moved: tuple[FloatArray | None, sp.csr_array] = None, sp.csr_array((0, 0))
         gram = sp.csr_array(self.T.T @ self.T)

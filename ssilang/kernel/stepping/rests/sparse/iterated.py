@@ -71,9 +71,8 @@ def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> Iterated
     from ssilang.kernel.solvers.multigrid.multigrid import MultigridFactor
 
     T, joints = problem.constraints.T, problem.interface
-    whole, closed = A, np.zeros((0, 1, 1))
-    if joints is not None:
-        closed = elastic_tangent(joints.parameters, joints.dimension)
+    whole, closed = A, elastic_tangent(joints.parameters, joints.dimension)
+    if joints:
         K = joint_stiffness(joints.points, share * closed, joints.size)
         whole = sp.csr_array(A + joints.J.T @ K @ joints.J)
     scaled, scale = unit_diagonal(sp.csr_array(T.T @ whole @ T))
@@ -91,8 +90,7 @@ def iterated_system(problem: Problem, A: sp.csr_array, share: float) -> Iterated
     if free.shape[1]:
         code = "kernel.stepping.motions-without-mass"
         raise singular(code, problem.numbering, motions @ free)
-    J = sp.csr_array((0, len(scale))) if joints is None else sp.csr_array(joints.J @ motions)
-    return IteratedSystem(factor, scale, motions, J, A, closed)
+    return IteratedSystem(factor, scale, motions, sp.csr_array(joints.J @ motions), A, closed)
 
 
 class IteratedSolver:
@@ -118,7 +116,7 @@ class IteratedSolver:
         release_shear(motion.state, trial.state)
         if outcome.turns > 0:
             self.past = np.vstack([du - start, self.past[: len(COURSE) - 1]])
-            if self.interface is not None:
+            if self.interface:
                 accept(trial, now)
         return StepOutcome(du, outcome.turns, outcome.residual)
 
@@ -128,8 +126,7 @@ class IteratedSolver:
         s, forces = self.system, [r]  # the joints' among them: the body may be one at rest
         if start.any():
             forces.append(s.A @ start)
-        if self.interface is not None:
-            forces.append(self.interface.J.T @ now.f)
+        forces.append(self.interface.J.T @ now.f)
         reference = sum(float(np.linalg.norm(s.T.T @ f)) for f in forces) or 1.0
         du, rest = self._begin(now, trial, r, start)
         size, enough = float(np.linalg.norm(rest)), self.tolerance * reference
@@ -170,7 +167,7 @@ class IteratedSolver:
     def _rest(self, now: InterfaceState, trial: Trial, r: FloatArray, du: FloatArray) -> FloatArray:
         """What is out of balance at du, on the scaled unknowns; the joints' answer into `trial`."""
         rest = r - self.system.A @ du if du.any() else r.copy()
-        if self.interface is not None:
+        if self.interface:
             trial.y[:] = self.interface.J @ du
             trial.delta[:] = now.delta + trial.y
             interface_response(self.interface.points, now.state, trial.delta, trial)
@@ -182,7 +179,7 @@ class IteratedSolver:
         from ssilang.kernel.solvers.multigrid import multigrid as krylov
 
         s, joints = self.system, self.interface
-        change = trial.D[:0] if joints is None else self.share * (trial.D - s.closed)
+        change = self.share * (trial.D - s.closed)
         if not change.any():
             multiply, symmetric = s.factor.multiply, True
         else:
@@ -191,7 +188,6 @@ class IteratedSolver:
             w, f = np.empty(trial.w.shape), np.empty(len(trial.f))
 
             def multiply(x: FloatArray) -> FloatArray:
-                assert joints is not None
                 local_jumps(joints.points, s.J @ x, w)
                 interface_forces(joints.points, np.einsum("pij,pj->pi", change, w), f)
                 return np.asarray(s.factor.multiply(x) + s.J.T @ f)
@@ -208,7 +204,7 @@ class IteratedSolver:
 
     def _hold(self, now: InterfaceState, trial: Trial) -> bool:
         """Hold the shear that a step's start has, where no other shear is possible."""
-        if self.interface is None:
+        if not self.interface:
             return False
         interface_response(self.interface.points, now.state, now.delta, trial)
         return bool(hold_shear(self.interface.points, trial.t, now.state))
@@ -217,7 +213,7 @@ class IteratedSolver:
 def pays(problem: Problem, A: sp.csr_array) -> bool:
     """Whether steps go by multigrid: asked for, or their factor would take too much."""
     T, solver = problem.constraints.T, problem.solver
-    if problem.contact is not None or not problem.constraints.associated:
+    if problem.contact or not problem.constraints.associated:
         return False
     if solver.name is not None or T.shape[1] < MANY or solver.petsc is not None:
         return solver.name == MULTIGRID  # PETSc takes what memory does not hold

@@ -12,7 +12,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import for_products
 from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.newton import Workspace, solve_interface, workspace
+from ssilang.kernel.interface.newton import solve_interface, workspace
 from ssilang.kernel.interface.response import accept, interface_energies
 from ssilang.kernel.stepping.effective import Effective
 from ssilang.kernel.stepping.newmark import Newmark, advanced, from_past
@@ -65,18 +65,17 @@ class CondensedSolver:
         self.interface = problem.interface
         R = effective.R if effective.R.any() else np.zeros((0, 0))
         self._condensed = Condensed(effective.S, R, 1.0 - problem.scheme.alpha_f)
-        self._newton: Workspace | None = None
-        if (joints := problem.interface) is not None:
-            shape, mean = (joints.n_points, joints.dimension), problem.scheme.conserving
-            self._newton = workspace(shape, joints.size, mean)
-            self._J = for_products(joints.J)
+        joints, mean = problem.interface, problem.scheme.conserving
+        shape = (joints.n_points, joints.dimension)
+        self._newton = workspace(shape, joints.size, mean) if joints else None
+        self._J = for_products(joints.J)
 
     def solve(self, motion: Motion, r: FloatArray, dd: FloatArray, gap: FloatArray) -> StepOutcome:
         """One solve, Newton on the interface, one product."""
         du = self.effective.solve(r)
         if dd.any():
             du = du + self.effective.imposed(dd)
-        if self.interface is None or self._newton is None:
+        if self._newton is None:
             return StepOutcome(du, 1, 0.0)
         trial = self._newton.trial
         trial.y0[:] = self._J @ du
@@ -108,7 +107,7 @@ def support_work(
     du, dd, dc : increments of displacement, imposed values and load factors.
     """
     contact, rest, work = problem.contact, reaction, 0.0
-    if contact is not None and len(pushed):
+    if contact:
         rest = reaction - contact.pushing.T @ pushed
         work = contact.work(pushed, du, dc)
     if not problem.constraints.associated:
@@ -127,58 +126,21 @@ class Products(NamedTuple):
     Jt: Any
 
 
-def products_of(p: Problem) -> Products:
-    """Matrices of a problem for a loop of many steps; without joints no J."""
-    J = None if p.interface is None else p.interface.J
-    given = (p.K, p.M, p.C, p.constraints.C, J, None if J is None else J.T)
-    return Products(*(None if A is None else for_products(A) for A in given))
-
-
 @dataclass(eq=False)
 class SparseLoop:
-    """Steps of one dt with a solver for each."""
+    """What steps are made of, beside a solver for each."""
 
     problem: Problem
     motion: Motion
 
     def __post_init__(self) -> None:
-        self._damped = self.problem.C.nnz > 0
-        self._by = products_of(self.problem)
-
-    def run(
-        self, solver: StepSolver, n: Newmark, factors: FloatArray, recorder: Recorder,
-        impact: ImpactRule | None = None,
-    ) -> Outcome:  # fmt: skip
-        """Steps of one dt; `impact` corrects velocities of unilateral relations."""
-        p, worst, contact, r = self.problem, 0, self.problem.contact, recorder
-        self._begin()
-        loads = factors @ p.loading.forces.T
-        imposed = factors @ p.loading.imposed.T
-        for k in range(len(r.row)):
-            rest = self._predict(n, loads[k], loads[k + 1])
-            dd = imposed[k + 1] - self._by.D @ self.motion.u
-            pushed = self.motion.contact.copy()
-            ends = factors[k : k + 2] if n.before else factors[k + 1]
-            outcome = solver.solve(self.motion, rest, dd, self._gap(ends))
-            if outcome.turns <= 0:
-                return k, outcome.turns, outcome.residual
-            worst, work = max(worst, outcome.turns), None
-            self._advance(n, outcome.du)
-            if impact is not None and contact is not None:
-                rate = contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
-                work = impact.correct(self.motion, rate)
-            before = balance(self.motion.energies)
-            if not np.isfinite(self.motion.u).all():
-                return k, -1, np.inf
-            self._account(n, outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
-            if work is not None:
-                lose(self.motion, work, before)
-            end_of_step(self.motion, r, k)
-        return len(r.row), worst, 0.0
+        p, J = self.problem, self.problem.interface.J
+        self._damped = p.C.nnz > 0
+        self._by = Products(*map(for_products, (p.K, p.M, p.C, p.constraints.C, J, J.T)))
 
     def _gap(self, factors: FloatArray) -> FloatArray:
         contact = self.problem.contact
-        return NOTHING if contact is None else contact.gaps(self.motion.u, factors)
+        return contact.gaps(self.motion.u, factors) if contact else NOTHING
 
     def _begin(self) -> None:
         """Products of the current state, that each step hands to the next."""
@@ -186,13 +148,11 @@ class SparseLoop:
         by = self._by
         self._Ku, self._Mv, self._Ma = by.K @ m.u, by.M @ m.v, by.M @ m.a
         self._Cv = by.C @ m.v if self._damped else NOTHING
-        self._joints_lost = 0.0
-        if p.contact is not None:
-            self._joints_lost = self._of_joints()[1]
+        self._joints_lost = self._of_joints()[1] if p.contact else 0.0
 
     def _of_joints(self) -> tuple[float, float]:
         joints, m = self.problem.interface, self.motion
-        if joints is None:
+        if not joints:
             return 0.0, 0.0
         stored, lost = interface_energies(joints.points, m.w, m.t, m.state)
         return float(stored), float(lost)
@@ -205,7 +165,7 @@ class SparseLoop:
             Ca = self._by.C @ self.motion.a
         r: FloatArray = from_past(n, self._Mv, self._Ma, Cv, Ca) - self._Ku
         r += n.end * load1 + n.start * load0
-        if self._by.Jt is not None:
+        if self.problem.interface:
             r -= self._by.Jt @ self.motion.f
         return r
 
@@ -230,7 +190,7 @@ class SparseLoop:
         if self._damped:
             m.reaction[:] += (1 - b) * self._Cv + b * Cv
             m.energies[DAMPED] += 0.5 * du @ (Cv + self._Cv)
-        if self._by.Jt is not None:
+        if p.interface:
             m.reaction[:] += self._by.Jt @ m.f
         if b:  # forces of the step, and those of joints and relations, are means by themselves
             old, pushed = m.reaction, m.contact
@@ -239,13 +199,13 @@ class SparseLoop:
             p, 0.5 * (old + m.reaction), 0.5 * (pushed + m.contact), du, dd, factors[1] - factors[0]
         )
         m.energies[KINETIC], m.energies[ELASTIC] = 0.5 * m.v @ self._Mv, 0.5 * m.u @ self._Ku
-        if p.contact is not None and p.contact_options.method == "PENALITE":
+        if p.contact and p.contact_options.method == "PENALITE":
             m.energies[ELASTIC] += p.contact.penalty_energy(
                 self._gap(factors[1]), p.contact_options.coefficient
             )
-        if p.interface is not None:
+        if p.interface:
             m.energies[STORED], m.energies[LOST] = self._of_joints()
-        if p.contact is not None:
+        if p.contact:
             rubbed = p.contact.rubbed(0.5 * (pushed + m.contact), du)
             m.energies[LOST] = self._joints_lost + before + rubbed
 
@@ -298,24 +258,47 @@ def watch_whole(m: Motion, to: Peaks, k: int) -> None:
 
 
 @dataclass(eq=False)
-class SparseSteps:
-    """Steps of one dt of a sparse loop with one solver."""
+class SparseSteps(SparseLoop):
+    """Steps of one dt with one solver; `impact` corrects velocities of unilateral relations."""
 
     remembered = ("solver",)
 
-    loop: SparseLoop
     solver: StepSolver
     newmark: Newmark
     impact: ImpactRule | None = None
 
     def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
         """Steps on the whole problem's arrays."""
-        return self.loop.run(self.solver, self.newmark, factors, recorder, self.impact)
+        p, m, n, worst = self.problem, self.motion, self.newmark, 0
+        self._begin()
+        loads = factors @ p.loading.forces.T
+        imposed = factors @ p.loading.imposed.T
+        for k in range(len(recorder.row)):
+            rest = self._predict(n, loads[k], loads[k + 1])
+            dd = imposed[k + 1] - self._by.D @ m.u
+            pushed = m.contact.copy()
+            ends = factors[k : k + 2] if n.before else factors[k + 1]
+            outcome = self.solver.solve(m, rest, dd, self._gap(ends))
+            if outcome.turns <= 0:
+                return k, outcome.turns, outcome.residual
+            worst, work = max(worst, outcome.turns), None
+            self._advance(n, outcome.du)
+            if self.impact is not None:
+                rate = p.contact.imposed @ (factors[k + 1] - factors[k]) / n.dt
+                work = self.impact.correct(m, rate)
+            before = balance(m.energies)
+            if not np.isfinite(m.u).all():
+                return k, -1, np.inf
+            self._account(n, outcome.du, dd, loads[k : k + 2], pushed, factors[k : k + 2])
+            if work is not None:
+                lose(m, work, before)
+            end_of_step(m, recorder, k)
+        return len(recorder.row), worst, 0.0
 
     def renew(self, problem: Problem) -> None:
         """Go on with other loads, all else being the same."""
-        self.loop.problem = problem
+        self.problem = problem
 
     def view(self, unknowns: IntArray) -> View:
         """Unknowns as they are."""
-        return whole_view(self.loop.motion, unknowns)
+        return whole_view(self.motion, unknowns)

@@ -8,6 +8,7 @@ import scipy.sparse as sparse
 from references.recorder import assert_alike, recorded
 from references.soil_block import soil_block
 
+from ssilang.kernel.interface.interface import interface_of
 from ssilang.kernel.stepping import effective
 from ssilang.kernel.stepping.rests.sparse import interleaved as interleaved_loop
 
@@ -31,7 +32,8 @@ def test_damping_that_is_a_diagonal_matrix():
 
 def test_without_joints():
     problem = soil_block(steps=60, size=SIZE)
-    assert_same(replace(problem, interface=None, state=np.zeros((0, 0))))
+    none = interface_of((), None, problem.numbering)
+    assert_same(replace(problem, interface=none, state=none.initial_state()))
 
 
 def test_a_body_without_mass_that_joints_alone_hold():

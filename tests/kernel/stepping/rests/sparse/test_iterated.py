@@ -9,6 +9,7 @@ from references.recorder import assert_alike, recorded
 from references.soil_block import FRICTION, soil_block
 
 from ssilang.kernel.base.errors import ConvergenceError, SingularMatrixError
+from ssilang.kernel.interface.interface import interface_of
 from ssilang.kernel.solvers.factor import FIRST_FIT, Solver
 from ssilang.kernel.solvers.multigrid import multigrid
 from ssilang.kernel.stepping import choose
@@ -64,7 +65,8 @@ def test_steps_begin_where_the_last_ones_lead(monkeypatch):
 
 def test_without_joints_the_energy_of_each_step_is_in_balance():
     problem = soil_block(steps=20, size=(16, 8, 4), damping=None)
-    linear = replace(problem, interface=None, state=np.zeros((0, 0)))
+    none = interface_of((), None, problem.numbering)
+    linear = replace(problem, interface=none, state=none.initial_state())
     kept = assert_same(linear)
     assert len(kept) == 5
     kinetic, elastic, stored, lost, _, external = run(linear, BY_MULTIGRID)[1].energies.T
