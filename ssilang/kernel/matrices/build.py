@@ -151,12 +151,9 @@ def sum_of_outer_products(
             unknown = PRIMAL_OF.get(name, name)
             vector[[rows[unknown, int(node)] for node in part.nodes]] += part.values
     values = (vectors.T * np.asarray(factors, dtype=float)) @ vectors
-    nodes, local = np.unique([node for _, node in places], return_inverse=True)
-    names = tuple(name for name, _ in places)
-    duals = tuple(dual_of(name) for name in names)
-    block = ElementMatrices(
-        table, nodes[None, :], local.astype(np.int64), names, duals, values[None], kind
-    )
+    names, nodes = zip(*places, strict=True)
+    duals = [dual_of(name) for name in names]
+    block = ElementMatrices.of_one(table, np.array(nodes), names, duals, values, kind)
     return Matrix(table, (block,), (), kind)
 
 

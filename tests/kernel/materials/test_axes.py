@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.materials.axes import Directions, axis_parameters, integration_points
+from ssilang.kernel.elements.results.frames import points_of
+from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.materials.parameters import geometric_names, known_names, material_names
 from tests.kernel.elements.samples import cell_zone, line_zone
@@ -25,7 +26,7 @@ def test_axes_point_to_a_centre_in_the_plane_and_are_turned():
     zone, centre = cell_zone("QUA8", Mode.PLANE_STRAIN), np.array([1.0, -2.0, 0.0])
     values, support = axis_parameters(zone, Directions(centre, None, radial=True, angle=30.0))
     assert support == "RIGIDITE"
-    way = (centre - integration_points(zone, support)) @ [1.0, 1j, 0.0] * np.exp(1j * np.pi / 6)
+    way = (centre - points_of(zone, support)) @ [1.0, 1j, 0.0] * np.exp(1j * np.pi / 6)
     way /= np.abs(way)
     np.testing.assert_allclose(values["V1X"] + 1j * values["V1Y"], way)
 

@@ -162,9 +162,9 @@ def test_matrices_of_hooke_are_kept_by_cell_and_point():
 
 
 def points(zone, support):
-    from ssilang.kernel.materials.axes import integration_points
+    from ssilang.kernel.elements.results.frames import points_of
 
-    return integration_points(zone, support)[0]
+    return points_of(zone, support)[0]
 
 
 def test_radial_axes_in_space_run_along_the_axis_then_towards_it():

@@ -125,11 +125,8 @@ def total(table: NodeTable, fields: Iterable[NodeField]) -> NodeField:
 
 
 def _summed(parts: list[NodeValues]) -> NodeValues:
-    if len(parts) == 1:
-        return parts[0]
-    nodes, place = np.unique(np.concatenate([p.nodes for p in parts]), return_inverse=True)
-    values = np.concatenate([p.values for p in parts])
-    return NodeValues(nodes, np.bincount(place.ravel(), values, len(nodes)).astype(np.float64))
+    nodes, values = (np.concatenate([getattr(p, n) for p in parts]) for n in ("nodes", "values"))
+    return NodeValues.summed(nodes, values)
 
 
 def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) -> NodeField:

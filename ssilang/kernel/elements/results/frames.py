@@ -66,7 +66,7 @@ def fixed_frame(first: FloatArray, second: FloatArray | None) -> FloatArray:
 def points_of(zone: Zone, support: Support) -> FloatArray:
     """Coordinates (n_cells, n_points, 3) of the points of a support."""
     shapes = support_shapes(zone.element, support)
-    return np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates)
+    return np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates[:, : shapes.shape[1]])
 
 
 def polar_frames(x: FloatArray, centre: FloatArray) -> FloatArray:

@@ -290,11 +290,7 @@ def fillet(
 def _ended(nodes: NodeTable, chain: IntArray, end: int, degree: int) -> IntArray:
     """A chain that goes on straight to a node; the middle of its last element is new."""
     pair = np.array([chain[-1], end])
-    made = pair[:0]
-    if degree == 2:
-        made = nodes.add(
-            nodes.coordinates[pair].mean(axis=0)[None], nodes.density[pair].mean(keepdims=True)
-        )
+    made = nodes.add_between(pair[None]) if degree == 2 else pair[:0]
     return np.concatenate([chain, made, pair[1:]])
 
 
