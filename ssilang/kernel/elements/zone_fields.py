@@ -147,13 +147,7 @@ class ZoneField:
         return result, support
 
     def numbers(self, name: str) -> tuple[FloatArray, Support]:
-        """As `raw`, of a parameter that is no curve and no other object.
-
-        Raises
-        ------
-        MaterialError
-            For objects in place of numbers.
-        """
+        """As `raw`, of a parameter that is no curve and no other object."""
         values, support = self.raw(name)
         if values.dtype == object:
             first = values.flat[0]

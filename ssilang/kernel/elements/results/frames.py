@@ -40,13 +40,7 @@ from ssilang.kernel.mesh.mesh import Point
 
 
 def unit(v: FloatArray) -> FloatArray:
-    """Vectors (..., d) of length one.
-
-    Raises
-    ------
-    FieldError
-        If one is zero.
-    """
+    """Vectors (..., d) of length one."""
     size = np.linalg.norm(v, axis=-1, keepdims=True)
     if (size <= 0).any():
         raise FieldError("kernel.elements.vector-radius-frame-zero")

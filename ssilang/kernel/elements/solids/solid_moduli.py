@@ -180,13 +180,7 @@ def moduli_from_field(material: ZoneField, support: Support) -> FloatArray | Non
 
 
 def inverted(zone: Zone, moduli: FloatArray) -> FloatArray:
-    """Inverse of moduli.
-
-    Raises
-    ------
-    MaterialError
-        If they are singular.
-    """
+    """Inverse of moduli."""
     try:
         return np.linalg.inv(moduli).astype(np.float64)
     except np.linalg.LinAlgError:

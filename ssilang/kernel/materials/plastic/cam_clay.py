@@ -212,13 +212,7 @@ def locked(p: PointParameters, stress: FloatArray, variables: FloatArray) -> Flo
 
 
 def check(p: PointParameters) -> None:
-    """Refuse clay without an ellipse, or with a cohesion.
-
-    Raises
-    ------
-    MaterialError
-        Naming what must hold.
-    """
+    """Refuse clay without an ellipse, or with a cohesion."""
     if (p["COHE"] != 0).any():
         worst = np.abs(p["COHE"]).max()
         raise MaterialError("kernel.materials.clay-cohesion", value=worst).about("COHE")

@@ -20,12 +20,7 @@ _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
 
 
 def unit_vector(vector: FloatArray, code: str) -> FloatArray:
-    """A vector (3,) of length 1; an error of this code where it has none.
-
-    Raises
-    ------
-    MeshError
-    """
+    """A vector (3,) of length 1; an error of this code where it has none."""
     size = float(np.linalg.norm(vector))
     if size == 0.0:
         raise MeshError(code)

@@ -70,12 +70,7 @@ def end_sizes(nodes: NodeTable, start: int, end: int) -> tuple[float, float]:
 
 
 def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
-    """Refuse a line from a node to itself.
-
-    Raises
-    ------
-    MeshError
-    """
+    """Refuse a line from a node to itself."""
     if start == end:
         raise MeshError("kernel.mesh.line-starts-ends-same", start=nodes.told(start))
 

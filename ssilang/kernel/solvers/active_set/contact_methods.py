@@ -42,13 +42,7 @@ def lagrange(
 def penalty(
     W: FloatArray, q: FloatArray, coefficient: float | None, start: BoolArray | None
 ) -> Reactions:
-    """`p = c max(0, -g)`: rows with a flexibility 1/c added.
-
-    Raises
-    ------
-    KernelError
-        Without a positive coefficient.
-    """
+    """`p = c max(0, -g)`: rows with a flexibility 1/c added."""
     if coefficient is None or not coefficient > 0.0:
         raise KernelError("kernel.solvers.penalty-needs-coefficient")
     return lagrange(W + np.eye(len(q)) / coefficient, q, None, start)
