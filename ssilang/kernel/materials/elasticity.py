@@ -137,9 +137,3 @@ def reduced_moduli(moduli: FloatArray, mode: Mode) -> FloatArray:
         D[..., 2, :] = 0
         D[..., :, 2] = 0
     return D
-
-
-def reduced_compliance(compliance: FloatArray, mode: Mode) -> FloatArray:
-    """Compliance of one hypothesis: strains that stresses (with their SMZZ) cause."""
-    kept = list(KEPT[mode])
-    return compliance[..., kept, :][..., kept]

@@ -161,13 +161,11 @@ def chained(mesh: Mesh) -> Mesh:
     The sense of the cells is kept; the first loop starts with the first cell. Open pieces start
     at a node where no cell ends.
     """
-    blocks = tuple(_chain_block(b) for b in mesh.blocks)
-    return Mesh(mesh.nodes, blocks, mesh.sides)
-
-
-def _chain_block(block: CellBlock) -> CellBlock:
-    found, order = walked(block.connectivity, block.connectivity[:, 0], turning=False)
-    return CellBlock.make(block.nodes, block.cell_type, found, block.colours[order])
+    blocks = []
+    for b in mesh.blocks:
+        found, order = walked(b.connectivity, b.connectivity[:, 0], turning=False)
+        blocks.append(CellBlock.make(b.nodes, b.cell_type, found, b.colours[order]))
+    return Mesh(mesh.nodes, tuple(blocks), mesh.sides)
 
 
 def edges(mesh: Mesh) -> Mesh:

@@ -6,9 +6,7 @@ import numpy as np
 
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
-from ssilang.kernel.stepping.state import Motion
+from ssilang.kernel.stepping.snapshot import Snapshot
 
 NOTHING = np.zeros(0)
 
@@ -54,24 +52,3 @@ class BulkSnapshot(Snapshot):
 
 def _blocks(field: CellField | None) -> tuple[CellFieldBlock, ...]:
     return () if field is None else field.blocks
-
-
-def hand_over(
-    observers: tuple[Observer, ...],
-    problem: Problem,
-    motion: Motion,
-    step: int,
-    bulk: Bulk,
-    state: State,
-) -> None:
-    """Give the instant to the observers that want it."""
-    wanting = [o for o in observers if o.wanted[step]]
-    if not wanting:
-        return
-    s = snapshot_of(problem, motion, step)
-    snapshot = BulkSnapshot(
-        s.problem, s.step, s.time, s.u, s.v, s.a, s.reaction, s.w, s.t, s.state, s.contact,
-        bulk, state,
-    )  # fmt: skip
-    for observer in wanting:
-        observer.receive(snapshot)

@@ -166,7 +166,8 @@ def _rigid_names(
     left, size, _ = np.linalg.svd(span[own], full_matrices=False)
     local = left[:, size > 1e-6 * size.max(initial=0.0)]
     pure = [k for k in range(6) if _inside(rigid[:, k], local)]
-    names = [_motion_name(k) for k in pure]
+    codes = ("kernel.statics.translation", "kernel.statics.rotation")
+    names = [Sentence(codes[k // 3], axis=_NAMES[k % 3]) for k in pure]
     if len(pure) < local.shape[1]:
         names += _turns(rigid, local, pure, centre, extent)
     return names
@@ -175,11 +176,6 @@ def _rigid_names(
 def _inside(vector: FloatArray, basis: FloatArray) -> bool:
     size = np.linalg.norm(vector)
     return bool(size > 0.0 and np.linalg.norm(vector - basis @ (basis.T @ vector)) < 1e-6 * size)
-
-
-def _motion_name(k: int) -> Sentence:
-    code = "kernel.statics.translation" if k < 3 else "kernel.statics.rotation"
-    return Sentence(code, axis=_NAMES[k % 3])
 
 
 def _turns(
