@@ -8,13 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 
-BoolArray = NDArray[np.bool_]
 MOST_SWEEPS = 200_000
 TOLERANCE = 1e-13  # change of the reactions in a sweep, relative
 
