@@ -35,14 +35,14 @@ def run(deck: str) -> None:
     from ssilang.kernel.statics import stepping
     from ssilang.kernel.stepping.run import Integration
 
-    hand_over, within, save = stepping._hand_over, Integration._within_memory, BulkRun.save
+    hand_over, within, save = stepping.hand_over, Integration._within_memory, BulkRun.save
 
     def tell(kind: str) -> None:
         if not Path(kind).exists():
             Path(kind).write_text(str(time.time()), encoding="ascii")
 
-    def handed_over(observers: Any, problem: Any, motion: Any, step: int) -> None:
-        hand_over(observers, problem, motion, step)
+    def handed_over(observers: Any, step: int, made: Any) -> None:
+        hand_over(observers, step, made)
         if step > 0:
             tell(KINDS[0])
 
@@ -57,7 +57,7 @@ def run(deck: str) -> None:
         tell(KINDS[1])
         return within(integration, first, last)
 
-    stepping._hand_over = handed_over
+    stepping.hand_over = handed_over
     BulkRun.save = saved  # type: ignore[method-assign]
     Integration._within_memory = one_first  # type: ignore[method-assign]
     sys.exit(command([deck, "--out", "."]))

@@ -58,12 +58,7 @@ def parents(faces: CellBlock, model: Model) -> Parents:
 
 
 def require_parents(faces: CellBlock, model: Model) -> Parents:
-    """The same, refusing faces that lie on no cell.
-
-    Raises
-    ------
-    MeshError
-    """
+    """The same, refusing faces that lie on no cell."""
     found = parents(faces, model)
     lost = int((found.zone < 0).sum())
     if lost:

@@ -54,11 +54,8 @@ class Layout:
         duals = self.duals
         for name in dict.fromkeys(duals):
             columns = [i for i, u in enumerate(duals) if u == name]
-            ids, place = np.unique(nodes[:, self.local[columns]], return_inverse=True)
-            sums = np.bincount(place.ravel(), vectors[:, columns].ravel(), len(ids)).astype(
-                np.float64
-            )
-            components[name] = NodeValues(ids, sums)
+            at = nodes[:, self.local[columns]]
+            components[name] = NodeValues.summed(at, vectors[:, columns])
         return NodeField(self.table, components, "DISCRET")
 
 

@@ -147,13 +147,7 @@ class ZoneField:
         return result, support
 
     def numbers(self, name: str) -> tuple[FloatArray, Support]:
-        """As `raw`, of a parameter that is no curve and no other object.
-
-        Raises
-        ------
-        MaterialError
-            For objects in place of numbers.
-        """
+        """As `raw`, of a parameter that is no curve and no other object."""
         values, support = self.raw(name)
         if values.dtype == object:
             first = values.flat[0]
@@ -222,7 +216,7 @@ def zone_field(zone: Zone, field: CellField | None) -> ZoneField:
     """
     if field is None:
         return ZoneField(zone, ())
-    fitting = [b for b in field.blocks if _same_constituent(zone, b)]
+    fitting = [b for b in field.blocks if len({zone.constituent, b.constituent} - {""}) < 2]
     parts: list[tuple[CellFieldBlock, IntArray | None]] = [
         (b, None) for b in fitting if b.cells is zone.cells
     ]
@@ -236,11 +230,6 @@ def zone_field(zone: Zone, field: CellField | None) -> ZoneField:
         if (rows >= 0).any():
             parts.append((block, rows))
     return ZoneField(zone, tuple(parts))
-
-
-def _same_constituent(zone: Zone, block: CellFieldBlock) -> bool:
-    names = {zone.constituent, block.constituent} - {""}
-    return len(names) < 2
 
 
 def n_points(element: str, support: Support) -> int:

@@ -128,13 +128,7 @@ def _pair_key(item: object) -> object:
 
 
 def united(a: CellField, b: CellField) -> CellField:
-    """Union (ET): zones and components of both; where both have one, the values must agree.
-
-    Raises
-    ------
-    FieldError
-        If they differ.
-    """
+    """Union (ET): zones and components of both; where both have one, the values must agree."""
     blocks = list(a.blocks)
     for block in b.blocks:
         place = next((i for i, mine in enumerate(blocks) if _same_zone(mine, block)), None)

@@ -150,13 +150,7 @@ def multiplied_by_names(
 
 
 def component(field: NodeField, name: str) -> NodeValues:
-    """A component of a field.
-
-    Raises
-    ------
-    FieldError
-        If it has none of that name.
-    """
+    """A component of a field."""
     found = field.components.get(name)
     if found is None:
         known = field.components

@@ -20,6 +20,13 @@ class NodeValues:
     nodes: IntArray
     values: FloatArray
 
+    @classmethod
+    def summed(cls, nodes: IntArray, values: FloatArray) -> "NodeValues":
+        """Values of any shape at nodes that may repeat, added up at each node."""
+        ids, place = np.unique(nodes, return_inverse=True)
+        sums = np.bincount(place.ravel(), values.ravel(), len(ids))
+        return cls(ids, sums.astype(np.float64))
+
     def at(self, nodes: IntArray, default: float = 0.0) -> FloatArray:
         """Values at `nodes`, in their shape, `default` where the component is not defined."""
         if len(self.nodes) == 0:

@@ -6,9 +6,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
-from ssilang.kernel.elements.results.frames import has_shell_frames, shell_frames
-from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.results.frames import has_shell_frames, points_of, shell_frames
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.elasticity import two_axes
 from ssilang.kernel.materials.model import Mode, Zone
@@ -104,17 +103,8 @@ def _second(given: Directions, flat: bool, first: FloatArray) -> FloatArray:
     return np.stack([-first[..., 1], first[..., 0], np.zeros_like(first[..., 0])], axis=-1)
 
 
-def integration_points(zone: Zone, support: Support) -> FloatArray:
-    """Coordinates (n_cells, n_points, 3) of the points of a support."""
-    rule = support_rule(zone.element, support)
-    kind = ELEMENTS[zone.element]
-    shapes = shape_functions(kind.reference or kind.cell_type, rule.points)
-    corners = zone.cells.coordinates[:, : shapes.shape[1]]
-    return np.einsum("pk,ckd->cpd", shapes, corners)
-
-
 def _radial(zone: Zone, given: Directions, flat: bool) -> tuple[FloatArray, FloatArray]:
-    x = integration_points(zone, "RIGIDITE")
+    x = points_of(zone, "RIGIDITE")
     if flat:
         first = given.first - x
         return first, np.stack([-first[..., 1], first[..., 0], 0 * first[..., 0]], axis=-1)

@@ -25,13 +25,7 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 def check_isotropic(young: FloatArray, poisson: FloatArray) -> None:
-    """Refuse moduli that no stable material has.
-
-    Raises
-    ------
-    MaterialError
-        Unless -1 < NU < 0.5 everywhere.
-    """
+    """Refuse moduli that no stable material has."""
     bad = (poisson <= -1) | (poisson >= 0.5)
     if bad.any():
         raise MaterialError(
@@ -143,9 +137,3 @@ def reduced_moduli(moduli: FloatArray, mode: Mode) -> FloatArray:
         D[..., 2, :] = 0
         D[..., :, 2] = 0
     return D
-
-
-def reduced_compliance(compliance: FloatArray, mode: Mode) -> FloatArray:
-    """Compliance of one hypothesis: strains that stresses (with their SMZZ) cause."""
-    kept = list(KEPT[mode])
-    return compliance[..., kept, :][..., kept]

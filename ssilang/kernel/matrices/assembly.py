@@ -296,11 +296,6 @@ def refuse_negative_mass(
     """Refuse a mass matrix that resists the motion of some unknown with a negative mass.
 
     Unknowns with the names `but` may.
-
-    Raises
-    ------
-    KernelError
-        Naming the unknown with the most negative one.
     """
     found = negative_mass(mass, numbering, but)
     if found is not None:

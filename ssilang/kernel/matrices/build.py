@@ -134,29 +134,22 @@ def sum_of_outer_products(
             "kernel.matrices.vectors-factors", n_fields=len(fields), n_factors=len(factors)
         )
     table = fields[0].table
-    places = sorted(
-        {
-            (PRIMAL_OF.get(name, name), int(node))
-            for field in fields
-            for name, part in field.components.items()
-            for node in part.nodes
-        }
-    )
+    parts = [
+        (i, PRIMAL_OF.get(name, name), part)
+        for i, field in enumerate(fields)
+        for name, part in field.components.items()
+    ]
+    places = sorted({(name, int(node)) for _, name, part in parts for node in part.nodes})
     if len(places) > _LARGEST:
         raise FieldError("kernel.matrices.full-matrix-rows-too", n_places=len(places))
     rows = {place: i for i, place in enumerate(places)}
     vectors = np.zeros((len(fields), len(places)))
-    for vector, field in zip(vectors, fields, strict=True):
-        for name, part in field.components.items():
-            unknown = PRIMAL_OF.get(name, name)
-            vector[[rows[unknown, int(node)] for node in part.nodes]] += part.values
+    for i, name, part in parts:
+        vectors[i, [rows[name, int(node)] for node in part.nodes]] += part.values
     values = (vectors.T * np.asarray(factors, dtype=float)) @ vectors
-    nodes, local = np.unique([node for _, node in places], return_inverse=True)
-    names = tuple(name for name, _ in places)
-    duals = tuple(dual_of(name) for name in names)
-    block = ElementMatrices(
-        table, nodes[None, :], local.astype(np.int64), names, duals, values[None], kind
-    )
+    names, nodes = zip(*places, strict=True)
+    duals = [dual_of(name) for name in names]
+    block = ElementMatrices.of_one(table, np.array(nodes), names, duals, values, kind)
     return Matrix(table, (block,), (), kind)
 
 

@@ -111,9 +111,8 @@ def from_columns(
             "kernel.matrices.columns-points", n_columns=len(columns), n_nodes=len(nodes)
         )
     values = np.stack([c.values_at("ALFA", nodes) for c in columns], axis=1)
-    n = len(nodes)
-    block = ElementMatrices(
-        table, nodes[None, :], np.arange(n), ("ALFA",) * n, ("FALF",) * n, values[None], kind,
-        None, bool(np.array_equal(values, values.T)),
-    )  # fmt: skip
+    symmetric, n = bool(np.array_equal(values, values.T)), len(nodes)
+    block = ElementMatrices.of_one(
+        table, nodes, n * ["ALFA"], n * ["FALF"], values, kind, symmetric
+    )
     return Matrix(table, (block,), (), kind)

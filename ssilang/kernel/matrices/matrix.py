@@ -1,5 +1,6 @@
 """Matrices by element blocks, with constraints kept apart (RIGIDITE)."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -51,6 +52,16 @@ class ElementMatrices:
     viscous: bool = False
     dense: bool = False
     part: tuple[tuple[str, ...], tuple[str, ...]] | None = None
+
+    @classmethod
+    def of_one(
+        cls, table: NodeTable, nodes: IntArray, unknowns: Sequence[str], duals: Sequence[str],
+        values: FloatArray, kind: str, symmetric: bool = True,
+    ) -> "ElementMatrices":  # fmt: skip
+        """One element: values (m, m) of the unknowns (m,) at nodes (m,)."""
+        ids, local = np.unique(nodes, return_inverse=True)
+        rows = (local.astype(np.int64), tuple(unknowns), tuple(duals))
+        return cls(table, ids[None, :], *rows, values[None], kind, None, symmetric)
 
     @property
     def nodes(self) -> IntArray:

@@ -173,19 +173,9 @@ def _responses(
 def _block(
     numbering: Numbering, masters: IntArray, values: FloatArray, kind: str, symmetric: bool
 ) -> ElementMatrices:
-    nodes, local = np.unique(numbering.nodes[masters], return_inverse=True)
-    codes = numbering.codes[masters]
-    return ElementMatrices(
-        numbering.table,
-        nodes[None, :],
-        local.astype(np.int64),
-        tuple(numbering.unknowns[c] for c in codes),
-        tuple(numbering.duals[c] for c in codes),
-        values[None],
-        kind,
-        None,
-        symmetric,
-    )
+    nodes, codes = numbering.nodes[masters], numbering.codes[masters]
+    unknowns, duals = ([of[c] for c in codes] for of in (numbering.unknowns, numbering.duals))
+    return ElementMatrices.of_one(numbering.table, nodes, unknowns, duals, values, kind, symmetric)
 
 
 def _inner_values(element: SuperElement, load: NodeField) -> FloatArray:

@@ -17,13 +17,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def same_value(table: NodeTable, nodes: IntArray, unknown: str) -> Relations:
-    """`u_i = u_1` for all nodes but the first (ENSE).
-
-    Raises
-    ------
-    MeshError
-        If there is only one node.
-    """
+    """`u_i = u_1` for all nodes but the first (ENSE)."""
     if len(nodes) < 2:
         raise MeshError("kernel.matrices.common-motion-needs-least")
     return relation_rows(table, [Term(1.0, unknown, nodes[1:]), Term(-1.0, unknown, nodes[:1])])
@@ -46,6 +40,7 @@ def rigid_with_rotations(
     if len(turning) == 0 or len(others) == 0:
         raise MeshError("kernel.matrices.rigid-body-needs-least")
     arm = table.coordinates[others] - table.coordinates[master]
+    levers = np.cross(np.eye(3)[-len(rotation) :, None], arm)  # about Z alone in the plane
     rows = [
         relation_rows(
             table,
@@ -54,7 +49,7 @@ def rigid_with_rotations(
                 Term(-1.0, name, master),
                 *(
                     Term(-part, turn, master)
-                    for turn, part in zip(rotation, _levers(arm, axis, len(rotation)), strict=True)
+                    for turn, part in zip(rotation, levers[:, :, axis], strict=True)
                     if part.any()
                 ),
             ],
@@ -64,12 +59,6 @@ def rigid_with_rotations(
     if len(turning) > 1:
         rows += [same_value(table, turning, turn) for turn in rotation]
     return joined(rows)
-
-
-def _levers(arm: FloatArray, axis: int, n_rotations: int) -> list[FloatArray]:
-    """Component `axis` of `e x arm` for the rotations' axes e (Z alone in the plane)."""
-    turns = np.eye(3) if n_rotations == 3 else np.eye(3)[2:]
-    return [np.cross(turn, arm)[:, axis] for turn in turns]
 
 
 def rigid_by_distances(

@@ -161,13 +161,11 @@ def chained(mesh: Mesh) -> Mesh:
     The sense of the cells is kept; the first loop starts with the first cell. Open pieces start
     at a node where no cell ends.
     """
-    blocks = tuple(_chain_block(b) for b in mesh.blocks)
-    return Mesh(mesh.nodes, blocks, mesh.sides)
-
-
-def _chain_block(block: CellBlock) -> CellBlock:
-    found, order = walked(block.connectivity, block.connectivity[:, 0], turning=False)
-    return CellBlock.make(block.nodes, block.cell_type, found, block.colours[order])
+    blocks = []
+    for b in mesh.blocks:
+        found, order = walked(b.connectivity, b.connectivity[:, 0], turning=False)
+        blocks.append(CellBlock.make(b.nodes, b.cell_type, found, b.colours[order]))
+    return Mesh(mesh.nodes, tuple(blocks), mesh.sides)
 
 
 def edges(mesh: Mesh) -> Mesh:
@@ -219,8 +217,7 @@ def sharp_edges(mesh: Mesh, angle: float = 20.0) -> Mesh:
     _, group = sharing(rows)
     total = np.zeros((group.max() + 1, 3))
     np.add.at(total, group, normals)
-    n_faces = np.zeros(group.max() + 1)
-    np.add.at(n_faces, group, 1.0)
+    n_faces = np.bincount(group)
     # |n1 + n2| = 2 cos(half the angle between them)
     bend = np.linalg.norm(total, axis=1) < 2.0 * math.cos(math.radians(angle) / 2)
     sharp = (bend & (n_faces == 2)) | (n_faces != 2)

@@ -65,6 +65,15 @@ def _complete(name: str, quadratic: CellType) -> CellType:
     return CellType(name, quadratic.dimension, n + 1, 2, quadratic.corners, faces)
 
 
+def _linear(name: str, quadratic: CellType) -> CellType:
+    """The cell on the corners of one, whose faces begin with a corner and go round."""
+    place = {corner: i for i, corner in enumerate(quadratic.corners)}
+    faces = ((kind, tuple(place[i] for i in local[::2])) for kind, local in quadratic.faces)
+    named = tuple(({"TRI6": "TRI3", "QUA8": "QUA4"}[kind], local) for kind, local in faces)
+    n = len(place)
+    return CellType(name, quadratic.dimension, n, 1, tuple(range(n)), named)
+
+
 # CU20: bottom contour of 8 (corner, middle, ...), 4 middles of the vertical edges, top of 8
 _CU20 = CellType(
     "CU20",
@@ -140,62 +149,10 @@ CELL_TYPES: dict[str, CellType] = {
         _polygon("QUA4", 4, 1),
         _polygon("QUA8", 4, 2),
         *(_polygon(name, n, 1) for name, n in POLYGON_SIDES.items()),
-        CellType(
-            "TET4",
-            3,
-            4,
-            1,
-            (0, 1, 2, 3),
-            (
-                ("TRI3", (0, 2, 1)),
-                ("TRI3", (0, 1, 3)),
-                ("TRI3", (1, 2, 3)),
-                ("TRI3", (2, 0, 3)),
-            ),
-        ),
-        CellType(
-            "PRI6",
-            3,
-            6,
-            1,
-            (0, 1, 2, 3, 4, 5),
-            (
-                ("TRI3", (0, 2, 1)),
-                ("TRI3", (3, 4, 5)),
-                ("QUA4", (0, 1, 4, 3)),
-                ("QUA4", (1, 2, 5, 4)),
-                ("QUA4", (2, 0, 3, 5)),
-            ),
-        ),
-        CellType(
-            "PYR5",
-            3,
-            5,
-            1,
-            (0, 1, 2, 3, 4),
-            (
-                ("QUA4", (0, 3, 2, 1)),
-                ("TRI3", (0, 1, 4)),
-                ("TRI3", (1, 2, 4)),
-                ("TRI3", (2, 3, 4)),
-                ("TRI3", (3, 0, 4)),
-            ),
-        ),
-        CellType(
-            "CUB8",
-            3,
-            8,
-            1,
-            (0, 1, 2, 3, 4, 5, 6, 7),
-            (
-                ("QUA4", (0, 3, 2, 1)),
-                ("QUA4", (4, 5, 6, 7)),
-                ("QUA4", (0, 1, 5, 4)),
-                ("QUA4", (1, 2, 6, 5)),
-                ("QUA4", (2, 3, 7, 6)),
-                ("QUA4", (3, 0, 4, 7)),
-            ),
-        ),
+        _linear("TET4", _TE10),
+        _linear("PRI6", _PR15),
+        _linear("PYR5", _PY13),
+        _linear("CUB8", _CU20),
         _CU20,
         _PR15,
         _TE10,

@@ -72,6 +72,14 @@ class NodeTable:
         self._count += m
         return ids
 
+    def add_between(self, groups: IntArray) -> IntArray:
+        """Append nodes in the middle of groups (m, k) of nodes, -1 standing for none."""
+        there = (groups >= 0)[..., None]
+        count = there.sum(axis=1)
+        xyz = (self.coordinates[groups] * there).sum(axis=1) / count
+        size = (self.density[groups][..., None] * there).sum(axis=1) / count
+        return self.add(xyz, size[:, 0]) if len(groups) else np.empty(0, dtype=np.int64)
+
     def resolve(self, ids: IntArray) -> IntArray:
         """The surviving node numbers of `ids` after all merges (same shape)."""
         return self._alias[ids]

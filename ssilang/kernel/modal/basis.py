@@ -76,16 +76,7 @@ def on_marks(
     """Values (n, n) as one element matrix on the points that mark n shapes; symmetrised if so."""
     if symmetric:
         values = 0.5 * (values + values.T)
-    block = ElementMatrices(
-        table,
-        marks[None, :],
-        np.arange(len(marks)),
-        tuple(unknowns),
-        tuple(duals),
-        values[None],
-        kind,
-        symmetric=symmetric,
-    )
+    block = ElementMatrices.of_one(table, marks, unknowns, duals, values, kind, symmetric)
     return Matrix(table, (block,), (), kind)
 
 

@@ -15,12 +15,6 @@ from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.modal.link_laws import COLUMNS, CONTACTS, PLASTIC, STIFF, LinkArrays, Points
 
 
-def no_points(n: int) -> Points:
-    """Points of a structure of n modes that has no lines and no turning bodies."""
-    none = np.zeros((0, 3))
-    return Points(np.zeros((0, 3, n)), none, np.zeros(0, dtype=np.int64), none, none)
-
-
 def segments_of(pairs: IntArray, first: int = 0) -> IntArray:
     """Segments (S, 4) of a line: two points, the segments before and behind, -1 at its ends.
 
@@ -94,9 +88,9 @@ def link_arrays(
     conditions = np.zeros((count, int(groups.max(initial=-1)) + 1), dtype=np.int64)
     ends, signs = np.full((count, 2), -1, dtype=np.int64), np.zeros((count, 2))
     terms = np.full((count, max((len(k.terms) for k in links), default=0), 5), -1.0)
+    rows = np.zeros((3, count, 3, n))
     for i, link in enumerate(links):
-        for column, value in link.numbers.items():
-            numbers[i, column] = value
+        numbers[i, list(link.numbers)] = list(link.numbers.values())
         if link.law is not None:
             laws[i, : len(link.law)] = link.law
         for other, wanted in link.conditions.items():
@@ -105,12 +99,12 @@ def link_arrays(
             ends[i, j], signs[i, j] = point, sign
         terms[i, : len(link.terms)] = link.terms
         _check(i, link)
-    rows = np.zeros((3, count, 3, n))
-    for i, link in enumerate(links):
         rows[0, i], rows[1, i] = link.receives, link.sees
         rows[2, i] = 0.0 if link.turns is None else link.turns
     kinds = np.array([k.kind for k in links], dtype=np.int64)
-    points = no_points(n) if points is None else points
+    if points is None:  # of a structure that has no lines and no turning bodies
+        none = np.zeros((0, 3))
+        points = Points(np.zeros((0, 3, n)), none, np.zeros(0, dtype=np.int64), none, none)
     segments = np.zeros((0, 4), dtype=np.int64) if segments is None else segments
     return LinkArrays(
         kinds, rows[0], rows[1], numbers, sizes, laws, conditions, groups, rows[2], ends, signs,

@@ -57,11 +57,6 @@ def eigenvalue(frequency: float) -> float:
     return float(np.sign(frequency) * (2.0 * np.pi * frequency) ** 2)
 
 
-def frequency_of(value: float) -> float:
-    """Frequency of an eigenvalue, with its sign."""
-    return float(np.sign(value) * np.sqrt(abs(value)) / (2.0 * np.pi))
-
-
 def modes_near(
     stiffness: Matrix,
     mass: Matrix,
@@ -115,7 +110,8 @@ def _modes(problem: ReducedProblem, pairs: Pairs) -> list[Mode]:
         x, y, z = (float(inertia @ d) for d in directions.T)
         mass = float(inertia @ u)
         rounding = FREE * float(np.sqrt(u**2 @ (squares @ u**2))) / abs(mass or 1.0)
-        frequency = frequency_of(value) if abs(value) > rounding else 0.0
+        frequency = float(np.sign(value) * np.sqrt(abs(value)) / (2.0 * np.pi))  # with its sign
+        frequency = frequency if abs(value) > rounding else 0.0
         found.append(Mode(frequency, mass, shape, (x, y, z), moving))
     return found
 

@@ -60,13 +60,9 @@ class Oscillators:
         a = x - level
         b = v - slope + self.xi * self.w * a
         free = a * cos + b * sin
-        rate = b * cos - self.turning_square * a * sin - self.xi * self.w * free
+        damped = self.w**2 * (1.0 - self.xi**2)  # square of a frequency, negative beyond critical
+        rate = b * cos - damped * a * sin - self.xi * self.w * free
         return level + slope * h + free, slope + rate
-
-    @property
-    def turning_square(self) -> FloatArray:
-        """Square of the damped circular frequency, negative beyond critical damping."""
-        return self.w**2 * (1.0 - self.xi**2)
 
     def history(self, times: FloatArray, signal: FloatArray, x0: float, v0: float) -> FloatArray:
         """Displacements (n_times,) of a single oscillator.

@@ -152,10 +152,6 @@ def shape_matrix(zones: tuple[Zone, ...], material: CellField, kind: str) -> Ele
         for i, a in enumerate(shapes):
             if i == j or (b.unknown == "BETA" and (i > j or a.unknown == "ALFA")):
                 values[i, j] = values[j, i] = _TERMS[kind](a, b)
-    unknowns = tuple(s.unknown for s in shapes)
-    nodes = np.array([[s.node for s in shapes]])
-    table = zones[0].cells.nodes
-    return ElementMatrices(
-        table, nodes, np.arange(m), unknowns, tuple(dual_of(u) for u in unknowns), values[None],
-        kind,
-    )  # fmt: skip
+    unknowns, nodes = [s.unknown for s in shapes], np.array([s.node for s in shapes])
+    duals, table = [dual_of(u) for u in unknowns], zones[0].cells.nodes
+    return ElementMatrices.of_one(table, nodes, unknowns, duals, values, kind)

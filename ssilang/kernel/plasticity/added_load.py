@@ -88,7 +88,7 @@ class LoadedBulk(Bulk):
         """Those of the bodies."""
         return self.bodies.points_of(_of(state).bodies)
 
-    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
+    def respond(self, state: State, du: FloatArray, time: float, whole: bool = False) -> Answer:
         """Forces and tangent of bodies and load after a step."""
         old = _of(state)
         u = old.u + du
@@ -119,11 +119,12 @@ class LoadedBulk(Bulk):
         rows: list[IntArray] = []
         columns: list[IntArray] = []
         values: list[FloatArray] = []
-        for group, meets in self._groups(near):
+        for group, owner in self._groups(near):
             moved = u.copy()
             moved[group] += self.shifts[group]
             change = self.law(time, moved).force - force
-            row, place = meets(change)
+            row = np.flatnonzero((change != 0.0) & (owner >= 0))
+            place = owner[row]
             rows.append(row)
             columns.append(group[place])
             values.append(change[row] / self.shifts[group[place]])
@@ -136,12 +137,11 @@ class LoadedBulk(Bulk):
             return loaded
         return np.union1d(loaded, np.unique(self.pattern[loaded].indices))
 
-    def _groups(
-        self, near: IntArray
-    ) -> list[tuple[IntArray, Callable[[FloatArray], tuple[IntArray, IntArray]]]]:
-        """Unknowns moved together, and which of them a changed row belongs to."""
+    def _groups(self, near: IntArray) -> list[tuple[IntArray, IntArray]]:
+        """Unknowns moved together, and which of them a row (size,) belongs to, -1 for none."""
         if self.pattern is None or len(near) <= SINGLY:
-            return [(near[i : i + 1], _alone) for i in range(len(near))]
+            alone = np.zeros(self.size, dtype=np.int64)
+            return [(near[i : i + 1], alone) for i in range(len(near))]
         meets = sp.csr_array(self.pattern[near])
         neighbours = sp.csr_array(meets @ meets.T)
         colour = np.full(len(near), -1)
@@ -154,7 +154,7 @@ class LoadedBulk(Bulk):
             own = sp.coo_array(meets[chosen])
             owner = np.full(self.size, -1, dtype=np.int64)
             owner[own.col] = own.row
-            groups.append((near[chosen], _by_owner(owner)))
+            groups.append((near[chosen], owner))
         return groups
 
     def force(self, state: State) -> FloatArray:
@@ -177,19 +177,6 @@ class LoadedBulk(Bulk):
 
 def _of(state: State) -> _Loaded:
     return cast(Any, state)  # type: ignore[no-any-return]
-
-
-def _alone(change: FloatArray) -> tuple[IntArray, IntArray]:
-    rows = np.flatnonzero(change)
-    return rows, np.zeros(len(rows), dtype=np.int64)
-
-
-def _by_owner(owner: IntArray) -> Callable[[FloatArray], tuple[IntArray, IntArray]]:
-    def meets(change: FloatArray) -> tuple[IntArray, IntArray]:
-        rows = np.flatnonzero((change != 0.0) & (owner >= 0))
-        return rows, owner[rows]
-
-    return meets
 
 
 def loaded_bulk(

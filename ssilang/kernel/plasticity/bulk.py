@@ -132,7 +132,11 @@ class Bulk:
 
     def unloaded(self) -> State:
         """The state of virgin material."""
-        return tuple(map(_virgin, self.zones))
+        found = []
+        for zone in self.zones:
+            nothing, width = np.zeros((zone.count, zone.width)), len(zone.law.variables)
+            found.append(PointState(nothing, nothing, nothing, np.zeros((zone.count, width))))
+        return tuple(found)
 
     def entered(self, before: Bulk, state: State, time: float) -> State:
         """A state of the same zones `before` they had these parameters: elastic strains stay."""
@@ -147,15 +151,11 @@ class Bulk:
             made.append(known)
         return tuple(made)
 
-    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
-        """Forces and tangent after a step `du` (n,) of displacement that ends at a time."""
-        return self._answered(state, du, time, False)
+    def respond(self, state: State, du: FloatArray, time: float, whole: bool = False) -> Answer:
+        """Forces and tangent after a step `du` (n,) of displacement that ends at a time.
 
-    def respond_whole(self, state: State, du: FloatArray, time: float) -> Answer:
-        """The same where the tangent will be asked for: one pass finds all."""
-        return self._answered(state, du, time, True)
-
-    def _answered(self, state: State, du: FloatArray, time: float, whole: bool) -> Answer:
+        Where the tangent will be asked for, one pass finds the `whole`.
+        """
         force = np.zeros(self.size)
         found = [self._respond(i, old, du, time, force, whole) for i, old in enumerate(state)]
         return self._gathered(force, found)
@@ -303,11 +303,6 @@ class Bulk:
     def pushed(self, state: State) -> FloatArray:
         """Loads (n,) among the forces: none."""
         return np.zeros(self.size)
-
-
-def _virgin(zone: PlasticPoints) -> PointState:
-    nothing = np.zeros((zone.count, zone.width))
-    return PointState(nothing, nothing, nothing, np.zeros((zone.count, len(zone.law.variables))))
 
 
 def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> ZonePass | None:

@@ -6,7 +6,7 @@ control finds the x that makes `du + dI + x dII` as long as it asks (Batoz and D
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,12 +14,10 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Bulk
-from ssilang.kernel.plasticity.newton import STALLED, TOLERANCE, TURNS, BulkSolver, BulkTrial
+from ssilang.kernel.plasticity.newton import TOLERANCE, TURNS, BulkSolver, BulkTrial
 from ssilang.kernel.plasticity.run import BulkRun
-from ssilang.kernel.plasticity.snapshot import BulkSnapshot
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.snapshot import snapshot_of
 from ssilang.kernel.stepping.state import EXTERNAL, Motion
 
 SOFT = 1e7
@@ -144,12 +142,9 @@ class FollowingSolver(BulkSolver):
                 break
             # a great part of the correction that the other one takes back leaves its rounding
             blurred = np.linalg.norm(split.rest) > BLURRED * np.linalg.norm(du)
-            if (now.residual <= TOLERANCE and not blurred) or self._settled():
+            if (now.residual <= TOLERANCE and not blurred) or self._stalled():
                 return Found(du, x, turn, now.residual, now)
         return Found(du, x, -len(self.residuals), now.residual)
-
-    def _settled(self) -> bool:
-        return len(self.residuals) >= 3 and max(self.residuals[-3:]) <= STALLED and self._stalled()
 
     def standing(self, motion: Motion) -> BulkTrial:
         """The state as it is."""
@@ -288,8 +283,7 @@ class PathRun:
     def save(self, time: float) -> None:
         """Hand the state to all observers."""
         run = self.run
-        now = vars(snapshot_of(run.problem, run.motion, 0)) | {"step": self.count, "time": time}
-        snapshot = BulkSnapshot(**now, bulk=run.bulk, bulk_state=run.state)
+        snapshot = replace(run.snapshot(0), step=self.count, time=time)
         for observer in run.observers:
             if self.count > 0 or observer.wanted[0]:
                 observer.receive(snapshot)

@@ -1,7 +1,7 @@
 """Load steps and time steps of problems with plastic bodies."""
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -15,10 +15,10 @@ from ssilang.kernel.contact.impact import ImpactRule
 from ssilang.kernel.interface.response import interface_energies
 from ssilang.kernel.plasticity.bulk import Bulk, State
 from ssilang.kernel.plasticity.newton import BulkSolver
-from ssilang.kernel.plasticity.snapshot import NOTHING, hand_over
+from ssilang.kernel.plasticity.snapshot import NOTHING, BulkSnapshot
 from ssilang.kernel.plasticity.solving.accelerated import AcceleratedSolver, is_accelerated
 from ssilang.kernel.plasticity.solving.dense import DenseSolver, is_small
-from ssilang.kernel.statics.stepping import lost
+from ssilang.kernel.statics.stepping import hand_over, lost
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps, leaves, memory, rebuilt, recall
 from ssilang.kernel.stepping.newmark import newmark_of
@@ -33,7 +33,7 @@ from ssilang.kernel.stepping.rests.sparse.loop import (
     support_work,
 )
 from ssilang.kernel.stepping.run import History, Progress
-from ssilang.kernel.stepping.snapshot import Observer
+from ssilang.kernel.stepping.snapshot import Observer, snapshot_of
 from ssilang.kernel.stepping.state import (
     ELASTIC,
     EXTERNAL,
@@ -124,7 +124,12 @@ class BulkRun:
 
     def save(self, step: int) -> None:
         """Hand the state to the observers."""
-        hand_over(self.observers, self.problem, self.motion, step, self.bulk, self.state)
+        hand_over(self.observers, step, self.snapshot)
+
+    def snapshot(self, step: int) -> BulkSnapshot:
+        """A copy of the state."""
+        parts = vars(snapshot_of(self.problem, self.motion, step))
+        return BulkSnapshot(**parts, bulk=self.bulk, bulk_state=self.state)
 
 
 def step_bulk_statics(run: BulkRun) -> History:
@@ -141,17 +146,7 @@ def step_bulk_statics(run: BulkRun) -> History:
         solver = newton_solver(problem, problem.K, 1.0, run.bulk, run.state)
         _name(run, history, solver)
         run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
-        history.energies[0] = run.motion.energies
-        steps = KeptSteps(run.keeper, history, run.motion, solver, run)
-        if not steps.go_on():
-            run.save(0)
-        solver.state = run.state
-        with steps.going():
-            for k in range(steps.done + 1, len(problem.times)):
-                with steps.step(k):
-                    _static_step(run, solver, history, k, factors)
-                    _accept(run, history, k)
-                steps.reached()
+        _through(run, history, solver, lambda k: _static_step(run, solver, history, k, factors))
     return history
 
 
@@ -176,19 +171,30 @@ def _name(run: BulkRun, history: History, solver: BulkSolver | type[BulkSolver])
     history.method = Sentence(solver.said)
 
 
-def _accept(run: BulkRun, history: History, k: int) -> None:
-    """Note the energies of a step that is done, hand its state over, tell how far the run is."""
-    history.energies[k] = run.motion.energies
-    run.save(k)
-    if run.progress is not None:
-        run.progress(k, len(history.times) - 1)
+def _through(
+    run: BulkRun, history: History, solver: BulkSolver | SparseLoop, step: Callable[[int], None]
+) -> None:
+    """All steps: note the energies of each, hand its state over, tell how far the run is."""
+    history.energies[0] = run.motion.energies
+    steps = KeptSteps(run.keeper, history, run.motion, solver, run)
+    if not steps.go_on():
+        run.save(0)
+    with steps.going():
+        for k in range(steps.done + 1, len(history.times)):
+            with steps.step(k):
+                step(k)
+                history.energies[k] = run.motion.energies
+                run.save(k)
+                if run.progress is not None:
+                    run.progress(k, len(history.times) - 1)
+            steps.reached()
 
 
 def _static_step(
     run: BulkRun, solver: BulkSolver, history: History, k: int, factors: FloatArray
 ) -> None:
     """From one time to the next, in as many parts as it takes."""
-    times, done, length = run.problem.times, 0.0, 1.0
+    times, done, length, solver.state = run.problem.times, 0.0, 1.0, run.state
     while done < 1.0:
         end = min(done + length, 1.0)
         before = (1 - done) * factors[k - 1] + done * factors[k]
@@ -262,21 +268,11 @@ def integrate_bulk(run: BulkRun) -> History:
     ConvergenceError
         If a step does not converge; says at which time.
     """
-    times = run.problem.times
-    factors = run.problem.loading.at(times)
+    factors = run.problem.loading.at(run.problem.times)
     with _recorded(run) as history:
         _start(run, factors[0])
-        history.energies[0] = run.motion.energies
         loop = _BulkLoop(run)
-        steps = KeptSteps(run.keeper, history, run.motion, loop, run)
-        if not steps.go_on():
-            run.save(0)
-        with steps.going():
-            for k in range(steps.done + 1, len(times)):
-                with steps.step(k):
-                    _moving_step(run, loop, history, k, factors)
-                    _accept(run, history, k)
-                steps.reached()
+        _through(run, history, loop, lambda k: _moving_step(run, loop, history, k, factors))
     return history
 
 

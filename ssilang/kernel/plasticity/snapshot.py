@@ -6,9 +6,7 @@ import numpy as np
 
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.plasticity.bulk import Bulk, State
-from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
-from ssilang.kernel.stepping.state import Motion
+from ssilang.kernel.stepping.snapshot import Snapshot
 
 NOTHING = np.zeros(0)
 
@@ -48,21 +46,3 @@ class BulkSnapshot(Snapshot):
         blocks = self.bulk.plastic_strains(self.bulk_state)
         joints = super().plastic_strains.blocks
         return CellField((*blocks, *joints), "DEFORMATIONS INELASTIQUES")
-
-
-def hand_over(
-    observers: tuple[Observer, ...],
-    problem: Problem,
-    motion: Motion,
-    step: int,
-    bulk: Bulk,
-    state: State,
-) -> None:
-    """Give the instant to the observers that want it."""
-    wanting = [o for o in observers if o.wanted[step]]
-    if not wanting:
-        return
-    s = snapshot_of(problem, motion, step)
-    snapshot = BulkSnapshot(**vars(s), bulk=bulk, bulk_state=state)
-    for observer in wanting:
-        observer.receive(snapshot)

@@ -234,16 +234,13 @@ def _repeated(blocks: list[ElementMatrices]) -> IntArray:
     if not len(again):
         return np.zeros(0, np.int64)
     before = order[:-1][keys[order][1:] == keys[order][:-1]]
-    sums = np.concatenate([_diagonal_sums(b) for b in blocks])
+    # sums of diagonals that tell the unknowns apart, whatever the order of a cell's nodes
+    weights = [1.0 + np.array([b.unknowns.index(n) for n in b.unknowns]) for b in blocks]
+    diagonals = [np.diagonal(b.values, axis1=1, axis2=2) for b in blocks]
+    sums = np.concatenate([d @ w for d, w in zip(diagonals, weights, strict=True)])
     same = np.abs(sums[again] - sums[before]) < SAME * np.abs(sums[again])
     firsts: IntArray = np.concatenate([b.nodes[:, 0] for b in blocks])[again[same]]
     return firsts
-
-
-def _diagonal_sums(block: ElementMatrices) -> FloatArray:
-    """Sums of diagonals that tell the unknowns apart, whatever the order of a cell's nodes."""
-    weights = np.array([1.0 + block.unknowns.index(name) for name in block.unknowns])
-    return np.asarray(np.diagonal(block.values, axis1=1, axis2=2) @ weights)
 
 
 def face_keys(nodes: IntArray) -> IntArray:

@@ -29,9 +29,7 @@ def rigid_motions(numbering: Numbering, centre: FloatArray | None = None) -> Flo
     for name, axis in _TRANSLATIONS.items():
         at = numbering.where(name) if name in numbering.unknowns else np.empty(0, np.int64)
         motions[at, axis] = 1.0
-        for turn in range(3):
-            unit = np.eye(3)[turn]
-            motions[at, 3 + turn] = np.cross(unit, points[at])[:, axis]
+        motions[at, 3:] = np.cross(np.eye(3), points[at][:, None])[..., axis]
     for name, axis in _ROTATIONS.items():
         if name in numbering.unknowns:
             motions[numbering.where(name), 3 + axis] = 1.0
@@ -119,9 +117,7 @@ def singular(
 
 def _nodes_on_other_bodies(numbering: Numbering, span: FloatArray, bodies: IntArray) -> int:
     """Nodes of the bodies that move at the place of a node of another body."""
-    share = np.zeros(bodies.max(initial=0) + 1)
-    np.add.at(share, bodies, (span**2).sum(axis=1))
-    first = int(np.argmax(share))
+    first = int(np.argmax(np.bincount(bodies, (span**2).sum(axis=1), minlength=1)))
     own = np.unique(numbering.nodes[bodies == first])
     return len(lying_on(numbering.table, own, np.setdiff1d(numbering.nodes, own))[0])
 
@@ -133,9 +129,7 @@ def named_motions(
     span = np.linalg.qr(motions)[0]
     labels = np.zeros(numbering.size, np.int64) if bodies is None else bodies
     several = len(np.unique(labels)) > 1
-    share = np.zeros(labels.max(initial=0) + 1)
-    np.add.at(share, labels, (span**2).sum(axis=1))
-    moving = np.flatnonzero(share > 1e-9)
+    moving = np.flatnonzero(np.bincount(labels, (span**2).sum(axis=1)) > 1e-9)
     parts = [_describe_body(numbering, span, labels == b, several) for b in moving[:3]]
     if len(moving) > 3:
         parts.append(Sentence("kernel.statics.more-bodies", count=len(moving) - 3))
@@ -166,7 +160,8 @@ def _rigid_names(
     left, size, _ = np.linalg.svd(span[own], full_matrices=False)
     local = left[:, size > 1e-6 * size.max(initial=0.0)]
     pure = [k for k in range(6) if _inside(rigid[:, k], local)]
-    names = [_motion_name(k) for k in pure]
+    codes = ("kernel.statics.translation", "kernel.statics.rotation")
+    names = [Sentence(codes[k // 3], axis=_NAMES[k % 3]) for k in pure]
     if len(pure) < local.shape[1]:
         names += _turns(rigid, local, pure, centre, extent)
     return names
@@ -175,11 +170,6 @@ def _rigid_names(
 def _inside(vector: FloatArray, basis: FloatArray) -> bool:
     size = np.linalg.norm(vector)
     return bool(size > 0.0 and np.linalg.norm(vector - basis @ (basis.T @ vector)) < 1e-6 * size)
-
-
-def _motion_name(k: int) -> Sentence:
-    code = "kernel.statics.translation" if k < 3 else "kernel.statics.rotation"
-    return Sentence(code, axis=_NAMES[k % 3])
 
 
 def _turns(

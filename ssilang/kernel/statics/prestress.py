@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.scientific import optimize
+from ssilang.kernel.mesh.boundary import walked
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
@@ -58,29 +59,14 @@ def cables_of(nodes: NodeTable, cells: IntArray) -> list[Cable]:
         raise MeshError(
             "kernel.statics.cable-branches-node", node=nodes.told(int(np.argmax(count)))
         )
-    touching: dict[int, list[int]] = {}
-    for bar, ends in enumerate(cells.tolist()):
-        for node in ends:
-            touching.setdefault(node, []).append(bar)
-    left = np.ones(len(cells), bool)
-    cables = []
-    loose = [n for n, bars in touching.items() if len(bars) == 1]
-    starts = sorted(loose, key=lambda n: (cells[touching[n][0], 0] != n, touching[n][0]))
-    for start in starts:
-        if not left[touching[start][0]]:
-            continue
-        bars: list[int] = []
-        along, node = [start], start
-        while following := [b for b in touching[node] if left[b]]:
-            left[following[0]] = False
-            node = int(cells[following[0]].sum() - node)
-            bars.append(following[0])
-            along.append(node)
-        cables.append(Cable(np.array(bars), np.array(along)))
-    if left.any():
-        told = nodes.told(cells[np.argmax(left), 0])
-        raise MeshError("kernel.statics.cable-node-ring-no", node=told)
-    return cables
+    bars, side = np.nonzero(count[cells] == 1)
+    found, order = walked(cells, cells[bars, side][np.argsort(side, kind="stable")])
+    if len(order) < len(cells):
+        left = np.setdiff1d(np.arange(len(cells)), order)
+        raise MeshError("kernel.statics.cable-node-ring-no", node=nodes.told(cells[left[0], 0]))
+    cuts = np.flatnonzero(found[1:, 0] != found[:-1, 1]) + 1
+    parts = zip(np.split(order, cuts), np.split(found, cuts), strict=True)
+    return [Cable(bars, np.append(ends[:, 0], ends[-1:, 1])) for bars, ends in parts if len(bars)]
 
 
 def tensions(

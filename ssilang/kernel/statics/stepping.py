@@ -1,8 +1,9 @@
 """Load steps of a static problem with joints: Newton's method on the condensed interface."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ from ssilang.kernel.stepping.rests.sparse.iterated import (
 )
 from ssilang.kernel.stepping.rests.sparse.loop import NOTHING, StepOutcome, StepSolver, support_work
 from ssilang.kernel.stepping.run import History, Progress
-from ssilang.kernel.stepping.snapshot import Observer, snapshot_of
+from ssilang.kernel.stepping.snapshot import Observer, Snapshot, snapshot_of
 from ssilang.kernel.stepping.state import ELASTIC, EXTERNAL, LOST, N_ENERGIES, STORED, Motion
 
 BALANCED = 1e-13
@@ -61,8 +62,10 @@ def step_statics(
         If bodies are free even with all joints closed.
     """
     started, times = time.perf_counter(), problem.times
-    motion = _initial_motion(problem)
+    motion = motion_at_rest(problem)
+    motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(times[:1])[0])
     history = History(times, np.zeros((len(times), N_ENERGIES)))
+    seen = partial(snapshot_of, problem, motion)
     history.energies[0] = motion.energies
     try:
         solver, inverse = _solver_of(problem)
@@ -71,7 +74,7 @@ def step_statics(
         factors = problem.loading.at(times)
         run = KeptSteps(keeper, history, motion, solver)
         if not run.go_on():
-            _hand_over(observers, problem, motion, 0)
+            hand_over(observers, 0, seen)
         with run.going():
             for k in range(run.done + 1, len(times)):
                 with run.step(k):
@@ -79,7 +82,7 @@ def step_statics(
                     outcome = _at_load_step(problem, solver, motion, factors, k)
                     history.iterations = max(history.iterations, outcome.turns)
                     history.energies[k] = motion.energies
-                    _hand_over(observers, problem, motion, k)
+                    hand_over(observers, k, seen)
                 if progress is not None:
                     progress(k, len(times) - 1)
                 run.reached()
@@ -141,12 +144,6 @@ def _cut_step(
             return outcome
         turns += outcome.turns
     return replace(outcome, turns=turns)
-
-
-def _initial_motion(problem: Problem) -> Motion:
-    motion = motion_at_rest(problem)
-    motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(problem.times[:1])[0])
-    return motion
 
 
 def _imbalance(problem: Problem, motion: Motion, factors: FloatArray) -> FloatArray:
@@ -269,10 +266,11 @@ def _go_back(motion: Motion, before: list[FloatArray]) -> None:
         array[...] = old
 
 
-def _hand_over(observers: Sequence[Observer], problem: Problem, motion: Motion, step: int) -> None:
+def hand_over(observers: Sequence[Observer], step: int, made: Callable[[int], Snapshot]) -> None:
+    """Give the instant to the observers that want it."""
     wanting = [o for o in observers if o.wanted[step]]
     if wanting:
-        snapshot = snapshot_of(problem, motion, step)
+        snapshot = made(step)
         for observer in wanting:
             observer.receive(snapshot)
 

@@ -53,13 +53,7 @@ def has_histories(matrix: Matrix | None) -> bool:
 def refuse_parts_of_layer(
     stiffness: Matrix | None, mass: Matrix | None, damping: Matrix | None
 ) -> None:
-    """Refuse a motion with some of a layer's matrices only.
-
-    Raises
-    ------
-    KernelError
-        Naming what is missing.
-    """
+    """Refuse a motion with some of a layer's matrices only."""
     given = {"RIGI": stiffness, "MASS": mass, "AMOR": damping}
     missing = [name for name, matrix in given.items() if not has_histories(matrix)]
     if 0 < len(missing) < len(given):
@@ -67,12 +61,7 @@ def refuse_parts_of_layer(
 
 
 def refuse_layer_at_rest(matrix: Matrix) -> None:
-    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's).
-
-    Raises
-    ------
-    KernelError
-    """
+    """Refuse to solve with a layer's stiffness alone (a sum with mass and damping is a step's)."""
     kinds = {b.kind for b in matrix.blocks if HISTORIES[0] in b.unknowns}
     if kinds == {"RIGIDITE"}:
         raise KernelError("kernel.waves.matched-layer-at-rest")

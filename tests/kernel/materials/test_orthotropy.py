@@ -8,6 +8,7 @@ from together import together
 
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.loads.thermal import given_strain, temperature, thermal_strain
+from ssilang.kernel.elements.results.frames import points_of
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.elements.shells.shell_section import section_moduli, transverse_moduli
 from ssilang.kernel.elements.solids.solid_moduli import (
@@ -21,7 +22,7 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface import family as _joints  # noqa: F401
-from ssilang.kernel.materials.axes import Directions, axis_parameters, integration_points
+from ssilang.kernel.materials.axes import Directions, axis_parameters
 from ssilang.kernel.materials.elasticity import (
     isotropic_compliance,
     isotropic_moduli,
@@ -170,9 +171,7 @@ def test_matrices_of_hooke_are_kept_by_cell_and_point():
 
 
 def points(zone, support):
-    from ssilang.kernel.materials.axes import integration_points
-
-    return integration_points(zone, support)[0]
+    return points_of(zone, support)[0]
 
 
 def test_radial_axes_in_space_run_along_the_axis_then_towards_it():
@@ -344,7 +343,7 @@ def test_axes_point_to_a_centre_in_the_plane_and_are_turned():
     zone, centre = cell_zone("QUA8", Mode.PLANE_STRAIN), np.array([1.0, -2.0, 0.0])
     values, support = axis_parameters(zone, Directions(centre, None, radial=True, angle=30.0))
     assert support == "RIGIDITE"
-    way = (centre - integration_points(zone, support)) @ [1.0, 1j, 0.0] * np.exp(1j * np.pi / 6)
+    way = (centre - points_of(zone, support)) @ [1.0, 1j, 0.0] * np.exp(1j * np.pi / 6)
     way /= np.abs(way)
     np.testing.assert_allclose(values["V1X"] + 1j * values["V1Y"], way)
 

@@ -103,9 +103,8 @@ def _equivalent(local: FloatArray, lengths: FloatArray, cubic: bool) -> FloatArr
     out: FloatArray = np.einsum("ab,cbti->cati", _LINEAR, local) * L
     if not cubic:
         return out
-    one, L1 = np.ones(len(lengths)), lengths
-    of_forces = np.stack([L1, L1**2, L1, L1**2], axis=1)
-    of_moments = np.stack([one, L1, one, L1], axis=1)
+    of_forces = lengths[:, None] ** np.array([1, 2, 1, 2])
+    of_moments = lengths[:, None] ** np.array([0, 1, 0, 1])
     # bending planes: deflection y with moment z, deflection z with moment -y
     for axis, turning, sign in ((1, 2, 1.0), (2, 1, -1.0)):
         q, m = local[:, :, 0, axis], local[:, :, 1, turning] * sign
@@ -117,19 +116,12 @@ def _equivalent(local: FloatArray, lengths: FloatArray, cubic: bool) -> FloatArr
 
 def total(table: NodeTable, fields: Iterable[NodeField]) -> NodeField:
     """Sum of force fields (DISCRET)."""
-    parts: dict[str, list[NodeValues]] = {}
+    parts: dict[str, list[tuple[IntArray, FloatArray]]] = {}
     for field in fields:
         for name, part in field.components.items():
-            parts.setdefault(name, []).append(part)
-    return NodeField(table, {n: _summed(p) for n, p in parts.items()}, "DISCRET")
-
-
-def _summed(parts: list[NodeValues]) -> NodeValues:
-    if len(parts) == 1:
-        return parts[0]
-    nodes, place = np.unique(np.concatenate([p.nodes for p in parts]), return_inverse=True)
-    values = np.concatenate([p.values for p in parts])
-    return NodeValues(nodes, np.bincount(place.ravel(), values, len(nodes)).astype(np.float64))
+            parts.setdefault(name, []).append((part.nodes, part.values))
+    both = {n: map(np.concatenate, zip(*p, strict=True)) for n, p in parts.items()}
+    return NodeField(table, {n: NodeValues.summed(*b) for n, b in both.items()}, "DISCRET")
 
 
 def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) -> NodeField:

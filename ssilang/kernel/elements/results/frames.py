@@ -40,13 +40,7 @@ from ssilang.kernel.mesh.mesh import Point
 
 
 def unit(v: FloatArray) -> FloatArray:
-    """Vectors (..., d) of length one.
-
-    Raises
-    ------
-    FieldError
-        If one is zero.
-    """
+    """Vectors (..., d) of length one."""
     size = np.linalg.norm(v, axis=-1, keepdims=True)
     if (size <= 0).any():
         raise FieldError("kernel.elements.vector-radius-frame-zero")
@@ -66,7 +60,7 @@ def fixed_frame(first: FloatArray, second: FloatArray | None) -> FloatArray:
 def points_of(zone: Zone, support: Support) -> FloatArray:
     """Coordinates (n_cells, n_points, 3) of the points of a support."""
     shapes = support_shapes(zone.element, support)
-    return np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates)
+    return np.einsum("pk,ckd->cpd", shapes, zone.cells.coordinates[:, : shapes.shape[1]])
 
 
 def polar_frames(x: FloatArray, centre: FloatArray) -> FloatArray:

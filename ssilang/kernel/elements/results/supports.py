@@ -72,13 +72,10 @@ def nodal_of_field(field: CellField, rule: Literal["MOYE", "SOMM"] = "MOYE") -> 
 def _gathered(
     parts: list[tuple[IntArray, FloatArray]], rule: Literal["MOYE", "SOMM"]
 ) -> NodeValues:
-    nodes, place = np.unique(np.concatenate([n for n, _ in parts]), return_inverse=True)
-    flat = place.ravel()
-    weights = np.concatenate([v for _, v in parts])
-    sums = np.bincount(flat, weights, len(nodes)).astype(np.float64)
-    if rule == "MOYE":
-        sums = sums / np.bincount(flat, minlength=len(nodes))
-    return NodeValues(nodes, sums)
+    nodes, values = (np.concatenate(both) for both in zip(*parts, strict=True))
+    sums = NodeValues.summed(nodes, values)
+    times = np.unique(nodes, return_counts=True)[1] if rule == "MOYE" else 1.0
+    return NodeValues(sums.nodes, sums.values / times)
 
 
 def cells_of_nodal(

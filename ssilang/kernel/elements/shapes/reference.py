@@ -179,9 +179,7 @@ REFERENCE_CELLS |= {
     "PR21": _bubbled(
         REFERENCE_CELLS["PR15"],
         [*_WEDGE_FACES, (_THIRD, _THIRD, 0.0)],
-        [
-            *_WEDGE_BUBBLES,
-        ],
+        _WEDGE_BUBBLES,
     ),
     "CU27": _cell(
         "hexahedron",

@@ -59,7 +59,10 @@ class _Meridian:
             (1 - 4 * z + 3 * z**2 + 0 * L, 3 * z**2 - 2 * z + 0 * L),
         )
         second = (((12 * z - 6) / L**2, (6 - 12 * z) / L**2), ((6 * z - 4) / L, (6 * z - 2) / L))
-        self.w, self.dw, self.ddw = (self._bending(*h) for h in (cubic, first, second))
+        self.w, self.dw, self.ddw = (
+            self._along(deflections, self.n) + self._single(turns, self.rows - 1)
+            for deflections, turns in (cubic, first, second)
+        )
         self.v = self._single(linear, 2) if self.rows == 4 else np.zeros(self.shape)
         self.dv = self._single(slope, 2) if self.rows == 4 else np.zeros(self.shape)
 
@@ -75,11 +78,6 @@ class _Meridian:
             for k in range(2):
                 out[:, :, node * self.rows + k] = value * axis[:, None, k]
         return out
-
-    def _bending(
-        self, deflections: tuple[FloatArray, FloatArray], turns: tuple[FloatArray, FloatArray]
-    ) -> FloatArray:
-        return self._along(deflections, self.n) + self._single(turns, self.rows - 1)
 
     def slope_around(self, harmonic_number: int) -> FloatArray:
         """Rotation of the normal towards the circumference."""

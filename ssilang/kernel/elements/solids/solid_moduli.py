@@ -70,10 +70,6 @@ def _orthotropic_pair(
     return moduli, back @ local @ np.swapaxes(back, -1, -2)
 
 
-def _axes_or_global(parameters: ZoneField, support: Support) -> FloatArray:
-    return material_axes(parameters, support) if "V1X" in parameters else np.eye(3)[None, None]
-
-
 def _with_compliance(moduli: FloatArray) -> tuple[FloatArray, FloatArray]:
     return moduli, np.linalg.pinv(moduli).astype(np.float64)
 
@@ -91,7 +87,8 @@ def _anisotropic_pair(
     D = np.zeros((*shape, 6, 6))
     for (i, j), value in terms.items():
         D[..., i, j] = D[..., j, i] = value
-    return _with_compliance(elasticity.rotated_moduli(D, _axes_or_global(parameters, support)))
+    axes = material_axes(parameters, support) if "V1X" in parameters else np.eye(3)[None, None]
+    return _with_compliance(elasticity.rotated_moduli(D, axes))
 
 
 def _unidirectional_pair(
@@ -135,7 +132,8 @@ def solid_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatAr
 
 def solid_compliance(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Compliance with the same shape; in plane stress EPZZ follows from the stresses."""
-    return elasticity.reduced_compliance(_law(zone)(zone, parameters, support)[1], zone.mode)
+    kept = list(elasticity.KEPT[zone.mode])
+    return _law(zone)(zone, parameters, support)[1][..., kept, :][..., kept]
 
 
 HOOKE_COMPONENT = "MAHO"
@@ -180,13 +178,7 @@ def moduli_from_field(material: ZoneField, support: Support) -> FloatArray | Non
 
 
 def inverted(zone: Zone, moduli: FloatArray) -> FloatArray:
-    """Inverse of moduli.
-
-    Raises
-    ------
-    MaterialError
-        If they are singular.
-    """
+    """Inverse of moduli."""
     try:
         return np.linalg.inv(moduli).astype(np.float64)
     except np.linalg.LinAlgError:

@@ -112,15 +112,13 @@ def _at_multiplier(
     return Ends(p, pc, tried / (1 + 6 * c.shear * phi / c.square), v, phi)
 
 
-def _slopes(c: Clay, e: Ends) -> tuple[FloatArray, FloatArray]:
-    """Derivatives of v and of the surface by phi."""
+def _slopes(c: Clay, e: Ends) -> tuple[FloatArray, ...]:
+    """Derivatives of the equation for v and of the surface, by v and by phi, and of q by phi."""
     push = 2 * e.pressure - e.limit
     bulk, growth = c.bulk(e.pressure), c.hard * e.limit
-    dv = push / (1 + e.phi * (2 * bulk + growth))
-    a = 1 + 6 * c.shear * e.phi / c.square
-    dq = -e.shear * 6 * c.shear / c.square / a
-    df = 2 * e.shear / c.square * dq - push * bulk * dv - e.pressure * growth * dv
-    return dv, df
+    dq = -e.shear * 6 * c.shear / (c.square + 6 * c.shear * e.phi)
+    vv, fv = 1 + e.phi * (2 * bulk + growth), -push * bulk - e.pressure * growth
+    return vv, -push, fv, 2 * e.shear / c.square * dq, dq
 
 
 def _returned(c: Clay, reach: FloatArray, limit: FloatArray, tried: FloatArray) -> Ends:
@@ -136,7 +134,8 @@ def _returned(c: Clay, reach: FloatArray, limit: FloatArray, tried: FloatArray) 
         if done.all():
             break
         low, high = np.where(rest > 0, phi, low), np.where(rest < 0, phi, high)
-        _, df = _slopes(c, ends)
+        vv, vp, fv, fp, _ = _slopes(c, ends)
+        df = fp - fv * vp / vv
         step = phi - rest / np.where(df < 0, df, -np.inf)
         middle = np.where(np.isfinite(high), 0.5 * (low + high), np.maximum(2 * low, 1e-6 / limit))
         inside = (step > low) & (step < high) & (df < 0)
@@ -181,13 +180,9 @@ def respond(
 def _tangent(c: Clay, e: Ends, own: FloatArray, tried: FloatArray) -> FloatArray:
     """Derivative of the stress by the step of strain: arrays (m, 6, 6)."""
     a = 1 + 6 * c.shear * e.phi / c.square
-    push, bulk, growth = 2 * e.pressure - e.limit, c.bulk(e.pressure), c.hard * e.limit
     # unknowns v and phi; what a compression dE and a rise of q trial change in both equations
-    vv, vp = 1 + e.phi * (2 * bulk + growth), -push
-    q_phi = -e.shear * 6 * c.shear / c.square / a
-    fv = -push * bulk - e.pressure * growth
-    fp = 2 * e.shear / c.square * q_phi
-    ve, fe, fq = -2 * e.phi * bulk, push * bulk, 2 * e.shear / c.square / a
+    (vv, vp, fv, fp, q_phi), bulk = _slopes(c, e), c.bulk(e.pressure)
+    ve, fe, fq = -2 * e.phi * bulk, -vp * bulk, 2 * e.shear / c.square / a
     det = vv * fp - vp * fv
     v_e, phi_e = -(fp * ve - vp * fe) / det, -(vv * fe - fv * ve) / det
     v_q, phi_q = vp * fq / det, -vv * fq / det
@@ -212,13 +207,7 @@ def locked(p: PointParameters, stress: FloatArray, variables: FloatArray) -> Flo
 
 
 def check(p: PointParameters) -> None:
-    """Refuse clay without an ellipse, or with a cohesion.
-
-    Raises
-    ------
-    MaterialError
-        Naming what must hold.
-    """
+    """Refuse clay without an ellipse, or with a cohesion."""
     if (p["COHE"] != 0).any():
         worst = np.abs(p["COHE"]).max()
         raise MaterialError("kernel.materials.clay-cohesion", value=worst).about("COHE")

@@ -18,12 +18,7 @@ def isotropic(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_strengths(parameters: PointParameters) -> None:
-    """Refuse hardening curves with strengths that are not positive.
-
-    Raises
-    ------
-    MaterialError
-    """
+    """Refuse hardening curves with strengths that are not positive."""
     for curve in parameters.curves["ECRO"][0]:
         if (curve.parts[0].ordinates <= 0).any():
             raise MaterialError("kernel.materials.curve-strengths-not", name="ECRO")
@@ -48,12 +43,7 @@ def saturating(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_saturating(parameters: PointParameters) -> None:
-    """Refuse strengths that sink.
-
-    Raises
-    ------
-    MaterialError
-    """
+    """Refuse strengths that sink."""
     slope, rate = parameters["KISO"], parameters["VELO"]
     falls = (rate > 0) & (parameters["SIGI"] < parameters["SIG0"])
     if (falls | (slope < 0) | (rate < 0)).any():
@@ -69,13 +59,7 @@ def drucker(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_drucker(parameters: PointParameters) -> None:
-    """Refuse strengths without a cone.
-
-    Raises
-    ------
-    MaterialError
-        Unless LTR > 0 and |LCS| >= LTR.
-    """
+    """Refuse strengths without a cone."""
     tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
     if (tension <= 0).any() or (compression < tension).any():
         told = {"tension_min": tension.min(), "compression_min": compression.min()}

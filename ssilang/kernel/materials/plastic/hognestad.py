@@ -106,13 +106,7 @@ CONCRETE = Points(_points, _table)
 
 
 def check(p: PointParameters) -> None:
-    """Refuse concrete whose curves do not exist, or whose cracks close gradually.
-
-    Raises
-    ------
-    MaterialError
-        Naming what must hold.
-    """
+    """Refuse concrete whose curves do not exist, or whose cracks close gradually."""
     if (p["FAMX"] >= 0).any():
         soft = MaterialError("kernel.materials.soft-crack-closing", value=p["FAMX"].max())
         raise soft.about("FAMX")

@@ -54,12 +54,7 @@ class Nested(NamedTuple):
 
 
 def check(parameters: PointParameters) -> None:
-    """Refuse curves that no soil has.
-
-    Raises
-    ------
-    MaterialError
-    """
+    """Refuse curves that no soil has."""
     for curve in parameters.curves[CURVE][0]:
         break_points(curve)
 

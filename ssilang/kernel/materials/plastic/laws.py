@@ -252,13 +252,7 @@ def law_at(law: PlasticLaw, parameters: PointParameters) -> PlasticLaw:
 
 
 def check_parameters(law: PlasticLaw, parameters: PointParameters) -> None:
-    """Refuse inadmissible parameters.
-
-    Raises
-    ------
-    MaterialError
-        Naming the parameter and its value.
-    """
+    """Refuse inadmissible parameters."""
     for name in law.positive:
         if (parameters[name] <= 0).any():
             raise MaterialError(

@@ -95,12 +95,6 @@ def locked(p: PointParameters, stress: FloatArray, variables: FloatArray) -> Flo
 
 
 def check(p: PointParameters) -> None:
-    """Refuse a softening that begins beyond its end.
-
-    Raises
-    ------
-    MaterialError
-        Naming what must hold.
-    """
+    """Refuse a softening that begins beyond its end."""
     line = p["ATRA"] < _LINE
     require("MAZARS", p, {"KTR0 < BTRA": ~line | (p["KTR0"] < p["BTRA"])})

@@ -136,13 +136,7 @@ STEEL = Points(_points, lambda p: np.stack([p[n] for n in _STEEL]))
 
 
 def check(p: PointParameters) -> None:
-    """Refuse steel whose curves do not exist.
-
-    Raises
-    ------
-    MaterialError
-        Naming what must hold.
-    """
+    """Refuse steel whose curves do not exist."""
     slender = p["FALD"] > 5
     rules = {
         "STSY <= STSU": p["STSY"] <= p["STSU"],

@@ -269,13 +269,7 @@ def _shape(lode: FloatArray, sine: FloatArray) -> tuple[FloatArray, FloatArray, 
 
 
 def check(parameters: PointParameters) -> None:
-    """Refuse a material without cohesion or with an angle in degrees.
-
-    Raises
-    ------
-    MaterialError
-        Unless COHE > 0 and 0 < PHI < pi/2.
-    """
+    """Refuse a material without cohesion or with an angle in degrees."""
     if (parameters["COHE"] <= 0).any():
         raise MaterialError("kernel.materials.rh-coulomb-needs-cohesion")
     phi = parameters["PHI"]

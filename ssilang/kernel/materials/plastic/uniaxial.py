@@ -112,12 +112,6 @@ def concrete(
 
 
 def check_concrete(parameters: PointParameters) -> None:
-    """Refuse concrete without strength.
-
-    Raises
-    ------
-    MaterialError
-        If FC = 0.
-    """
+    """Refuse concrete without strength."""
     if (parameters["FC"] == 0).any():
         raise MaterialError("kernel.materials.fc-concrete-needs-strength").about("FC")

@@ -12,7 +12,6 @@ from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
-from ssilang.kernel.mesh.nodes import NodeTable
 
 QUADRATIC = {
     "SEG2": "SEG3",
@@ -85,9 +84,7 @@ def _middles(mesh: Mesh, edges: IntArray, lines: Mesh | None) -> IntArray:
         met = code[order][place] == wanted
         middle[met] = known[order, 2][place[met]]
     fresh = edges[middle < 0]
-    middle[middle < 0] = nodes.add(
-        nodes.coordinates[fresh].mean(axis=1), nodes.density[fresh].mean(axis=1)
-    )
+    middle[middle < 0] = nodes.add_between(fresh)
     return middle
 
 
@@ -151,7 +148,7 @@ def complete(mesh: Mesh) -> Mesh:
     flat = [f.reshape(-1, f.shape[-1]) for f in faces]
     corners = np.concatenate(flat) if flat else np.empty((0, 4), dtype=np.int64)
     unique, which = np.unique(corners, axis=0, return_inverse=True)
-    made = _middle_nodes(mesh.nodes, unique)[which.ravel()]
+    made = mesh.nodes.add_between(unique)[which.ravel()]
     parts, start = [], 0
     for block in whole.blocks:
         if block.cell_type not in COMPLETE:
@@ -160,7 +157,7 @@ def complete(mesh: Mesh) -> Mesh:
         count = CELL_TYPES[COMPLETE[block.cell_type]].n_nodes - block.kind.n_nodes - 1
         middles = made[start : start + count * len(block)].reshape(len(block), count)
         start += count * len(block)
-        centre = _middle_nodes(mesh.nodes, block.connectivity[:, list(block.kind.corners)])
+        centre = mesh.nodes.add_between(block.connectivity[:, list(block.kind.corners)])
         table = np.column_stack([block.connectivity, middles, centre])
         parts.append(CellBlock.make(mesh.nodes, COMPLETE[block.cell_type], table, block.colours))
     return union(*(Mesh(mesh.nodes, (b,)) for b in parts), as_given=True) if parts else mesh
@@ -175,15 +172,6 @@ def _corners_of_faces(block: CellBlock) -> IntArray:
         places = list(local[::2])
         table[:, i, : len(places)] = block.connectivity[:, places]
     return np.sort(table, axis=-1)
-
-
-def _middle_nodes(nodes: NodeTable, corners: IntArray) -> IntArray:
-    """New nodes in the middle of corners (m, k), -1 standing for none."""
-    there = (corners >= 0)[..., None]
-    count = there.sum(axis=1)
-    xyz = (nodes.coordinates[corners] * there).sum(axis=1) / count
-    size = (nodes.density[corners][..., None] * there).sum(axis=1) / count
-    return nodes.add(xyz, size[:, 0]) if len(corners) else np.empty(0, dtype=np.int64)
 
 
 Places = list[tuple[int, ...]]

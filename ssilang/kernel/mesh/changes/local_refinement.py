@@ -174,15 +174,6 @@ _TIED = {3: ("edges", _edge_keys), 5: ("faces", _face_keys)}
 
 
 @dataclass
-class _Cells:
-    """Cells of one type that are not divided."""
-
-    cell_type: str
-    table: IntArray
-    colours: NDArray[np.int8]
-
-
-@dataclass
 class _State:
     """The mesh while it is divided: places and wanted sizes grow with the nodes."""
 
@@ -243,30 +234,28 @@ def divided_to_sizes(mesh: Mesh, sizes: FloatArray, ties: Iterable[CellBlock] = 
     for nodes in (block.connectivity for block in ties):
         known, key = _TIED[nodes.shape[1]]
         getattr(state, known).put(key(nodes[:, 1:]), nodes[:, 0])
-    cells = [_Cells(b.cell_type, b.connectivity, b.colours) for b in mesh.blocks]
-    still = [c for c in cells if c.cell_type == "POI1"]
-    active = [c for c in cells if c.cell_type != "POI1"]
-    top = max((CELL_TYPES[c.cell_type].dimension for c in active), default=0)
+    still = [c for c in mesh.blocks if c.cell_type == "POI1"]
+    active = [c for c in mesh.blocks if c.cell_type != "POI1"]
+    top = max((c.kind.dimension for c in active), default=0)
     while True:
         _check_number(state, active)  # again and again: smaller sizes may come in between
         marks = [(_excess(state, c) > 1.0) | _torn(state, c, top) for c in active]
         if not any(m.any() for m in marks):
             break
         active = [_divided(state, c, m) for c, m in zip(active, marks, strict=True)]
-    blocks = [CellBlock.make(mesh.nodes, c.cell_type, c.table, c.colours) for c in active + still]
-    return Mesh(mesh.nodes, (*blocks, *_ties(state, active)))
+    return Mesh(mesh.nodes, (*active, *still, *_ties(state, active)))
 
 
-def _excess(state: _State, cells: _Cells) -> FloatArray:
+def _excess(state: _State, cells: CellBlock) -> FloatArray:
     """Longest edge of each cell over the size wanted there."""
-    edges = cells.table[:, _division(cells.cell_type).edges]
+    edges = cells.connectivity[:, _division(cells.cell_type).edges]
     ends = state.nodes.coordinates[edges]
     longest = np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=2).max(axis=1, initial=0.0)
-    wanted = state.sizes[cells.table].mean(axis=1) * (1.0 + 1e-9)
+    wanted = state.sizes[cells.connectivity].mean(axis=1) * (1.0 + 1e-9)
     return longest / wanted
 
 
-def _check_number(state: _State, active: list[_Cells]) -> None:
+def _check_number(state: _State, active: list[CellBlock]) -> None:
     total = 0.0
     for cells in active:
         growth = len(_division(cells.cell_type).children)
@@ -276,20 +265,20 @@ def _check_number(state: _State, active: list[_Cells]) -> None:
         raise MeshError("kernel.mesh.about-cells-needed", total=total)
 
 
-def _torn(state: _State, cells: _Cells, top: int) -> NDArray[np.bool_]:
+def _torn(state: _State, cells: CellBlock, top: int) -> NDArray[np.bool_]:
     """Cells with a neighbour two divisions finer, and sides of volumes that are divided."""
     plan = _division(cells.cell_type)
-    edges = cells.table[:, plan.edges]
+    edges = cells.connectivity[:, plan.edges]
     middles = state.edges.at(_edge_keys(edges))
-    marks = np.zeros(len(cells.table), dtype=bool)
+    marks = np.zeros(len(cells), dtype=bool)
     for end in (0, 1):
         half = np.stack([edges[..., end], middles], axis=-1)
         marks |= _halved(state, half)
     if len(plan.inner):
         marks |= _halved(state, middles[:, plan.inner])
-    if CELL_TYPES[cells.cell_type].dimension < top:
+    if cells.kind.dimension < top:
         if len(plan.faces):
-            middles = state.faces.at(_face_keys(cells.table[:, plan.faces]))
+            middles = state.faces.at(_face_keys(cells.connectivity[:, plan.faces]))
         marks |= middles.min(axis=1) >= 0
     return marks
 
@@ -301,8 +290,8 @@ def _halved(state: _State, pairs: IntArray) -> NDArray[np.bool_]:
     return np.asarray(((state.edges.at(keys) >= 0) & there).any(axis=1))
 
 
-def _divided(state: _State, cells: _Cells, marks: NDArray[np.bool_]) -> _Cells:
-    parents = cells.table[marks]
+def _divided(state: _State, cells: CellBlock, marks: NDArray[np.bool_]) -> CellBlock:
+    parents = cells.connectivity[marks]
     if not len(parents):
         return cells
     plan = _division(cells.cell_type)
@@ -313,25 +302,22 @@ def _divided(state: _State, cells: _Cells, marks: NDArray[np.bool_]) -> _Cells:
     if plan.centre:
         columns.append(state.add(parents)[:, None])
     children = np.concatenate(columns, axis=1)[:, plan.children]
-    return _Cells(
-        cells.cell_type,
-        np.concatenate([cells.table[~marks], children.reshape(-1, parents.shape[1])]),
-        np.concatenate(
-            [cells.colours[~marks], np.repeat(cells.colours[marks], len(plan.children))]
-        ),
-    )
+    table = np.concatenate([cells.connectivity[~marks], children.reshape(-1, parents.shape[1])])
+    divided = np.repeat(cells.colours[marks], len(plan.children))
+    colours = np.concatenate([cells.colours[~marks], divided])
+    return CellBlock.make(state.nodes, cells.cell_type, table, colours)
 
 
 # --- ties ------------------------------------------------------------------------------------
 
 
-def _ties(state: _State, active: list[_Cells]) -> Iterator[CellBlock]:
+def _ties(state: _State, active: list[CellBlock]) -> Iterator[CellBlock]:
     """Nodes in the middle of an edge or a face of a cell that is not divided."""
     for size, (place, keys_of) in _TIED.items():
         known = getattr(state, place)
         rows = [np.empty((0, size), dtype=np.int64)]
         for cells in active:
-            groups = cells.table[:, getattr(_division(cells.cell_type), place)]
+            groups = cells.connectivity[:, getattr(_division(cells.cell_type), place)]
             if not groups.shape[1]:
                 continue
             middles = known.at(keys_of(groups))

@@ -5,7 +5,7 @@ Nodes of a line doubled inside a surface, so that the surface opens along it (DE
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import IntArray
+from ssilang.kernel.base.arrays import BoolArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.scientific import spatial
@@ -205,90 +205,54 @@ def cut_open(surface: Mesh, line: Mesh) -> tuple[Mesh, Mesh]:
     if (times > 2).any():
         node = line.nodes.told(ends[times > 2][0])
         raise MeshError("kernel.mesh.line-branches-node", ends=node)
-    right = _right_cells(surface, block)
-    nodes = surface.nodes
-    on_line = np.unique(block.connectivity)
-    image = np.arange(len(nodes), dtype=np.int64)
-    opened = [n for n in on_line.tolist() if n in right]
-    if not opened:
+    nodes, where = surface.nodes, [b.connectivity for b in surface.blocks]
+    right = _right_places(surface, block)
+    old = np.unique(np.concatenate([table.ravel() for table in where])[right])
+    if not len(old):
         raise MeshError("kernel.mesh.line-not-separate-cells")
-    old = np.array(opened, dtype=np.int64)
+    image = np.arange(len(nodes), dtype=np.int64)
     image[old] = nodes.add(nodes.coordinates[old].copy(), nodes.density[old].copy())
     blocks = []
-    for k, cells in enumerate(surface.blocks):
-        table = cells.connectivity.copy()
-        for n in opened:
-            rows = np.array([c for b, c in right[n] if b == k], dtype=np.int64)
-            table[rows] = np.where(table[rows] == n, image[n], table[rows])
-        blocks.append(CellBlock.make(nodes, cells.cell_type, table, cells.colours))
+    for cells, table in zip(surface.blocks, where, strict=True):
+        own, right = right[: table.size].reshape(table.shape), right[table.size :]
+        moved = np.where(own, image[table], table)
+        blocks.append(CellBlock.make(nodes, cells.cell_type, moved, cells.colours))
     new_line = CellBlock.make(nodes, block.cell_type, image[block.connectivity], block.colours)
     return Mesh(nodes, tuple(blocks)), Mesh(nodes, (new_line,))
 
 
-def _right_cells(surface: Mesh, line: CellBlock) -> dict[int, set[tuple[int, int]]]:
-    """For each node that the line opens: the cells (block, row) around it on the right."""
-    edge_cells: dict[tuple[int, int], list[tuple[int, int]]] = {}
-    around: dict[int, set[tuple[int, int]]] = {}
-    on_line = set(np.unique(line.connectivity).tolist())
-    for k, block in enumerate(surface.blocks):
-        if block.kind.dimension != 2 or block.kind.joint:
-            continue
-        touching = np.flatnonzero(np.isin(block.connectivity, list(on_line)).any(axis=1))
-        for row in touching.tolist():
-            nodes = block.connectivity[row]
-            for node in set(nodes.tolist()) & on_line:
-                around.setdefault(node, set()).add((k, row))
-            for _, face in block.kind.faces:
-                a, b = int(nodes[face[0]]), int(nodes[face[-1]])
-                edge_cells.setdefault((min(a, b), max(a, b)), []).append((k, row))
-    cut = {(min(a, b), max(a, b)): (a, b) for a, b in line.connectivity[:, [0, -1]].tolist()}
-    if any(edge not in edge_cells for edge in cut):
+def _right_places(surface: Mesh, line: CellBlock) -> BoolArray:
+    """Places in the cells, one after the other, of nodes that the line opens, on its right."""
+    xyz, on_line, size = surface.nodes.coordinates, line.connectivity, len(surface.nodes)
+    nodes, flat, centres = [], [], []
+    sides = [np.empty((0, 4), np.int64)]  # ends in increasing order, a node of the side, its place
+    start = 0
+    for block in surface.blocks:
+        table, plane = block.connectivity, block.kind.dimension == 2 and not block.kind.joint
+        places = start + np.arange(table.size).reshape(table.shape)
+        for _, face in block.kind.faces if plane else ():
+            ends = np.sort(table[:, [face[0], face[-1]]], axis=1)
+            sides += [np.column_stack([ends, table[:, i], places[:, i]]) for i in face]
+        nodes.append(table.ravel())
+        flat.append(np.full(table.size, plane))
+        centres.append(np.repeat(block.coordinates.mean(axis=1), table.shape[1], axis=0))
+        start += table.size
+    node, near = np.concatenate(nodes), np.concatenate(sides)
+    near = near[np.isin(near[:, 2], on_line)]
+    cut, code = np.sort(on_line[:, [0, -1]], axis=1) @ [size, 1], near[:, :2] @ [size, 1]
+    if not np.isin(cut, code).all():
         raise MeshError("kernel.mesh.line-not-made-edges")
-    seeds = _seeds(surface, line, cut, edge_cells)
-    found: dict[int, set[tuple[int, int]]] = {}
-    for node, cells in around.items():
-        side = _side(sorted(cells), edge_cells, set(cut), seeds.get(node, set()))
-        if side and side != cells:
-            found[node] = side
-    return found
-
-
-def _seeds(
-    surface: Mesh,
-    line: CellBlock,
-    cut: dict[tuple[int, int], tuple[int, int]],
-    edge_cells: dict[tuple[int, int], list[tuple[int, int]]],
-) -> dict[int, set[tuple[int, int]]]:
-    """Cells that touch the line by an edge from its right, for each node of the edge."""
-    xyz = surface.nodes.coordinates
-    seeds: dict[int, set[tuple[int, int]]] = {}
-    members = {tuple(sorted((r[0], r[-1]))): r for r in line.connectivity.tolist()}
-    for edge, (a, b) in cut.items():
-        way = xyz[b] - xyz[a]
-        for k, row in edge_cells[edge]:
-            centre = xyz[surface.blocks[k].connectivity[row]].mean(axis=0) - xyz[a]
-            if way[0] * centre[1] - way[1] * centre[0] < 0:
-                for node in members[edge]:
-                    seeds.setdefault(node, set()).add((k, row))
-    return seeds
-
-
-def _side(
-    cells: list[tuple[int, int]],
-    edge_cells: dict[tuple[int, int], list[tuple[int, int]]],
-    cut: set[tuple[int, int]],
-    seeds: set[tuple[int, int]],
-) -> set[tuple[int, int]]:
-    """Cells joined to the seeds by edges that the line does not cut."""
-    number = {c: i for i, c in enumerate(cells)}
-    links = [
-        (number[a], number[b])
-        for edge, owners in edge_cells.items()
-        if edge not in cut and len(owners) == 2
-        for a, b in [owners]
-        if a in number and b in number
-    ]
-    table = np.array(links, dtype=np.int64).reshape(-1, 2)
-    label = parts_of(len(cells), table.T)
-    wanted: IntArray = np.unique([label[number[c]] for c in seeds if c in number])
-    return {c for c in cells if label[number[c]] in wanted}
+    whole, joined = near[np.isin(code, cut)], near[~np.isin(code, cut)]
+    order = np.argsort(cut)
+    a, b = on_line[order[np.searchsorted(cut[order], whole[:, :2] @ [size, 1])]][:, [0, -1]].T
+    way, off = xyz[b] - xyz[a], np.concatenate(centres)[whole[:, 3]] - xyz[a]
+    seeds = whole[way[:, 0] * off[:, 1] - way[:, 1] * off[:, 0] < 0, 3]
+    # places of one node in two cells hang together by a side of both that the line does not cut
+    _, which, counts = np.unique(joined[:, :3], axis=0, return_inverse=True, return_counts=True)
+    pairs = joined[np.argsort(which.ravel(), kind="stable"), 3]
+    pairs = pairs[np.repeat(counts == 2, counts)].reshape(-1, 2)
+    part = parts_of(len(node), pairs.T)
+    around = np.concatenate(flat) & np.isin(node, on_line)
+    right = around & np.isin(part, part[seeds])
+    opened: BoolArray = right & np.isin(node, node[around & ~right])
+    return opened

@@ -31,11 +31,7 @@ def split_quadrangles(mesh: Mesh) -> Mesh:
 def _split_block(block: CellBlock) -> CellBlock:
     table = block.connectivity
     if block.cell_type == "QUA8":
-        xyz = block.nodes.coordinates
-        size = block.nodes.density
-        pairs = table[:, [1, 5]]
-        made = block.nodes.add(xyz[pairs].mean(axis=1), size[pairs].mean(axis=1))
-        table = np.column_stack([table, made])
+        table = np.column_stack([table, block.nodes.add_between(table[:, [1, 5]])])
     ways = _QUADRATIC if block.cell_type == "QUA8" else _LINEAR
     other = np.arange(len(table)) % 2 == 1
     width = len(ways[0][0])

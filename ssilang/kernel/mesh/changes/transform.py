@@ -97,9 +97,9 @@ class NodeCopier:
     def of_nodes(self, ids: IntArray) -> IntArray:
         """Copies of node numbers (any shape), made where they do not exist yet."""
         resolved = self.nodes.resolve(ids)
-        flat, first = np.unique(resolved, return_index=True)
-        flat = flat[np.argsort(first)]
-        fresh = np.array([n for n in flat.tolist() if n not in self.copies], dtype=np.int64)
+        flat, first, where = np.unique(resolved, return_index=True, return_inverse=True)
+        met = flat[np.argsort(first)].tolist()
+        fresh = np.array([n for n in met if n not in self.copies], dtype=np.int64)
         if len(fresh):
             if self.by_node is not None:
                 moved = self.by_node(fresh)
@@ -109,8 +109,7 @@ class NodeCopier:
             made = self.nodes.add(moved, self.nodes.density[fresh].copy())
             self.copies.update(zip(fresh.tolist(), made.tolist(), strict=True))
         table = np.array([self.copies[n] for n in flat.tolist()], dtype=np.int64)
-        order = np.argsort(flat)
-        return table[order][np.searchsorted(flat[order], resolved)]
+        return table[where.reshape(resolved.shape)]
 
     def point(self, point: Point) -> Point:
         """Copy of a point."""
@@ -318,13 +317,8 @@ def _simplex_terms(block: CellBlock, table: IntArray) -> FloatArray:
         raise MeshError(
             "kernel.mesh.cells-type-flat", n_flat=int(flat.sum()), cell_type=block.cell_type
         )
-    inner = np.linalg.inv(gram)
-    whole = np.zeros((len(table), table.shape[1], table.shape[1]))
-    whole[:, 1:, 1:] = inner
-    whole[:, 0, 1:] = -inner.sum(axis=1)
-    whole[:, 1:, 0] = whole[:, 0, 1:]
-    whole[:, 0, 0] = inner.sum(axis=(1, 2))
-    scaled: FloatArray = size[:, None, None] * whole
+    away = np.insert(np.eye(table.shape[1] - 1), 0, -1.0, axis=1)  # from the first corner
+    scaled: FloatArray = size[:, None, None] * (away.T @ np.linalg.inv(gram) @ away)
     return scaled
 
 

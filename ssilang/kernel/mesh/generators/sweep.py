@@ -134,13 +134,7 @@ def sweep_line(
     quadratic = block.cell_type == "SEG3"
     layers = _Layers.build(line, path, cuts, quadratic)
     local = layers.local(block.connectivity)
-    a, b = local[:, 0], local[:, -1]
-    cells = np.concatenate(
-        [
-            _quadrangle(layers, k, a, b, local[:, 1] if quadratic else None)
-            for k in range(cuts.count)
-        ]
-    )
+    cells = _quadrangles(layers, local)
     colours = np.tile(block.colours, cuts.count)
     mesh = Mesh.of(line.nodes, "QUA8" if quadratic else "QUA4", cells, colours)
     if surface in ("QUA4", "TRI3"):
@@ -162,20 +156,20 @@ def sweep_surface(surface: Mesh, path: Path, cuts: Subdivision) -> Mesh:
     quadratic = any(b.kind.degree == 2 for b in surface.blocks)
     layers = _Layers.build(surface, path, cuts, quadratic)
     blocks = tuple(_volume_block(layers, b, cuts) for b in surface.blocks)
-    end = _moved_blocks(layers, surface, cuts.count)
+    ends = []
+    for b in surface.blocks:
+        moved = layers.full[-1][layers.local(b.connectivity)]
+        ends.append(CellBlock.make(b.nodes, b.cell_type, moved, b.colours))
+    end = Mesh(surface.nodes, tuple(ends))
     border = contour(surface)
     around: tuple[Mesh, ...] = ()
     if border.n_cells:
         faces = []
         for block in border.blocks:
-            local = layers.local(block.connectivity)
-            middle = local[:, 1] if block.cell_type == "SEG3" else None
-            cells = [
-                _quadrangle(layers, k, local[:, 0], local[:, -1], middle) for k in range(cuts.count)
-            ]
+            cells = _quadrangles(layers, layers.local(block.connectivity))
             kind = "QUA8" if block.cell_type == "SEG3" else "QUA4"
             colours = np.tile(block.colours, cuts.count)
-            faces.append(Mesh.of(border.nodes, kind, np.concatenate(cells), colours))
+            faces.append(Mesh.of(border.nodes, kind, cells, colours))
         around = (union(*faces),)
     return Mesh(surface.nodes, blocks, (Mesh(surface.nodes, surface.blocks), end, *around))
 
@@ -280,16 +274,13 @@ def _slots(
     return slots
 
 
-def _quadrangle(
-    layers: _Layers, k: int, a: IntArray, b: IntArray, middle: IntArray | None
-) -> IntArray:
-    """Connectivity of the quadrangles of layer k on the segments a-b."""
-    low, high, half = layers.full[k], layers.full[k + 1], layers.half[k]
-    if middle is None:
-        return np.column_stack([low[a], low[b], high[b], high[a]])
-    return np.column_stack(
-        [low[a], low[middle], low[b], half[b], high[b], high[middle], high[a], half[a]]
-    )
+def _quadrangles(layers: _Layers, local: IntArray) -> IntArray:
+    """Connectivity of the quadrangles, layer by layer, on segments (n, 2 or 3) of columns."""
+    a, b, middle, parts = local[:, 0], local[:, -1], local[:, 1], []
+    for low, high, half in zip(layers.full[:-1], layers.full[1:], layers.half, strict=True):
+        nodes = [low[a], low[middle], low[b], half[b], high[b], high[middle], high[a], half[a]]
+        parts.append(np.column_stack(nodes[:: 1 if local.shape[1] == 3 else 2]))
+    return np.concatenate(parts)
 
 
 def _upright(layers: _Layers, column: int, cell_type: str) -> Mesh:
@@ -314,16 +305,6 @@ def _volume_block(layers: _Layers, block: CellBlock, cuts: Subdivision) -> CellB
     return CellBlock.make(
         block.nodes, cell_type, np.concatenate(parts), np.tile(block.colours, cuts.count)
     )
-
-
-def _moved_blocks(layers: _Layers, surface: Mesh, k: int) -> Mesh:
-    blocks = tuple(
-        CellBlock.make(
-            b.nodes, b.cell_type, layers.full[k][layers.local(b.connectivity)], b.colours
-        )
-        for b in surface.blocks
-    )
-    return Mesh(surface.nodes, blocks)
 
 
 _CONES = {"POI1": "SEG2", "SEG2": "TRI3", "TRI3": "TET4", "QUA4": "PYR5"}

@@ -20,12 +20,7 @@ _GAUSS_X, _GAUSS_W = np.polynomial.legendre.leggauss(16)
 
 
 def unit_vector(vector: FloatArray, code: str) -> FloatArray:
-    """A vector (3,) of length 1; an error of this code where it has none.
-
-    Raises
-    ------
-    MeshError
-    """
+    """A vector (3,) of length 1; an error of this code where it has none."""
     size = float(np.linalg.norm(vector))
     if size == 0.0:
         raise MeshError(code)
@@ -290,11 +285,7 @@ def fillet(
 def _ended(nodes: NodeTable, chain: IntArray, end: int, degree: int) -> IntArray:
     """A chain that goes on straight to a node; the middle of its last element is new."""
     pair = np.array([chain[-1], end])
-    made = pair[:0]
-    if degree == 2:
-        made = nodes.add(
-            nodes.coordinates[pair].mean(axis=0)[None], nodes.density[pair].mean(keepdims=True)
-        )
+    made = nodes.add_between(pair[None]) if degree == 2 else pair[:0]
     return np.concatenate([chain, made, pair[1:]])
 
 

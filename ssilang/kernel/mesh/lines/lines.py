@@ -4,6 +4,7 @@ Tangents, normals and binormals along lines.
 """
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -70,12 +71,7 @@ def end_sizes(nodes: NodeTable, start: int, end: int) -> tuple[float, float]:
 
 
 def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
-    """Refuse a line from a node to itself.
-
-    Raises
-    ------
-    MeshError
-    """
+    """Refuse a line from a node to itself."""
     if start == end:
         raise MeshError("kernel.mesh.line-starts-ends-same", start=nodes.told(start))
 
@@ -178,23 +174,14 @@ def shortest_line(network: Mesh, start: int, end: int) -> Mesh:
     graph = sp.coo_array((lengths, pairs.T), shape=(len(nodes), len(nodes))).tocsr()
     search: Any = csgraph.dijkstra  # its stubs know fewer kinds of graphs
     _, before = search(graph, directed=False, indices=int(ends[0]), return_predecessors=True)
-    cells = {frozenset(map(int, pair)): i for i, pair in enumerate(pairs)}
-    rows: list[int] = []
-    turned: list[bool] = []
-    at = int(ends[1])
-    while at != ends[0]:
-        previous = int(before[at])
-        if previous < 0:
+    cells, way = {frozenset(pair): i for i, pair in enumerate(pairs.tolist())}, [int(ends[1])]
+    while way[-1] != ends[0]:
+        way.append(int(before[way[-1]]))
+        if way[-1] < 0:
             raise MeshError("kernel.mesh.no-way-leads-along")
-        row = cells[frozenset((previous, at))]
-        rows.append(row)
-        turned.append(bool(pairs[row, 0] != previous))
-        at = previous
-    order = np.array(rows[::-1])
-    found = table[order]
-    back = np.array(turned[::-1])
-    found[back] = found[back][:, ::-1]
-    return Mesh.of(network.nodes, block.cell_type, found, block.colours[order])
+    rows = np.array([cells[frozenset(pair)] for pair in pairwise(way)])
+    found, order = walked(table[rows], wanted[:1])
+    return Mesh.of(network.nodes, block.cell_type, found, block.colours[rows[order]])
 
 
 _STRAIGHT = 1e-9  # bends (in radians) below which a line counts as straight

@@ -52,9 +52,7 @@ def separated(
     """
     if not mesh.n_cells:
         return []
-    cells, sides = _sides(mesh)
-    names, which, counts = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    which = which.ravel()
+    cells, names, which, counts = _sides(mesh)
     joins = np.ones(len(names), dtype=bool)
     if by_branching:
         joins &= counts <= 2
@@ -135,9 +133,7 @@ def by_neighbours(block: CellBlock) -> CellBlock:
     Each part of the mesh begins with its first cell.
     """
     n = len(block)
-    cells, corners = _sides(Mesh(block.nodes, (block,)))
-    which, counts = np.unique(corners, axis=0, return_inverse=True, return_counts=True)[1:]
-    which = which.reshape(-1)
+    cells, _, which, counts = _sides(Mesh(block.nodes, (block,)))
     pairs = [_pairs(cells, which, counts, m)[0] for m in np.unique(counts[counts > 1])]
     first, second = np.concatenate([np.empty((0, 2), dtype=np.int64), *pairs]).T
     links = sp.coo_array((np.ones(len(first)), (first, second)), shape=(n, n)).tocsr()
@@ -152,9 +148,10 @@ def by_neighbours(block: CellBlock) -> CellBlock:
     return CellBlock.make(block.nodes, block.cell_type, block.raw[places], block.colours[places])
 
 
-def _sides(mesh: Mesh) -> tuple[IntArray, IntArray]:
-    """Cells (m,) and sorted corners (m, 4), filled with -1, of all their sides."""
-    owners, corners = [], []
+def _sides(mesh: Mesh) -> tuple[IntArray, IntArray, IntArray, IntArray]:
+    """Cells (m,) of all sides, the sides' corners (n, 4), sorted, filled with -1; which of these
+    each of the m is, and how many each of the n are."""
+    owners, corners = [np.empty(0, np.int64)], [np.empty((0, _WIDTH), np.int64)]
     for block, start in zip(mesh.blocks, _starts(mesh), strict=True):
         for kind, local in block.kind.faces:
             places = [local[k] for k in CELL_TYPES[kind].corners]
@@ -162,9 +159,9 @@ def _sides(mesh: Mesh) -> tuple[IntArray, IntArray]:
             table[:, : len(places)] = block.connectivity[:, places]
             corners.append(np.sort(table, axis=1))
             owners.append(np.arange(len(block)) + start)
-    if not owners:
-        return np.empty(0, dtype=np.int64), np.empty((0, _WIDTH), dtype=np.int64)
-    return np.concatenate(owners), np.concatenate(corners)
+    every = np.concatenate(corners)
+    names, which, counts = np.unique(every, axis=0, return_inverse=True, return_counts=True)
+    return np.concatenate(owners), names, which.ravel(), counts
 
 
 def _within(sides: IntArray, separator: Mesh) -> BoolArray:

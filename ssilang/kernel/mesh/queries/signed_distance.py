@@ -11,13 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 
 
 def facets(mesh: Mesh, dimension: int) -> IntArray:
-    """Segments (n, 2) of a line (SEG3 in two), or triangles (n, 3) of a surface (QUA4 cut in two).
-
-    Raises
-    ------
-    MeshError
-        For other cells.
-    """
+    """Segments (n, 2) of a line (SEG3 in two) or triangles (n, 3) of a surface (QUA4 in two)."""
     parts: list[IntArray] = []
     for block in mesh.blocks:
         c = block.connectivity

@@ -179,6 +179,18 @@ def _accepted(
     return proposals[free]
 
 
+def without_unused(
+    points: FloatArray, cells: list[IntArray], fixed: int
+) -> tuple[FloatArray, list[IntArray]]:
+    """The points that cells use, the first `fixed` in any case, and the cells on them."""
+    kept = np.zeros(len(points), dtype=bool)
+    kept[:fixed] = True
+    for table in cells:
+        kept[table] = True
+    fresh = np.cumsum(kept) - 1
+    return points[kept], [fresh[table] for table in cells]
+
+
 def smooth(
     points: FloatArray, links: IntArray, fixed: int, rounds: int = 4, weight: float = 0.7
 ) -> FloatArray:

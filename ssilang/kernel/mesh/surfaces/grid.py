@@ -17,11 +17,6 @@ def sides_in_order(sides: Sequence[Mesh]) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     """Four lines turned, and put in order, so that each starts where the one before it ends.
 
     The first line keeps its sense, and the others their order, unless only others fit.
-
-    Raises
-    ------
-    MeshError
-        If they do not close.
     """
     firsts = sides[0], reversed_line(sides[0])
     for others, first in product(permutations(sides[1:]), firsts):

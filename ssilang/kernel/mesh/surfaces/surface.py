@@ -253,16 +253,17 @@ def fill_surface(
     points = fill.smooth(points, fill.certain_sides(points, triangles), len(flat))
     if surface == "POLY":
         polygons = [*join_triangles(points, triangles, len(flat)).values()]
-        points, polygons = _without_unused(points, polygons, len(flat))
+        points, polygons = fill.without_unused(points, polygons, len(flat))
     else:
         polygons = [triangles]
     if squares:
         quads, rest = pair_triangles(points, triangles)
         polygons = [quads, rest]
-        links = np.unique(np.vstack([fill.sides_of(p) for p in polygons if len(p)]), axis=0)
+    links = np.unique(np.vstack([fill.sides_of(p) for p in polygons if len(p)]), axis=0)
+    if squares:
         points = fill.smooth(points, links, len(flat))
     new = points[len(flat) :] * ([1.0, -1.0] if turned else [1.0, 1.0])
-    made = nodes.add(chart.lift(new), _sizes_at(points, polygons, len(flat)))
+    made = nodes.add(chart.lift(new), fill.mean_sizes(points, links)[len(flat) :])
     table = np.concatenate([ids, made])
     tables = [_from_smallest(table[p]) for p in polygons if len(p)]
     names = {3: "TRI3", 4: "QUA4"} | {n: name for name, n in POLYGON_SIDES.items()}
@@ -274,18 +275,6 @@ def fill_surface(
         fresh = nodes.coordinates[before:]
         fresh[:] = chart.lift(chart.flatten(fresh.copy()))
     return Mesh(nodes, mesh.blocks, (contour,))
-
-
-def _without_unused(
-    points: FloatArray, polygons: list[IntArray], fixed: int
-) -> tuple[FloatArray, list[IntArray]]:
-    """The points that polygons use, the first `fixed` in any case, and the polygons on them."""
-    kept = np.zeros(len(points), dtype=bool)
-    kept[:fixed] = True
-    for table in polygons:
-        kept[table] = True
-    fresh = np.cumsum(kept) - 1
-    return points[kept], [fresh[table] for table in polygons]
 
 
 def _from_smallest(polygons: IntArray) -> IntArray:
@@ -324,12 +313,6 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
     sense = float(np.sign(turn[corners].sum()))
     shape = squareness(flat * [1.0, sense], local.reshape(quads.shape).astype(np.int64))
     return made if shape.min() > 0.4 else None
-
-
-def _sizes_at(points: FloatArray, polygons: list[IntArray], fixed: int) -> FloatArray:
-    """Mean length of the sides at each point after the first `fixed`."""
-    links = np.unique(np.vstack([fill.sides_of(p) for p in polygons if len(p)]), axis=0)
-    return fill.mean_sizes(points, links)[fixed:]
 
 
 _EDGE = 1e-9  # how far outside of a facet a hit still counts, relative to the facet

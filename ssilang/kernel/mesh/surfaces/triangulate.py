@@ -50,10 +50,10 @@ def delaunay_triangles(points: FloatArray) -> IntArray:
 def doubled_areas(points: FloatArray, triangles: IntArray) -> FloatArray:
     """Twice the signed areas of triangles (t, 3) of points (m, 2)."""
     a, b, c = np.moveaxis(points[triangles], 1, 0)
-    return _cross(b - a, c - a)
+    return cross(b - a, c - a)
 
 
-def _cross(u: FloatArray, v: FloatArray) -> FloatArray:
+def cross(u: FloatArray, v: FloatArray) -> FloatArray:
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
@@ -97,7 +97,7 @@ def _missing(triangles: IntArray, segments: IntArray) -> list[tuple[int, int]]:
 def _crossed(points: FloatArray, triangles: IntArray, a: int, b: int) -> np.ndarray:
     """Triangles with a side that the segment a-b crosses strictly."""
     way = points[b] - points[a]
-    side = _cross(way[None], points - points[a])
+    side = cross(way[None], points - points[a])
     tiny = 1e-12 * float(way @ way)
     hit = np.zeros(len(triangles), dtype=bool)
     for i, j in ((0, 1), (1, 2), (2, 0)):
@@ -105,7 +105,7 @@ def _crossed(points: FloatArray, triangles: IntArray, a: int, b: int) -> np.ndar
         free = (p != a) & (p != b) & (q != a) & (q != b)
         apart = side[p] * side[q] < 0
         s = points[q] - points[p]
-        over = _cross(s, points[a] - points[p]) * _cross(s, points[b] - points[p]) < 0
+        over = cross(s, points[a] - points[p]) * cross(s, points[b] - points[p]) < 0
         hit |= free & apart & over
     through = np.flatnonzero(np.abs(side) <= tiny)
     along = ((points[through] - points[a]) @ way) / float(way @ way)

@@ -50,54 +50,36 @@ def _grid(quads: IntArray) -> IntArray:
     corners = ids[times == 1]
     if len(corners) != 4:
         raise MeshError("kernel.mesh.face-no-grid-quadrangles", n_corners=len(corners))
-    owner: dict[tuple[int, int], list[tuple[int, list[int]]]] = {}
-    for row, cell in enumerate(quads.tolist()):
-        for k in range(4):
-            owner.setdefault((cell[k], cell[(k + 1) % 4]), []).append((row, cell))
-            owner.setdefault((cell[(k + 1) % 4], cell[k]), []).append((row, cell))
-    start = next(r for r, c in enumerate(quads.tolist()) if corners[0] in c)
-    cell = quads[start].tolist()
-    k = cell.index(int(corners[0]))
-    ring = [cell[(k + i) % 4] for i in range(4)]
-    used: set[int] = set()
-    rows = [_strip(ring[0], ring[1], owner, used)]
-    while True:
-        a, b = rows[-1][0][1], rows[-1][1][1]
-        free = [o for o in owner.get((a, b), []) if o[0] not in used]
-        if not free:
-            break
-        rows.append(_strip(a, b, owner, used))
-    table = [[p[0] for p in rows[0]], *([p[1] for p in row] for row in rows)]
+    cells, used = quads.tolist(), set[int]()
+    owners: dict[frozenset[int], list[int]] = {}
+    for row, cell in enumerate(cells):
+        for pair in zip(cell, cell[1:] + cell[:1], strict=True):
+            owners.setdefault(frozenset(pair), []).append(row)
+
+    def beyond(a: int, b: int) -> list[int]:
+        """The cell on a side that is not met yet, from a by b on; empty where there is none."""
+        for row in owners.get(frozenset((a, b)), ()):
+            if row not in used:
+                used.add(row)
+                k, step = cells[row].index(a), 1
+                if cells[row][(k + 1) % 4] != b:
+                    step = -1
+                return [cells[row][(k + step * i) % 4] for i in range(4)]
+        return []
+
+    cell = next(c for c in cells if corners[0] in c)
+    k, table = cell.index(int(corners[0])), list[list[int]]()
+    start = beyond(cell[k], cell[(k + 1) % 4])
+    while start:
+        low, high = start[:2], start[:1:-1]
+        while cell := beyond(low[-1], high[-1]):
+            low.append(cell[3])
+            high.append(cell[2])
+        table += [high] if table else [low, high]
+        start = beyond(*high[:2])
     if len({len(r) for r in table}) > 1 or len(used) != len(quads):
         raise MeshError("kernel.mesh.face-strips-differ")
     return np.array(table, dtype=np.int64)
-
-
-def _strip(
-    a: int, b: int, owner: dict[tuple[int, int], list[tuple[int, list[int]]]], used: set[int]
-) -> list[tuple[int, int]]:
-    """Pairs (lower, upper) of nodes along a strip of cells that starts on the edge a-b."""
-    pairs: list[tuple[int, int]] = []
-    while True:
-        free = [o for o in owner.get((a, b), []) if o[0] not in used]
-        if not free:
-            return pairs
-        row, cell = free[0]
-        used.add(row)
-        k = cell.index(a)
-        step = 1 if cell[(k + 1) % 4] == b else -1
-        c, d = cell[(k + 2 * step) % 4], cell[(k + 3 * step) % 4]
-        if not pairs:
-            pairs.append((a, d))
-        pairs.append((b, c))
-        # the next cell of the strip shares the edge b-c; turn so that its lower edge starts at b
-        following = [o for o in owner.get((b, c), []) if o[0] not in used]
-        if not following:
-            return pairs
-        other = following[0][1]
-        j = other.index(b)
-        e = other[(j + 1) % 4] if other[(j + 1) % 4] != c else other[(j - 1) % 4]
-        a, b = b, e
 
 
 def _rim(grid: IntArray) -> list[int]:

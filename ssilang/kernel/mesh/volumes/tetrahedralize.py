@@ -9,7 +9,8 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.scientific import optimize, sp, spatial
-from ssilang.kernel.mesh.surfaces.fill import mean_sizes
+from ssilang.kernel.mesh.surfaces.fill import mean_sizes, without_unused
+from ssilang.kernel.mesh.surfaces.triangulate import cross
 
 _CLEARANCE = 0.003  # wanted height over a face's plane in the lifted space, in squared sizes
 _LEAST = 1e-6  # clearance below which rounding could undo the result
@@ -213,18 +214,10 @@ def tetrahedralize(points: FloatArray, triangles: IntArray) -> tuple[FloatArray,
         lost = ~np.isin(_codes(np.sort(triangles, axis=1), size), have)
         if not lost.any():
             kept = _inside_cells(every, cells, unit, triangles)
-            return _compact(every * scale + (low + high) / 2, kept, len(points))
+            points, (kept,) = without_unused(every * scale + (low + high) / 2, [kept], len(points))
+            return points, kept
         reach[lost] *= 1.4
     raise MeshError("kernel.mesh.triangles-surface-cannot-kept", n_lost=int(lost.sum()))
-
-
-def _compact(points: FloatArray, cells: IntArray, fixed: int) -> tuple[FloatArray, IntArray]:
-    """Points that no cell uses dropped, after the first `fixed`."""
-    used = np.zeros(len(points), dtype=bool)
-    used[:fixed] = True
-    used[cells] = True
-    number = np.cumsum(used) - 1
-    return points[used], number[cells].astype(np.int64)
 
 
 def _check_closed(points: FloatArray, triangles: IntArray) -> None:
@@ -299,20 +292,16 @@ def ray_inside(positions: FloatArray, points: FloatArray, triangles: IntArray) -
     frame = np.column_stack([first, np.cross(way, first), way])
     corners, at = (points @ frame)[triangles], positions @ frame
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    twice = _turn(b - a, c - a)
+    twice = cross(b - a, c - a)
     inside = np.zeros(len(at), dtype=bool)
     for rows in np.array_split(np.arange(len(at)), max(1, len(at) * len(triangles) // 2_000_000)):
         p = at[rows, None]
         with np.errstate(divide="ignore", invalid="ignore"):
-            s, t = _turn(p - a, c - a) / twice, _turn(b - a, p - a) / twice
+            s, t = cross(p - a, c - a) / twice, cross(b - a, p - a) / twice
         height = a[:, 2] + s * (b - a)[:, 2] + t * (c - a)[:, 2]
         hit = (s >= 0) & (t >= 0) & (s + t <= 1) & (height > p[..., 2])
         inside[rows] = hit.sum(axis=1) % 2 == 1
     return inside
-
-
-def _turn(u: FloatArray, v: FloatArray) -> FloatArray:
-    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 
 def _regular_triangulation(points: FloatArray, weights: FloatArray) -> IntArray:

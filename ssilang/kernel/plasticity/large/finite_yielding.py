@@ -114,7 +114,7 @@ class FiniteBulk(Bulk):
         """The zones that yield, with what they have of a state."""
         return [(z.points, s) for z, s in zip(self.yielding, _parts(state)[1], strict=True)]
 
-    def respond(self, state: State, du: FloatArray, time: float) -> Answer:
+    def respond(self, state: State, du: FloatArray, time: float, whole: bool = False) -> Answer:
         """Forces and tangent after a step `du` (n,)."""
         before, old = _parts(state)
         u = before + du

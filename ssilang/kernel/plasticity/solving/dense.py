@@ -43,7 +43,7 @@ class DenseSolver(BulkSolver):
         self, motion: Motion, r: FloatArray, du: FloatArray, pushed: FloatArray,
         answer: Answer | None = None,
     ) -> BulkTrial:  # fmt: skip
-        answer = answer or self.bulk.respond_whole(self.state, du, self.time)
+        answer = answer or self.bulk.respond(self.state, du, self.time, True)
         at_play = self._at_play
         at_play[0], at_play[2], at_play[3] = r, answer.force, self.force
         linear = np.dot(self._dense, du, out=at_play[1])

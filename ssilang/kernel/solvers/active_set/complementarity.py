@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.base.scientific import la, optimize
 
-BoolArray = NDArray[np.bool_]
 PENALTY = (100.0, 1e7)  # least and largest, of equilibrium against energy, in scaled unknowns
 SMALL = 1e-10  # energy of its own of each row, relative to the mean
 PASSES = 100  # of the augmented Lagrangian

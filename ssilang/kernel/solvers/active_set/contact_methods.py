@@ -8,13 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import ConvergenceError, KernelError
 from ssilang.kernel.solvers.active_set.complementarity import ContactProblem, solve_contact
 
-BoolArray = NDArray[np.bool_]
 MOST_SWEEPS = 200_000
 TOLERANCE = 1e-13  # change of the reactions in a sweep, relative
 
@@ -42,13 +40,7 @@ def lagrange(
 def penalty(
     W: FloatArray, q: FloatArray, coefficient: float | None, start: BoolArray | None
 ) -> Reactions:
-    """`p = c max(0, -g)`: rows with a flexibility 1/c added.
-
-    Raises
-    ------
-    KernelError
-        Without a positive coefficient.
-    """
+    """`p = c max(0, -g)`: rows with a flexibility 1/c added."""
     if coefficient is None or not coefficient > 0.0:
         raise KernelError("kernel.solvers.penalty-needs-coefficient")
     return lagrange(W + np.eye(len(q)) / coefficient, q, None, start)

@@ -15,9 +15,8 @@ Curnier (1991); block Gauss-Seidel sweeps (Jean and Moreau 1992) where it does n
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import ConvergenceError
 from ssilang.kernel.base.scientific import la
 from ssilang.kernel.solvers.active_set.complementarity import (
@@ -26,7 +25,6 @@ from ssilang.kernel.solvers.active_set.complementarity import (
     natural_motion,
 )
 
-BoolArray = NDArray[np.bool_]
 TURNS = 60
 """Newton's turns before the sweeps, and after them."""
 SWEEPS = 3000

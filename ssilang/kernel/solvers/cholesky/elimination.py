@@ -15,16 +15,13 @@ first; the transposed walk, from the first to the last, gives the multipliers:
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.graph import chains, parts_of
 from ssilang.kernel.base.scientific import csgraph, la, sp
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.solvers.factor import Factor, Ordering, Solver
-
-BoolArray = NDArray[np.bool_]
 
 LARGEST_GROUP = 1200  # rows; a dense QR of that size takes about a second
 LARGEST_FILL = 40_000  # products of the terms that one row spreads through T^T K T
@@ -129,15 +126,11 @@ def _diagonal(values: FloatArray) -> sp.csr_array:
     return sp.csr_array(sp.diags_array(1.0 / values))
 
 
-def _row_of_terms(C: sp.csr_array) -> IntArray:
-    return np.repeat(np.arange(C.shape[0]), np.diff(C.indptr))
-
-
 def _support_stages(C: sp.csr_array, todo: BoolArray) -> list[_Stage]:
     """Rows of one open unknown, again and again; takes them out of `todo`."""
     stages: list[_Stage] = []
     taken = np.zeros(C.shape[1], bool)
-    row_of = _row_of_terms(C)
+    row_of = np.repeat(np.arange(C.shape[0]), np.diff(C.indptr))
     while True:
         single = todo & (_open_terms(C, taken) == 1)
         terms = single[row_of] & ~taken[C.indices]
@@ -157,7 +150,7 @@ def _peeled_stages(C: sp.csr_array, todo: BoolArray, fixed: list[_Stage]) -> lis
     """Rows with an unknown of their own, peeled off layer by layer."""
     stages: list[_Stage] = []
     taken = _taken(C, fixed)
-    row_of = _row_of_terms(C)
+    row_of = np.repeat(np.arange(C.shape[0]), np.diff(C.indptr))
     light = _open_terms(C, taken) ** 2 <= LARGEST_FILL
     while True:
         open_term = todo[row_of] & ~taken[C.indices]
@@ -192,14 +185,11 @@ def _group_stage(
     pieces = [p for p in pieces if len(p.slaves)]
     if not pieces:
         return []
+    own, slaves = (
+        np.concatenate(x) for x in zip(*((p.rows, p.slaves) for p in pieces), strict=True)
+    )
     inverse = sp.csr_array(sp.block_diag([p.inverse for p in pieces], format="csr"))
-    return [
-        _Stage(
-            np.concatenate([p.rows for p in pieces]),
-            np.concatenate([p.slaves for p in pieces]),
-            inverse,
-        )
-    ]
+    return [_Stage(own, slaves, inverse)]
 
 
 def _one_group(part: sp.csr_array, rows: IntArray, columns: IntArray, group: IntArray) -> _Stage:

@@ -89,14 +89,10 @@ def invert(
     """
     if not np.isfinite(A.data).all():
         raise KernelError("kernel.solvers.matrix-holds-values-not")
-    n = A.shape[0]
-    nothing = np.empty(0, dtype=np.int64)
-    if n == 0:
-        return Inverse(_Empty(), np.empty(0), np.empty((0, 0)), nothing, nothing)
     scaled, scale = unit_diagonal(A)
     if symmetric and not scaled.diagonal().all():
         used = np.flatnonzero(np.asarray(abs(scaled).max(axis=1).toarray()))
-        if len(used) < n:
+        if len(used) < A.shape[0]:
             return _without_idle(scaled, scale, used, solver, ordering)
     return _invert(scaled, scale, symmetric, solver, ordering)
 

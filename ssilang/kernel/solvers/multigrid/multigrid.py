@@ -150,11 +150,6 @@ class MultigridFactor:
     def _levels(self, kind: Any) -> Hierarchy:
         return hierarchy_of(grouped(self._matrix, self._first, kind), self._motions)
 
-    @property
-    def is_double(self) -> bool:
-        """Whether the levels are of double precision."""
-        return bool(self.hierarchy.levels[0].A.values.dtype == np.float64)
-
     def in_double(self) -> None:
         """Make the levels again in double precision."""
         self.hierarchy = self._levels(np.float64)
@@ -191,7 +186,7 @@ class MultigridFactor:
             return np.column_stack([self.solve(column) for column in b.T])
         size = float(np.linalg.norm(b))
         found = self._solved(b, size)
-        if not found.converged and not self.is_double:
+        if not found.converged and self.hierarchy.levels[0].A.values.dtype != np.float64:
             self.in_double()
             found = self._solved(b, size)
         self.turns = found.turns

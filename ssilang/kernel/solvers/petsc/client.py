@@ -95,7 +95,7 @@ class PetscServer:
             "data": A.data.astype(float),
             "rigid": motions,
         }
-        number = line.next_number()
+        number = line.count = line.count + 1
         reply = line.ask(
             {
                 "do": "factorise", "factor": number, "n": n, "positive": positive,
@@ -226,13 +226,8 @@ class _Line:
         self.connection = connection
         self.ended = False
         self.dropped: list[int] = []
-        self._count = 0
+        self.count = 0
         self._desk: mmap.mmap | None = None
-
-    def next_number(self) -> int:
-        """A number for a further factor."""
-        self._count += 1
-        return self._count
 
     def desk(self, count: int, n: int) -> tuple[FloatArray, tuple[int, ...]]:
         """Shared memory for columns (count, n), and its descriptor if the server lacks it."""

@@ -10,6 +10,7 @@ from ssilang.kernel.elements.results.frames import (
     SurfaceAxes,
     following_axes,
     is_flat_shell,
+    points_of,
     shell_in_axes,
     shell_support,
 )
@@ -18,7 +19,6 @@ from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface import family as _joints  # noqa: F401
-from ssilang.kernel.materials.axes import integration_points
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -78,7 +78,7 @@ def test_models_take_values_at_their_points_or_in_the_mean_of_squares(source, mo
                   mode)  # fmt: skip
     both, lost = Model((inside, beyond)), []
     made = on_model(field, both, "RIGIDITE", 1e-6, lost)
-    x = integration_points(inside, "RIGIDITE")[0]
+    x = points_of(inside, "RIGIDITE")[0]
     np.testing.assert_allclose(made.blocks[0].components["A"][0], exact(x)[0])
     assert made.title == "title"
     assert not any(block.components["A"].any() for block in made.blocks[1:])

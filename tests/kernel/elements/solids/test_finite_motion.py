@@ -13,6 +13,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import Layout
+from ssilang.kernel.elements.results.frames import points_of
 from ssilang.kernel.elements.solids.finite_motion import (
     gradient_components,
     polar,
@@ -27,7 +28,6 @@ from ssilang.kernel.elements.solids.gradients import (
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
-from ssilang.kernel.materials.axes import integration_points
 from ssilang.kernel.materials.model import Mode
 from ssilang.kernel.mesh.mesh import Point
 from tests.kernel.elements.samples import cell_zone, field, material
@@ -159,7 +159,7 @@ def motion(zone, u, section):
 def test_strains_across_grow_from_the_section_s_point(zone):
     A = np.array([[1e-3, -4e-4], [2e-3, 3e-3]])
     found = families.strain(zone, motion(zone, lambda x: x[:, :2] @ A.T, (2e-3, 5e-4, -3e-4)))
-    x = integration_points(zone, "STRESSES")[0]
+    x = points_of(zone, "STRESSES")[0]
     across = 2e-3 + (x[:, 1] + 0.4) * 5e-4 + (x[:, 0] - 0.7) * 3e-4
     for name, value in (("EPXX", 1e-3), ("EPYY", 3e-3), ("GAXY", 1.6e-3), ("EPZZ", across)):
         np.testing.assert_allclose(found.components[name][0], value, atol=1e-12)
@@ -179,7 +179,7 @@ def test_forces_on_the_section_are_the_resultants_of_the_stresses_across(zone):
             forces.values_at(name, nodes), exact.values_at(name, nodes), atol=1e-6
         )
     w = families.integration_weights(zone, "STRESSES", given)[0]
-    x, s = integration_points(zone, "STRESSES")[0], stress.components["SMZZ"][0]
+    x, s = points_of(zone, "STRESSES")[0], stress.components["SMZZ"][0]
     at = np.array([zone.options["DPGE"].number])
     for name, arm in (("FZ", 1.0), ("MX", x[:, 1] + 0.4), ("MY", 0.7 - x[:, 0])):
         assert forces.values_at(name, at)[0] == pytest.approx((w * s * arm).sum(), rel=1e-9)
