@@ -11,7 +11,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 from ssilang.messages.message import Teller
-from ssilang.report.html import text
+from ssilang.report.html import codes, text
 from ssilang.report.results import Calculation, Results
 
 MOST_COLUMNS = 12
@@ -83,13 +83,6 @@ def charts_of(results: Results, told: Teller) -> list[Chart]:
     return made
 
 
-_ENERGIES = {
-    "CINETIQUE": "report.kinetic", "ELASTIQUE": "report.elastic",
-    "JOINTS": "report.joints", "DISSIPEE": "report.lost", "AMORTIE": "report.damped",
-    "EXTERIEURE": "report.work", "ECART": "report.imbalance",
-}  # fmt: skip
-
-
 @dataclass(frozen=True)
 class _Of:
     """Pictures of a calculation."""
@@ -157,7 +150,7 @@ class _Of:
         columns = self.calculation.columns
         lines = [
             Line(self.told(code), columns["time"], columns[word])
-            for word, code in _ENERGIES.items()
+            for word, code in codes()["energies"].items()
             if word in columns and np.abs(columns[word]).max() > 0.0
         ]
         if not lines:

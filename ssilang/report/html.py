@@ -5,8 +5,11 @@ import json
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from importlib import resources
+from pathlib import Path
+from typing import Any
 
 from ssilang.messages.message import visible
+from ssilang.remembered import tables_of
 
 
 def text(value: object) -> str:
@@ -24,6 +27,11 @@ def json_in_page(value: object) -> str:
 def asset(name: str) -> str:
     """A file of the page."""
     return resources.files(__package__ or "").joinpath("assets", name).read_text(encoding="utf-8")
+
+
+def codes() -> Any:
+    """Codes of what pages say, by part."""
+    return tables_of(Path(__file__).with_name("page.toml"))
 
 
 def section(name: str, title: str, body: str) -> str:

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 from ssilang.cli.editor.document import Document
 from ssilang.cli.editor.tokens import BEGINS, Kind, Phrase
@@ -16,10 +16,7 @@ Colour = Literal[
     "comment", "keyword", "function", "string", "number", "operator", "variable", "property",
     "parameter",
 ]  # fmt: skip
-COLOURS: tuple[Colour, ...] = (
-    "comment", "keyword", "function", "string", "number", "operator", "variable", "property",
-    "parameter",
-)  # fmt: skip
+COLOURS: tuple[Colour, ...] = get_args(Colour)
 _NUMBERS = frozenset({"INTEGER", "FLOAT"})
 _COMMENT = re.compile(r"^(?:\*|\$\$\$\$).*$", re.MULTILINE)
 

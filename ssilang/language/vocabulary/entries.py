@@ -23,11 +23,13 @@ script is meant to write its own procedure of that name.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from pathlib import Path
 from typing import Any
 
 from ssilang.language.registry import find_operator
 from ssilang.language.vocabulary.terms import UNSAID, Range, read_range
 from ssilang.messages.message import spoken
+from ssilang.remembered import tables_of
 from ssilang.resources import resource
 
 NUMBER, ANYTHING = "I", "*"
@@ -36,29 +38,11 @@ NUMBER, ANYTHING = "I", "*"
 WRITTEN, READ, BOTH, UNUSED, REFUSED = "written", "read", "both", "unused", "refused"
 """`unused` entries are accepted and change nothing, `refused` ones are not available."""
 
-THEMES = (
-    "problem",
-    "times",
-    "frequencies",
-    "scheme",
-    "steps",
-    "contact",
-    "kept",
-    "files",
-    "procedure",
-    "path",
-    "start",
-    "layers",
-    "modes",
-    "links",
-    "law",
-    "sizes",
-    "drawing",
-    "results",
-    "unused",
-    "refused",
-)
+_TABLES = tables_of(Path(__file__).with_suffix(".toml"))
+THEMES: tuple[str, ...] = tuple(_TABLES["themes"])
 """Groups of entries in the order in which they are shown."""
+MADE_BY: dict[str, str] = _TABLES["made_by"]
+"""How objects of a type are mostly made."""
 
 
 @dataclass(frozen=True, slots=True)
