@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.recording import plain
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 from ssilang.messages.message import Teller
@@ -52,7 +53,7 @@ class Chart:
             "loop": self.loop or not all(_rises(line.x) for line in self.lines),
             "lines": [
                 {
-                    "name": line.name, "x": _plain(line.x), "y": _plain(line.y),
+                    "name": line.name, "x": plain(line.x, 6), "y": plain(line.y, 6),
                     "points": line.points,
                 }
                 for line in self.lines
@@ -62,10 +63,6 @@ class Chart:
 
 def _rises(x: FloatArray) -> bool:
     return bool((np.diff(x) > 0.0).all() and np.isfinite(x).all())
-
-
-def _plain(values: FloatArray) -> list[float | None]:
-    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in np.asarray(values).tolist()]
 
 
 def charts_of(results: Results, told: Teller) -> list[Chart]:

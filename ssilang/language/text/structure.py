@@ -8,16 +8,13 @@ from ssilang.language.text.parser import decimal_commas, end_of_run, parse_state
 from ssilang.language.text.source import Source, Span
 from ssilang.late_imports import without_collections
 
-_CONTROL = {
-    "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
-    "FINP": "FINP", "DEBM": "DEBM", "FINM": "FINM",
-}  # fmt: skip
 _OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
 
 
 def control_word(statement: tree.Statement) -> str:
     """The control word that a statement begins with, '' if none."""
-    return _CONTROL.get(statement.first_word[:4].rstrip(), "")
+    word = statement.first_word[:4].rstrip()
+    return word if word in _STEPS else ""
 
 
 @dataclass

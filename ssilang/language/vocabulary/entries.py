@@ -219,19 +219,12 @@ def read_declaration(name: str) -> Declaration | None:
     replaceable = data.pop("replaceable", False)
     for argument, section in data.items():
         found = _entries_of(section, (argument,))
-        arguments.append(_argument(argument, section))
+        subtype, after = section.get("subtype", ""), tuple(section.get("after", ()))
+        arguments.append(Argument(argument, subtype, after))
         entries += {e.path: e for e in found}.values()  # what is said last holds
-    return Declaration(name.upper(), tuple(arguments), tuple(_in_order(entries)), replaceable)
-
-
-def _argument(name: str, section: dict[str, Any]) -> Argument:
-    return Argument(name, section.get("subtype", ""), tuple(section.get("after", ())))
-
-
-def _in_order(entries: list[TableEntry]) -> list[TableEntry]:
-    """By theme, what is inside of a table right behind it."""
-    order = {theme: i for i, theme in enumerate(THEMES)}
-    return sorted(entries, key=lambda e: order[e.theme])
+    # by theme, what is inside of a table right behind it
+    entries.sort(key=lambda e: THEMES.index(e.theme))
+    return Declaration(name.upper(), tuple(arguments), tuple(entries), replaceable)
 
 
 def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[TableEntry]:
