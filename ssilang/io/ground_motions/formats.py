@@ -238,7 +238,8 @@ def read_titled(path: Path) -> list[GroundMotion]:
     text = [(i, x) for i, x in enumerate(lines, 1) if x.strip()]
     sign = next((s for s in ";\t," if any(s in x for _, x in text)), "")
     rows = [(i, _cells(x, sign)) for i, x in text]
-    first = next((k for k, (_, cells) in enumerate(rows) if _are_numbers(cells)), len(rows))
+    begins = (k for k, (_, cells) in enumerate(rows) if not np.isnan([*map(real, cells)]).any())
+    first = next(begins, len(rows))
     values = _table(path, rows[first:])
     titles = rows[first - 1][1] if 0 < first < len(rows) else []
     if len(titles) != values.shape[1]:
@@ -265,10 +266,6 @@ def _cells(line: str, sign: str) -> list[str]:
     while len(cells) > 1 and not cells[-1].strip():
         cells.pop()
     return [c.strip().strip('"') for c in cells]
-
-
-def _are_numbers(cells: list[str]) -> bool:
-    return not np.isnan([real(c) for c in cells]).any()
 
 
 def _table(path: Path, rows: list[tuple[int, list[str]]]) -> FloatArray:

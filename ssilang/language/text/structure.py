@@ -141,10 +141,6 @@ def _plain(stack: list[_Open], statement: tree.Statement) -> None:
     stack[-1].body.append(statement)
 
 
-def _rest(statement: tree.Statement) -> tree.Statement:
-    return tree.Statement((), statement.items[1:], statement.span)
-
-
 def _si(stack: list[_Open], statement: tree.Statement) -> None:
     stack.append(_Open("SI", statement))
 
@@ -169,7 +165,8 @@ def _finsi(stack: list[_Open], statement: tree.Statement) -> None:
     body = tuple(top.body)
     then, otherwise = (body, ()) if top.kind == "SI" else (top.then, body)
     span = top.statement.span.to(statement.span)
-    stack[-1].body.append(tree.If(_rest(top.statement), then, otherwise, span))
+    rest = tree.Statement((), top.statement.items[1:], top.statement.span)
+    stack[-1].body.append(tree.If(rest, then, otherwise, span))
 
 
 def _repe(stack: list[_Open], statement: tree.Statement) -> None:
