@@ -22,7 +22,8 @@ from ssilang.cli.sweeping.sweep import (
     write_reports,
     write_results,
 )
-from ssilang.cli.sweeping.table import RESERVED, Row
+from ssilang.cli.sweeping.table import RESERVED
+from ssilang.cli.sweeping.worker import Row
 from ssilang.language.say.errors import SsiError
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from numbers import Number
@@ -243,16 +243,19 @@ def run_source(source: Source, options: RunOptions, out: TextIO, err: TextIO) ->
         if link is not None:
             raise SsiError("io.folder-is-link", None, path=link)
         if summary:  # it writes there in any case
-            hold_folder(session)
+            run_output(session).hold()
         keep_for(session, source, options)
         if options.report:
             _take_down(session, source)
-        with _libraries_quiet(options.debug):
+        # no warnings of libraries, whoever runs the script: what matters to it is a message
+        with warnings.catch_warnings(action=None if options.debug else "ignore"):
             execute(session, source)
     except SeveralErrors as several:
         errors = several.errors
     except SsiError as error:
         errors = [error]
+    except (InputError, OutputError) as problem:  # of the folder
+        errors = [SsiError.of(problem, None)]
     except KeyboardInterrupt as stop:
         errors = [interruption(stop, session.evaluator.current_span)]
         _tell_checkpoints(session)
@@ -333,39 +336,22 @@ def _end_petsc(session: Session) -> None:
             session.statistics["petsc"] = report
 
 
-def hold_folder(session: Session) -> None:
-    """Keep other runs out of the output folder.
-
-    Raises
-    ------
-    SsiError
-        'io.folder-in-use' if one runs there.
-    """
-    try:
-        run_output(session).hold()
-    except OutputError as problem:
-        raise SsiError.of(problem, None) from problem
-
-
 def keep_for(session: Session, source: Source, options: RunOptions) -> None:
     """Say whose calculations REPRISE keeps, and look at what there is to go on from.
 
     Raises
     ------
-    SsiError
+    InputError
         If another deck or version left it.
     """
     output = run_output(session)
     output.deck, output.resume = partial(deck_of, source, options.given), options.resume
     if not options.resume or output.checkpoints is None:
         return
-    try:
-        if output.checkpoints.found:
-            output.checkpoints.check()
-        else:
-            session.warn("cli.nothing-to-resume", None, folder=output.checkpoints.folder)
-    except InputError as problem:
-        raise SsiError.of(problem, None) from problem
+    if output.checkpoints.found:
+        output.checkpoints.check()
+    else:
+        session.warn("cli.nothing-to-resume", None, folder=output.checkpoints.folder)
 
 
 def deck_of(source: Source, given: Mapping[str, Any]) -> "Deck":
@@ -425,15 +411,6 @@ def _tell(errors: list[SsiError], message: str, debug: bool, err: TextIO) -> Non
         err.write(message + "\n")
         for error in errors if debug else ():
             traceback.print_exception(error, file=err)
-
-
-@contextmanager
-def _libraries_quiet(debug: bool) -> Iterator[None]:
-    """No warnings of libraries, whoever runs the script: what matters to it is a message."""
-    with warnings.catch_warnings():
-        if not debug:
-            warnings.simplefilter("ignore")
-        yield
 
 
 def _close_files(session: Session, errors: list[SsiError]) -> None:
@@ -497,10 +474,11 @@ def write_report(folder: Path, language: str) -> str:
     InputError, OutputError
         If no run has left anything there, or it cannot be written.
     """
-    from ssilang.cli.editor.outline import colours_of_text
+    from ssilang.cli.editor.document import Document
+    from ssilang.cli.editor.outline import colours
     from ssilang.report.page import make_report
 
-    path = make_report(folder, language, colours_of_text)
+    path = make_report(folder, language, lambda text: colours(Document.of(text)))
     told = {"path": path, "size": path.stat().st_size / 1e6}
     return sentence("report.written", told, language)
 

@@ -26,12 +26,7 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
     OutputError
         If the place cannot be written.
     """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
-    except OSError as error:
-        raise cannot_write(path, error) from error
-    aside = Path(name)
+    handle, aside = neighbour(path)
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream
@@ -42,6 +37,22 @@ def replacing(path: Path) -> Iterator[IO[bytes]]:
     finally:
         with suppress(OSError):
             aside.unlink()
+
+
+def neighbour(path: Path) -> tuple[int, Path]:
+    """A new file beside `path`, open, and where it is.
+
+    Raises
+    ------
+    OutputError
+        If the place cannot be written.
+    """
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
+    except OSError as error:
+        raise cannot_write(path, error) from error
+    return handle, Path(name)
 
 
 def put(aside: Path, path: Path, keep: bool = True) -> None:

@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ssilang.io.archive.container import DAMAGES
-from ssilang.io.atomic import replacing
-from ssilang.io.errors import InputError, OutputError
-from ssilang.system import GUARDED, system_reason
+from ssilang.io.atomic import cannot_write, replacing
+from ssilang.io.errors import InputError
+from ssilang.system import GUARDED
 
 FORMAT = "ssilang-checkpoint"
 VERSION = 3
@@ -155,9 +155,7 @@ class Checkpoints:
             path = self._path(number, "rows")
             length, total = _append(path, length, total, [names, *rows.values()])
         except OSError as error:
-            raise OutputError(
-                "io.cannot-written", path=path, strerror=system_reason(error)
-            ) from error
+            raise cannot_write(path, error) from error
         arrays: list[NDArray[Any]] = []
         head = {
             "format": FORMAT,

@@ -8,6 +8,7 @@ all that moves. All of it is of use without the report.
 """
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -95,18 +96,15 @@ def _thinned(x: FloatArray, y: FloatArray) -> dict[str, list[float | None]]:
     """A curve of at most so many points, its extremes among them."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if len(x) > MOST_POINTS:
-        edges = np.linspace(0, len(x), MOST_POINTS // 2 + 1).astype(int)
-        low = [int(a + np.nanargmin(np.r_[y[a:b], np.inf])) for a, b in _pairs(edges)]
-        high = [int(a + np.nanargmax(np.r_[y[a:b], -np.inf])) for a, b in _pairs(edges)]
+        edges = np.linspace(0, len(x), MOST_POINTS // 2 + 1).astype(int).tolist()
+        low = [int(a + np.nanargmin(np.r_[y[a:b], np.inf])) for a, b in pairwise(edges)]
+        high = [int(a + np.nanargmax(np.r_[y[a:b], -np.inf])) for a, b in pairwise(edges)]
         kept = np.unique([0, *low, *high, len(x) - 1]).clip(0, len(x) - 1)
         x, y = x[kept], y[kept]
-    return {"x": _plain(x), "y": _plain(y)}
+    return {"x": plain(x), "y": plain(y)}
 
 
-def _pairs(edges: FloatArray) -> list[tuple[int, int]]:
-    return [(int(a), int(b)) for a, b in pairwise(edges.tolist())]
-
-
-def _plain(values: FloatArray) -> list[float | None]:
+def plain(values: FloatArray, digits: int = 7) -> list[float | None]:
     """Numbers for JSON, null for those that are none."""
-    return [float(f"{v:.7g}") if np.isfinite(v) else None for v in values.tolist()]
+    found = np.asarray(values).tolist()
+    return [float(f"{v:.{digits}g}") if math.isfinite(v) else None for v in found]

@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from ssilang.io.recording import plain
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.vocabulary.unit_systems import SYSTEMS, UnitSystem
 from ssilang.messages.message import Teller
-from ssilang.report.html import text
+from ssilang.report.html import codes, text
 from ssilang.report.results import Calculation, Results
 
 MOST_COLUMNS = 12
@@ -52,7 +53,7 @@ class Chart:
             "loop": self.loop or not all(_rises(line.x) for line in self.lines),
             "lines": [
                 {
-                    "name": line.name, "x": _plain(line.x), "y": _plain(line.y),
+                    "name": line.name, "x": plain(line.x, 6), "y": plain(line.y, 6),
                     "points": line.points,
                 }
                 for line in self.lines
@@ -62,10 +63,6 @@ class Chart:
 
 def _rises(x: FloatArray) -> bool:
     return bool((np.diff(x) > 0.0).all() and np.isfinite(x).all())
-
-
-def _plain(values: FloatArray) -> list[float | None]:
-    return [float(f"{v:.6g}") if math.isfinite(v) else None for v in np.asarray(values).tolist()]
 
 
 def charts_of(results: Results, told: Teller) -> list[Chart]:
@@ -81,13 +78,6 @@ def charts_of(results: Results, told: Teller) -> list[Chart]:
     for name, columns in results.tables.items():
         made += _table(name, columns)
     return made
-
-
-_ENERGIES = {
-    "CINETIQUE": "report.kinetic", "ELASTIQUE": "report.elastic",
-    "JOINTS": "report.joints", "DISSIPEE": "report.lost", "AMORTIE": "report.damped",
-    "EXTERIEURE": "report.work", "ECART": "report.imbalance",
-}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -157,7 +147,7 @@ class _Of:
         columns = self.calculation.columns
         lines = [
             Line(self.told(code), columns["time"], columns[word])
-            for word, code in _ENERGIES.items()
+            for word, code in codes()["energies"].items()
             if word in columns and np.abs(columns[word]).max() > 0.0
         ]
         if not lines:

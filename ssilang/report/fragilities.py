@@ -20,7 +20,7 @@ from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud,
 from ssilang.language.search import nearest_told
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
-from ssilang.report.html import table, text
+from ssilang.report.html import codes, table, text
 from ssilang.report.records import read_record
 from ssilang.report.sweep_table import (
     MOTION,
@@ -121,12 +121,6 @@ _FAR = 30.0
 _GOES = 0.7
 """Correlation of logarithms by which a demand goes one way with the intensity."""
 _TELL_LEVEL = "kernel.records.fragility-separated", "kernel.records.fragility-no-scatter"
-_METHODS = {"counts": "report.fragility-counts", "cloud": "report.fragility-cloud"}
-_HEADS = (
-    "report.fragility-limit", "report.fragility-intensity", "report.fragility-method",
-    "report.fragility-median", "report.fragility-interval", "report.fragility-dispersion",
-    "report.fragility-error", "report.fragility-exceeded", "report.fragility-governs",
-)  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -212,7 +206,7 @@ def fits_of(sweep: Sweep, asked: Asked) -> list[Fit]:
         _fit(sweep, limit, intensity, method)
         for limit in dict.fromkeys(asked.limits)
         for intensity in intensities_of(sweep, asked)
-        for method in _METHODS
+        for method in codes()["methods"]
     ]
 
 
@@ -300,7 +294,7 @@ def fragility_html(sweep: Sweep, fits: list[Fit], charts: Sequence[Chart], told:
     if not fits:
         return f'<p class="bad">{text(told("report.fragility-no-intensity"))}</p>'
     notes = "".join(f"<p class=note>{text(n)}</p>" for n in _notes(sweep, fits, told))
-    heads = [told(code) for code in _HEADS]
+    heads = [told(code) for code in codes()["heads"]["fragility"]]
     rows = [_row(sweep, fit, told) for fit in fits]
     return notes + table(heads, rows, (5, 6)) + charts_html(charts, "fragility", told)
 
@@ -319,7 +313,7 @@ def _row(sweep: Sweep, fit: Fit, told: Teller) -> list[str]:
         shown[0] = text(told(fit.problem.code, **fit.problem.data))
     run = text(fit.worst.get("run", ""))
     link = link_to(sweep.folder, fit.worst["folder"]) if fit.worst else ""
-    method = text(told(_METHODS[fit.method]))
+    method = text(told(codes()["methods"][fit.method]))
     return [
         text(fit.limit).replace(" ", "&nbsp;"), text(fit.intensity), method, *shown,
         f"{fit.exceeded} / {fit.runs}", f'<a href="{link}">{run}</a>' if link else run,
@@ -399,5 +393,5 @@ def _lines(fit: Fit, x: FloatArray, d: FloatArray, told: Teller) -> Iterator[Lin
         high = min(x.max() * 3.0, max(x.max(), f.median * np.exp(2.0 * f.dispersion)))
         steep = f.median * np.exp(f.dispersion * np.linspace(-3.0, 3.0, _CURVE))
         grid = np.union1d(np.linspace(low, high, _CURVE), steep[(steep > low) & (steep < high)])
-        method = told(_METHODS[fit.method])
+        method = told(codes()["methods"][fit.method])
         yield Line(f"{fit.limit}, {method}", grid, f.probability(grid))

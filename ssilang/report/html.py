@@ -5,8 +5,11 @@ import json
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache
 from importlib import resources
+from pathlib import Path
+from typing import Any
 
 from ssilang.messages.message import visible
+from ssilang.remembered import tables_of
 
 
 def text(value: object) -> str:
@@ -26,6 +29,11 @@ def asset(name: str) -> str:
     return resources.files(__package__ or "").joinpath("assets", name).read_text(encoding="utf-8")
 
 
+def codes() -> Any:
+    """Codes of what pages say, by part."""
+    return tables_of(Path(__file__).with_name("page.toml"))
+
+
 def section(name: str, title: str, body: str) -> str:
     """A part of the page; nothing without a body."""
     if not body:
@@ -35,23 +43,15 @@ def section(name: str, title: str, body: str) -> str:
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], numbers: Sequence[int]) -> str:
     """A table of cells that are HTML already; `numbers`: the columns that hold numbers."""
-    made = "".join(
-        f"<th scope=col{' class=number' if i in numbers else ''}>{text(h)}</th>"
-        for i, h in enumerate(heads)
-    )
-    lines = [
-        "<tr>"
-        + "".join(
-            f"<td{' class=number' if i in numbers else ''}>{c}</td>" for i, c in enumerate(row)
-        )
-        + "</tr>"
-        for row in rows
-    ]
-    return (
-        f"<div class=wide><table><thead><tr>{made}</tr></thead><tbody>"
-        + "".join(lines)
-        + "</tbody></table></div>"
-    )
+
+    def line(tag: str, cells: Iterable[str]) -> str:
+        kinds = (" class=number" if i in numbers else "" for i in range(len(heads)))
+        made = (f"<{tag}{kind}>{cell}</{tag[:2]}>" for kind, cell in zip(kinds, cells, strict=True))
+        return f"<tr>{''.join(made)}</tr>"
+
+    body = "".join(line("td", row) for row in rows)
+    head = line("th scope=col", map(text, heads))
+    return f"<div class=wide><table><thead>{head}</thead><tbody>{body}</tbody></table></div>"
 
 
 def number(value: object) -> str:

@@ -19,6 +19,7 @@ from ssilang.report.charts import charts_html, charts_of
 from ssilang.report.html import (
     Colours,
     asset,
+    codes,
     deck_html,
     json_in_page,
     number,
@@ -59,10 +60,10 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
         section("checks", told("report.checks"), _checks(results, told)),
         section("warnings", told("report.warnings"), f"<ul>{''.join(rows)}</ul>" if rows else ""),
     ]
-    pictures = _pictures(results, told)
+    pictures, groups = _pictures(results, told), codes()["sections"].items()
     rest = [
         section("verdict", told("report.verdict"), verdict_html(results, charts, told)),
-        *[section(g, told(c), charts_html(charts, g, told)) for g, c in _SECTIONS.items()],
+        *[section(g, told(c), charts_html(charts, g, told)) for g, c in groups],
         section("largest", told("report.largest"), _largest(results, told)),
         section("pictures", told("report.pictures"), pictures),
         section("runs", told("report.calculations"), _calculations(results, told)),
@@ -88,7 +89,7 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
             f'<script type="application/octet-stream" id="scene-{i}">{packed}</script>'
             for i, (_, packed) in enumerate(scenes)
         ),
-        words=json_in_page({w: told(code) for w, code in _WORDS.items()}),
+        words=json_in_page({w: told(code) for w, code in codes()["words"].items()}),
         vtk=asset("vtk.js") if scenes else "",
         uplot=asset("uPlot.iife.min.js") if charts else "",
         script=asset("charts.js") + asset("scene.js"),
@@ -96,17 +97,6 @@ def page_of(results: Results, language: str, colours: Colours) -> str:
         made=text(told("report.made")),
         licence_title=text(told("report.licences")),
     )
-
-
-_WORDS = {
-    "play": "report.play", "pause": "report.pause", "reset": "report.reset",
-    "zoomIn": "report.zoom-in", "zoomOut": "report.zoom-out", "all": "report.show-all",
-    "time": "report.time", "mode": "report.mode", "noWebgl": "report.no-webgl",
-    "magnitude": "report.magnitude", "ux": "report.ux", "uy": "report.uy", "uz": "report.uz",
-    "plain": "report.plain", "opening": "report.opening", "pressure": "report.pressure",
-    "stress_vertical": "report.stress-vertical", "stress_mises": "report.stress-mises",
-}  # fmt: skip
-"""What the page's script says."""
 
 
 # ---- pieces --------------------------------------------------------------------------------------
@@ -217,12 +207,6 @@ def _runs(results: Results) -> list[dict[str, Any]]:
     return statistics.get("calculations", [])
 
 
-_OF_CHECKS = (
-    "report.name", "report.value", "report.expected",
-    "report.tolerance", "report.used", "",
-)  # fmt: skip
-
-
 def _checks(results: Results, told: Teller) -> str:
     figures = results.summary.get("figures", ())
     if not figures:
@@ -236,7 +220,7 @@ def _checks(results: Results, told: Teller) -> str:
         )
         for f in figures
     ]  # fmt: skip
-    heads = [told(c) if c else "" for c in _OF_CHECKS]
+    heads = [told(c) if c else "" for c in codes()["heads"]["checks"]]
     return table(heads, rows, (1, 2, 3))
 
 
@@ -249,30 +233,9 @@ def _meter(figure: dict[str, Any]) -> str:
     return f'<meter min=0 max=1 high=1 value="{min(part, 1.0):.3g}"></meter> {100.0 * part:.3g} %'
 
 
-_SECTIONS = {
-    "footing": "report.footing",
-    "energy": "report.energies",
-    "curves": "report.curves",
-    "tables": "report.tables",
-}
-
-
-_KINDS = {
-    "OUVERTURE": "report.opening",
-    "COMPRESSION": "report.compression",
-    "CISAILLEMENT": "report.shear",
-    "DEPL": "report.displacement",
-    "REACTIONS": "report.reaction",
-}
-_OF_LARGEST = (
-    "report.calculation", "report.quantity", "report.value",
-    "report.time", "report.place",
-)  # fmt: skip
-
-
 def _largest(results: Results, told: Teller) -> str:
     rows = []
-    kinds = {kind: told(code) for kind, code in _KINDS.items()}
+    kinds = {kind: told(code) for kind, code in codes()["kinds"].items()}
     for i, calculation in enumerate(results.calculations, 1):
         found = sorted(calculation.largest, key=lambda x: list(kinds).index(x["kind"]))
         for peak in found:
@@ -288,15 +251,8 @@ def _largest(results: Results, told: Teller) -> str:
             )  # fmt: skip
     if not rows:
         return ""
-    heads = list(map(told, _OF_LARGEST))
+    heads = list(map(told, codes()["heads"]["largest"]))
     return table(heads, rows, (2, 3))
-
-
-_OF_CALCULATIONS = (
-    "report.calculation", "report.unknowns", "report.interface-unknowns",
-    "report.steps", "report.method", "report.solver",
-    "report.iterations", "report.energy-imbalance", "report.seconds",
-)  # fmt: skip
 
 
 def _calculations(results: Results, told: Teller) -> str:
@@ -311,7 +267,7 @@ def _calculations(results: Results, told: Teller) -> str:
     ]  # fmt: skip
     if not rows:
         return ""
-    heads = list(map(told, _OF_CALCULATIONS))
+    heads = list(map(told, codes()["heads"]["calculations"]))
     return table(heads, rows, (1, 2, 3, 6, 7, 8))
 
 
@@ -393,19 +349,11 @@ def _scenes(results: Results, room: int, told: Teller) -> tuple[list[Scene], lis
     return made, faults
 
 
-_OF_VIEWER = {
-    "choose": "report.choose", "colour": "report.colour", "warp": "report.warp",
-    "time": "report.time", "play": "report.play", "reset": "report.reset",
-    "edges": "report.edges", "ghost": "report.ghost", "through": "report.see-through",
-    "help": "report.scene-help",
-}  # fmt: skip
-
-
 def _viewer(scenes: list[Scene], faults: list[str], told: Teller) -> str:
     notes = "".join(f"<p class=note>{text(f)}</p>" for f in dict.fromkeys(faults))
     if not scenes:
         return notes
-    words = {w: text(told(code)) for w, code in _OF_VIEWER.items()}
+    words = {w: text(told(code)) for w, code in codes()["viewer"].items()}
     options = "".join(
         f"<option value={i}>{text(s['name'])}</option>" for i, (s, _) in enumerate(scenes)
     )

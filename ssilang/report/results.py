@@ -35,7 +35,6 @@ class Calculation:
     footings_left: int
     largest: list[dict[str, Any]]
     scene: Path | None
-    whole: bool
 
 
 @dataclass(frozen=True)
@@ -162,15 +161,8 @@ def _calculation(folder: Path, told: dict[str, Any], unread: list[str]) -> Calcu
     except (OSError, ValueError):
         unread.append(f"{FOLDER}/{path.name}")
     scene = None if told.get("scene") is None else _own(folder, told["scene"])
-    return Calculation(
-        told["procedure"],
-        columns,
-        told["footings"],
-        told["footings_left"],
-        told["largest"],
-        scene,
-        told["whole"],
-    )
+    footings, left = told["footings"], told["footings_left"]
+    return Calculation(told["procedure"], columns, footings, left, told["largest"], scene)
 
 
 def tables_of(paths: list[Path], unread: list[str]) -> dict[str, dict[str, FloatArray]]:

@@ -198,14 +198,11 @@ class _Shape:
         self.points = np.asarray(grid.points, float)[self.rows]
         self.sizes = np.array([len(c) for c in corners], np.int64)
         starts = np.concatenate([[0], np.cumsum(self.sizes)])[:-1]
-        triangles: list[int] = []
-        lines: list[int] = []
-        for start, size in zip(starts.tolist(), self.sizes.tolist(), strict=True):
-            if size == 2:
-                lines += [start, start + 1]
-            for k in range(2, size):
-                triangles += [start, start + k - 1, start + k]
-        self.joint_triangles, self.joint_lines = np.array(triangles, int), np.array(lines, int)
+        pairs, counts = starts[self.sizes == 2], np.maximum(self.sizes - 2, 0)
+        self.joint_lines = np.stack([pairs, pairs + 1], axis=1).ravel()
+        first = np.repeat(starts, counts)
+        behind = first + 2 + np.arange(len(first)) - np.repeat(np.cumsum(counts) - counts, counts)
+        self.joint_triangles = np.stack([first, behind - 1, behind], axis=1).ravel()
 
     def has_mesh_of(self, grid: Any) -> bool:
         """Whether a grid has the cells of the first one."""

@@ -8,13 +8,10 @@ from ssilang.io.atomic import inside
 from ssilang.messages.message import Teller, teller
 from ssilang.report import fragilities, sweep_table
 from ssilang.report.charts import Chart, Line, charts_html
-from ssilang.report.html import asset, json_in_page, number, section, table, text
+from ssilang.report.html import asset, codes, json_in_page, number, section, table, text
 
 MOST_RUNS = 5000
 """Rows of the table."""
-_WORDS = {
-    "all": "report.show-all", "zoomIn": "report.zoom-in", "zoomOut": "report.zoom-out",
-}  # fmt: skip
 MOST_LINES = 12
 """Curves of a picture."""
 
@@ -53,7 +50,7 @@ def sweep_page(sweep: sweep_table.Sweep, language: str) -> str:
         charts=json_in_page([c.told() for c in charts]),
         scenes="[]",
         blobs="",
-        words=json_in_page({w: told(code) for w, code in _WORDS.items()}),
+        words=json_in_page({w: told(codes()["words"][w]) for w in ("all", "zoomIn", "zoomOut")}),
         vtk="",
         uplot=asset("uPlot.iife.min.js") if charts else "",
         script=asset("charts.js"),

@@ -6,28 +6,12 @@ from typing import Any
 
 from ssilang.messages.message import Teller
 from ssilang.report.charts import Chart, charts_html
-from ssilang.report.html import number, table, text
+from ssilang.report.html import codes, number, table, text
 from ssilang.report.results import Results
 
 _LIMITS = {"TAUX": ("above", 1.0), "RENVERSEMENT": ("below", 1.0), "GLISSEMENT": ("below", 1.0)}
 """Beyond which a figure is marked."""
 _TOP = 1000.0
-_PEAKS = {
-    "PART": "stdlib.bilanssi-part",
-    "PRESSION": "stdlib.bilanssi-pression",
-    "TAUX": "stdlib.bilanssi-taux",
-    "OUVERTURE": "stdlib.bilanssi-ouverture",
-    "MOMENT": "stdlib.bilanssi-moment",
-    "ROTATION": "stdlib.bilanssi-rotation",
-    "ENFONCEMENT": "stdlib.bilanssi-enfoncement",
-    "RENVERSEMENT": "stdlib.bilanssi-renversement",
-    "GLISSEMENT": "stdlib.bilanssi-glissement",
-}
-_LEFT = {
-    "ROTATION": "stdlib.bilanssi-left-rotation",
-    "ENFONCEMENT": "stdlib.bilanssi-left-enfoncement",
-}
-_GIVEN = {"capacity": "report.capacity", "friction": "report.friction"}
 
 
 def is_endless(name: str, value: float) -> bool:
@@ -44,13 +28,12 @@ def verdict_html(results: Results, charts: Sequence[Chart], told: Teller) -> str
             made.append(f"<h3>{text(told('report.footing-number', number=i))}</h3>")
         rows = []
         for name, peak in verdict["peaks"].items():
-            rows.append(
-                (text(told(_PEAKS[name])), _marked(name, peak["value"]), number(peak["time"]))
-            )
+            said = text(told(codes()["peaks"][name]))
+            rows.append((said, _marked(name, peak["value"]), number(peak["time"])))
         for name, value in verdict["left"].items():
-            rows.append((text(told(_LEFT[name])), number(value), ""))
+            rows.append((text(told(codes()["left"][name])), number(value), ""))
         rows.append((text(told("report.area")), number(verdict["area"]), ""))
-        for key, code in _GIVEN.items():
+        for key, code in codes()["given"].items():
             if verdict[key] is not None:
                 rows.append((text(told(code)), number(verdict[key]), ""))
         heads = (told("report.quantity"), told("report.value"), told("report.time"))
@@ -70,12 +53,6 @@ def _marked(name: str, value: float | None) -> str:
     return f'<b class="{"bad" if bad else "good"}">{shown}</b>'
 
 
-_OF_FLOORS = (
-    "report.floor-head", "report.component", "report.damping",
-    "report.acceleration", "report.frequency",
-)  # fmt: skip
-
-
 def _floors(floors: list[dict[str, Any]], told: Teller) -> str:
     rows = [
         (
@@ -84,5 +61,5 @@ def _floors(floors: list[dict[str, Any]], told: Teller) -> str:
         )
         for f in floors
     ]  # fmt: skip
-    heads = list(map(told, _OF_FLOORS))
+    heads = list(map(told, codes()["heads"]["floors"]))
     return table(heads, rows, (0, 3, 4))

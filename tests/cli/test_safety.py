@@ -8,9 +8,9 @@ import pytest
 from script_runs import ran
 from together import together
 
-import ssilang.cli.run as run_module
 from ssilang.cli.main import main
 from ssilang.cli.run import RunOptions, run_source
+from ssilang.io.run_output import RunOutput
 from ssilang.language.text.source import Source
 
 _MESH = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 2 (0. 0.) (1. 0.)) TRAN 2 (0. 1.) ; L = PROG 1. 2. ;"
@@ -161,14 +161,14 @@ def test_results_exchanged_for_a_link_between_look_and_use(tmp_path, monkeypatch
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "d.ssi").write_text("OPTI SORT 'a.csv' ; SORT 'EXCE' (PROG 1.) ;")
     assert main(["run", "d.ssi"]) == 0
-    holds = run_module.hold_folder
+    holds = RunOutput.hold
 
-    def exchanged(session):
+    def exchanged(output):
         (tmp_path / link).rename(tmp_path / "aside")
         (tmp_path / link).symlink_to(tmp_path / "elsewhere")
-        return holds(session)
+        return holds(output)
 
-    monkeypatch.setattr(run_module, "hold_folder", exchanged)
+    monkeypatch.setattr(RunOutput, "hold", exchanged)
     assert main(["run", "d.ssi"]) == 1
     assert "was removed or exchanged during the run" in capsys.readouterr().err
     assert [p for p in (tmp_path / "elsewhere").rglob("*") if p.is_file()] == []

@@ -182,10 +182,9 @@ def test_every_site_gives_what_its_sentence_tells():
 def test_every_sentence_has_a_site():
     of_library = set(re.findall(r"'(stdlib\.[a-z0-9-]+)'", _library_text()))
     assert {c for c in catalogue() if c.startswith("stdlib.")} == of_library
-    tables = [_ROOT / name for name in ("cli/usage.toml", "language/say/foreign.toml")]
-    of_tables = {
-        c for t in tables for c in re.findall(r"[a-z.]+(?:-[a-z]+)+", t.read_text("utf-8"))
-    }
+    names = "cli/usage.toml", "language/say/foreign.toml", "report/page.toml"
+    text = "".join((_ROOT / name).read_text("utf-8") for name in names)
+    of_tables = {*re.findall(r"[a-z.]+(?:-[a-z]+)+", text), *re.findall(r'"([a-z.-]+)"', text)}
     assert not set(catalogue()) - program()[1] - of_library - of_tables - named_words()
 
 

@@ -111,9 +111,9 @@ def _results(folder: Path) -> Results:
         {"title": "none", "files": [], "x": "", "y": "", "log": [False, False], "curves": []},
     ]  # fmt: skip
     calculations = [
-        Calculation("DYNAMIC", _footings(1.0), footings, 2, peaks, None, True),
-        Calculation("PASAPAS", _footings(2.0), footings[:1], 1, peaks[:1], None, True),
-        Calculation("SHORT", {"time": TIME[:1]}, [], 0, [], None, True),
+        Calculation("DYNAMIC", _footings(1.0), footings, 2, peaks, None),
+        Calculation("PASAPAS", _footings(2.0), footings[:1], 1, peaks[:1], None),
+        Calculation("SHORT", {"time": TIME[:1]}, [], 0, [], None),
     ]
     left = {"calculations": 3, "drawings": 4}
     return Results(

@@ -15,22 +15,10 @@ class Ambiguous(Exception):
     """What happens next depends on a value that is not known."""
 
 
-class Unknown:
-    """Any object, perhaps none."""
-
-    __slots__ = ()
-
-
-UNKNOWN = Unknown()
-
-
-class Something:
-    """Results of an operator that says nothing of their types: none is taken for a word."""
-
-    __slots__ = ()
-
-
-SOMETHING = Something()
+UNKNOWN: Any = object()
+"""Any object, perhaps none."""
+SOMETHING: Any = object()
+"""Results of an operator that says nothing of their types: none is taken for a word."""
 
 
 class AnyWord(Mot):

@@ -22,12 +22,12 @@ from ssilang.language.run.binding import Bound, bind_operator
 from ssilang.language.run.call import Call, Operand, Seen, accepts, name_of
 from ssilang.language.run.leftovers import is_call, is_operator
 from ssilang.language.run.not_built import NotBuilt
+from ssilang.language.run.procedures import missing_parameter
 from ssilang.language.run.results import Results, annotated, results_of
 from ssilang.language.run.session import Session
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.source import Span
-from ssilang.language.text.tree import heading
 from ssilang.language.values import Mot, Procedure
 from ssilang.operators.dispatch import WORDS_OF_UNION, joining
 from ssilang.operators.numbers.arithmetic import RULES, SIGNS
@@ -325,17 +325,7 @@ class PhraseReader:
             if p.subtype:
                 raise Ambiguous
             if call.read(p.type or "*") is None and not p.optional:
-                wrong = call.operands[0] if call.operands else None
-                found = kind_word(wrong.value) if wrong else "nothing"
-                raise SsiError(
-                    "missing-parameter",
-                    wrong.span if wrong else span,
-                    procedure=procedure.name,
-                    parameter=p.name,
-                    expected=p.type or "any object",
-                    found=found,
-                    heading=heading(procedure.definition),
-                )
+                raise missing_parameter(procedure, p, call, kind_word)
 
     # ---- end of a phrase -----------------------------------------------------------------------
 

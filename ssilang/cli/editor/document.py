@@ -108,11 +108,12 @@ class Document:
         stack: list[tuple[Operator | None, str]] = [(None, "")]
         equal = phrase.cut.equal
         for i, token in enumerate(before):
+            is_index = i > 0 and before[i - 1].kind == "_DOT"
             if token.kind == OPENS:
                 stack.append((None, ""))
             elif token.kind == CLOSES and len(stack) > 1:
                 stack.pop()
-            elif token.is_word and (equal is None or i > equal) and not _is_index(before, i):
+            elif token.is_word and (equal is None or i > equal) and not is_index:
                 stack[-1] = self._next_owner(stack[-1], token)
         return stack[-1]
 
@@ -133,10 +134,6 @@ def knows(operator: Operator, word: str) -> bool:
     """Whether a word is a keyword of an operator, or one that it takes of the vocabulary."""
     short = word[:4].rstrip()
     return any(w.rstrip()[:4] == short for w in (*keywords_of(operator), *words_of(operator.name)))
-
-
-def _is_index(tokens: tuple[Token, ...], i: int) -> bool:
-    return i > 0 and tokens[i - 1].kind == "_DOT"
 
 
 def _path(before: tuple[Token, ...]) -> tuple[Token, ...]:

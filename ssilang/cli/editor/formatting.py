@@ -13,6 +13,7 @@ from ssilang.language.text.parser import end_of_run, quick_reader
 from ssilang.language.text.source import Source, encoding_of
 from ssilang.language.text.source_files import read_source
 from ssilang.language.text.structure import parse
+from ssilang.language.text.tree import BLOCKS
 from ssilang.late_imports import without_collections
 from ssilang.messages.message import teller, visible
 
@@ -21,8 +22,6 @@ OK, FAILED, USAGE = 0, 1, 2
 _STEP = "  "  # of each block
 _GOES_ON = "   "  # of the lines of a statement behind its first
 _EMPTY_LINES = 2  # in a row, at most
-_OPENS = frozenset({"SI", "REPE", "DEBP", "DEBM"})
-_CLOSES = frozenset({"FINS", "FINP", "FINM"})
 
 _Token = tuple[str, int, int]
 """Kind, start and end."""
@@ -65,7 +64,8 @@ def _laid_out(source: Source, end: int, tokens: list[_Token]) -> str:
     before = ""
     for statement in _statements(tokens):
         word = _first_word(code, statement)
-        outer = word in _CLOSES or word == "SINO" or (word == "FIN" and len(statement) > 2)
+        closes = word in BLOCKS.values() and (word != "FIN" or len(statement) > 2)
+        outer = closes or word == "SINO"
         depth = max(0, depth - outer)
         for number, (kind, start, stop) in enumerate(statement):
             gap = source.text[at:start]
@@ -83,7 +83,7 @@ def _laid_out(source: Source, end: int, tokens: list[_Token]) -> str:
                 parts.append(f"{rest} " if rest else "")
             parts.append(code[start:stop])
             before, at = kind, stop
-        depth += word in _OPENS or word == "SINO"
+        depth += word in BLOCKS or word == "SINO"
     tail = [line.rstrip() for line in source.text[at:end].split("\n")]
     return "".join(parts) + "\n".join(tail)
 

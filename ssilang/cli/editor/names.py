@@ -76,13 +76,7 @@ class Names:
     def alike(self, of: Occurrence) -> list[Occurrence]:
         """All occurrences of what a name means: of a procedure's own name within it only."""
         owner = self._owner(of)
-        found = [
-            _occurrence(name, scope, phrase)
-            for phrase, scope in self._scopes
-            for name in phrase.cut.names
-            if name.name == of.name
-        ]
-        return [o for o in found if self._owner(o) == owner]
+        return [o for o in self.found if o.name == of.name and self._owner(o) == owner]
 
     def definitions(self, of: Occurrence) -> list[Occurrence]:
         """Where the thing gets values."""

@@ -3,23 +3,20 @@
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 from ssilang.cli.editor.document import Document
-from ssilang.cli.editor.tokens import BEGINS, Kind, Phrase
+from ssilang.cli.editor.tokens import Kind, Phrase
 from ssilang.language.registry import find_operator
+from ssilang.language.text.tree import BLOCKS
 
-OPENS = {**BEGINS, "SI": "FINS", "REPE": "FIN"}
-CONTROL = frozenset({*OPENS, *OPENS.values(), "SINO", "QUIT", "ITER"})
+CONTROL = frozenset({*BLOCKS, *BLOCKS.values(), "SINO", "QUIT", "ITER"})
 
 Colour = Literal[
     "comment", "keyword", "function", "string", "number", "operator", "variable", "property",
     "parameter",
 ]  # fmt: skip
-COLOURS: tuple[Colour, ...] = (
-    "comment", "keyword", "function", "string", "number", "operator", "variable", "property",
-    "parameter",
-)  # fmt: skip
+COLOURS: tuple[Colour, ...] = get_args(Colour)
 _NUMBERS = frozenset({"INTEGER", "FLOAT"})
 _COMMENT = re.compile(r"^(?:\*|\$\$\$\$).*$", re.MULTILINE)
 
@@ -74,10 +71,10 @@ def _blocks(document: Document) -> Iterator[Block]:
     stack: list[Phrase] = []
     for phrase in document.phrases:
         word = phrase.cut.first_word
-        if word in OPENS:
+        if word in BLOCKS:
             stack.append(phrase)
-        elif word in OPENS.values() and (word != "FIN" or len(phrase.cut.tokens) > 1):
-            while stack and OPENS[stack[-1].cut.first_word] != word:
+        elif word in BLOCKS.values() and (word != "FIN" or len(phrase.cut.tokens) > 1):
+            while stack and BLOCKS[stack[-1].cut.first_word] != word:
                 stack.pop()
             if stack:
                 opened = stack.pop()
@@ -103,11 +100,6 @@ def folds(document: Document) -> Iterator[tuple[int, int, str]]:
                 yield start, before, "comment"
             start = number
         before = number
-
-
-def colours_of_text(text: str) -> list[tuple[int, int, Colour]]:
-    """The colours of a script's text."""
-    return colours(Document.of(text))
 
 
 def colours(

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ssilang.cli.sweeping.table import Row
+from ssilang.cli.sweeping.worker import Row
 from ssilang.io.atomic import inside, replacing
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.report.records import read_json

@@ -22,20 +22,19 @@ from ssilang.cli.sweeping.pool import (
 )
 from ssilang.cli.sweeping.table import (
     RESERVED,
-    Row,
-    can_write,
     columns_of,
     draw_figures,
     idle_names,
     write_plain_table,
     write_table,
 )
-from ssilang.cli.sweeping.worker import Task, row_of
+from ssilang.cli.sweeping.worker import Row, Task, row_of
 from ssilang.io.atomic import resolved
 from ssilang.io.checkpoint import digest_of_file
 from ssilang.io.errors import OutputError
 from ssilang.io.ground_motions.suite import motion_in, peaks_apart, units_named, vertical
 from ssilang.io.run_output import link_to
+from ssilang.io.tables import is_there
 from ssilang.language.say.diagnostics import render
 from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text.source import Source
@@ -302,7 +301,7 @@ def write_results(rows: list[Row], swept: list[str], folder: Path) -> dict[str, 
     """Write tables and pictures; what to say of them."""
     table = folder / PLAIN_TABLE
     write_plain_table(rows, table)
-    if can_write():
+    if is_there():
         table = folder / TABLE
         write_table(rows, table)
     pictures = draw_figures(rows, swept, folder)

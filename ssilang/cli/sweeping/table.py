@@ -1,22 +1,15 @@
 """The table of a sweep, CSV and Parquet, and a picture of each figure against what was swept."""
 
 import csv
-import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from ssilang.cli.sweeping.given import MOTION
+from ssilang.cli.sweeping.worker import Row
 from ssilang.io.atomic import replacing, write_text
 from ssilang.report.sweep_table import grouped, is_still
 
-Row = dict[str, Any]
 RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
-
-
-def can_write() -> bool:
-    """Whether the library that writes Parquet is installed."""
-    return importlib.util.find_spec("pyarrow") is not None
 
 
 def columns_of(rows: Sequence[Row]) -> list[str]:

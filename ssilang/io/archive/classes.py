@@ -5,28 +5,18 @@ import importlib.util
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
 from enum import Enum
+from pathlib import Path
 from typing import Any
 
 from ssilang.io.errors import InputError, OutputError
+from ssilang.remembered import tables_of
 
 _TRUSTED = ("ssilang.kernel.", "ssilang.io.plots.labels")
 
-HOMES = {
+HOMES: dict[str, str] = {
     name: f"ssilang.{home}"
-    for home, names in {
-        "io.plots.labels": "Annotation Category Tag",
-        "kernel.curves.cloud": "Cloud",
-        "kernel.curves.curve": "Curve CurvePart Load LoadPart",
-        "kernel.fields.cell_field": "CellField CellFieldBlock",
-        "kernel.fields.node_field": "NodeField NodeValues",
-        "kernel.fields.deformed": "Arrows ArrowPart Deformed DeformedPart",
-        "kernel.materials.model": "Mode Model Zone",
-        "kernel.matrices.matrix": "ElementMatrices Matrix Relations",
-        "kernel.matrices.assembly": "Numbering",
-        "kernel.matrices.superelement": "SuperElement",
-        "kernel.mesh.mesh": "CellBlock Mesh Point",
-    }.items()
-    for name in names.split()
+    for home, names in tables_of(Path(__file__).with_suffix(".toml")).items()
+    for name in names
 }
 """Where classes stand that files hold by their name alone: a file outlives the moves of modules."""
 

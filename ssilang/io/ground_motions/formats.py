@@ -14,13 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, text_of
 from ssilang.io.ground_motions.record import (
     GroundMotion,
     check_step,
     finite,
     is_unit,
-    lines_of,
     quantity_of,
     real,
 )
@@ -60,7 +59,7 @@ def read_cosmos(path: Path) -> list[GroundMotion]:
         If it cannot be read, is of another version, has no record or step, a value that is no
         number or fewer values than it says, or a duration that its step does not give.
     """
-    lines = lines_of(path)
+    lines = text_of(path, "latin-1").splitlines()
     version = next((m[1] for line in lines[:1] if (m := _VERSION.search(line))), "")
     if version.lstrip("0") != "1.20":
         raise InputError("io.cosmos-other-version", name=path.name, version=version)
@@ -138,7 +137,7 @@ def read_peer(path: Path) -> GroundMotion:
         If the file cannot be read, its fourth line has no number of values and step, or it holds
         fewer values than it says, or none.
     """
-    lines = lines_of(path)
+    lines = text_of(path, "latin-1").splitlines()
     count, dt = _sizes(path, lines)
     values = np.array([real(t) for t in _peer_values(path, lines)])
     if len(values) < count:
@@ -183,7 +182,7 @@ def read_esm(path: Path) -> GroundMotion:
         If the file cannot be read, its head has no SAMPLING_INTERVAL_S, a value is no number, or
         it holds fewer values than NDATA says.
     """
-    lines = lines_of(path)
+    lines = text_of(path, "latin-1").splitlines()
     begin = next((i for i, line in enumerate(lines) if _is_number(line)), len(lines))
     head = {k.strip().upper(): v.strip() for k, _, v in (x.partition(":") for x in lines[:begin])}
     dt = real(head.get("SAMPLING_INTERVAL_S", ""))
@@ -235,11 +234,12 @@ def read_titled(path: Path) -> list[GroundMotion]:
         If it cannot be read, a cell is no number, there are fewer than two columns or lines, or
         times do not increase.
     """
-    lines = lines_of(path)
+    lines = text_of(path, "latin-1").splitlines()
     text = [(i, x) for i, x in enumerate(lines, 1) if x.strip()]
     sign = next((s for s in ";\t," if any(s in x for _, x in text)), "")
     rows = [(i, _cells(x, sign)) for i, x in text]
-    first = next((k for k, (_, cells) in enumerate(rows) if _are_numbers(cells)), len(rows))
+    begins = (k for k, (_, cells) in enumerate(rows) if not np.isnan([*map(real, cells)]).any())
+    first = next(begins, len(rows))
     values = _table(path, rows[first:])
     titles = rows[first - 1][1] if 0 < first < len(rows) else []
     if len(titles) != values.shape[1]:
@@ -266,10 +266,6 @@ def _cells(line: str, sign: str) -> list[str]:
     while len(cells) > 1 and not cells[-1].strip():
         cells.pop()
     return [c.strip().strip('"') for c in cells]
-
-
-def _are_numbers(cells: list[str]) -> bool:
-    return not np.isnan([real(c) for c in cells]).any()
 
 
 def _table(path: Path, rows: list[tuple[int, list[str]]]) -> FloatArray:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ssilang.io.errors import InputError, text_of
+from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
 
 G = 9.81
@@ -74,17 +74,6 @@ def quantity_of(text: str) -> str:
 def is_unit(said: str) -> bool:
     """Whether a unit is known."""
     return plain_unit(said) in _IN_SI
-
-
-def lines_of(path: Path) -> list[str]:
-    """Lines of a text file, whatever its letters.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read.
-    """
-    return text_of(path, "latin-1").splitlines()
 
 
 def real(text: str) -> float:

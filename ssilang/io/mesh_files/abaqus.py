@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError, text_of
-from ssilang.io.mesh_files.file_mesh import FileMesh, Part, padded, refuse_doubles
+from ssilang.io.mesh_files.file_mesh import FileMesh, Part, names_in, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 
 # family of elements (letters before the number of nodes) and that number -> cell type
-_SOLIDS = {4: "TET4", 5: "PYR5", 6: "PRI6", 8: "CUB8", 10: "TE10", 15: "PR15", 20: "CU20"}
-_SURFACES = {3: "TRI3", 4: "QUA4", 6: "TRI6", 8: "QUA8"}
+_SOLIDS = {int(n.removeprefix("C3D")): kind for kind, n in names_in("solid").items()}
+_SURFACES = {int(n): kind for kind, n in names_in("plane").items()}
 _LINES = {2: "SEG2", 3: "SEG3"}
 _NUMBERED = {
     "C3D": _SOLIDS, "DC3D": _SOLIDS, "AC3D": _SOLIDS,

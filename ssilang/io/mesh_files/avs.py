@@ -13,18 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError, OutputError, text_of
-from ssilang.io.mesh_files.file_mesh import refuse_doubles
+from ssilang.io.mesh_files.file_mesh import names_in, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS, cell_means
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 
-_KINDS = {
-    "POI1": "pt", "SEG2": "line", "SEG3": "line", "TRI3": "tri", "TRI6": "tri", "QUA4": "quad",
-    "QUA8": "quad", "TET4": "tet", "TE10": "tet", "PYR5": "pyr", "PY13": "pyr", "PRI6": "prism",
-    "PR15": "prism", "CUB8": "hex", "CU20": "hex",
-}  # fmt: skip
+_KINDS: dict[str, str] = names_in("avs")
 _TYPES = {(kind, len(ORDERS[name][1])): name for name, kind in _KINDS.items()}
 
 

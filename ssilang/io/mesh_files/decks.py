@@ -10,21 +10,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from ssilang.io.errors import OutputError
-from ssilang.io.mesh_files.file_mesh import FileMesh
+from ssilang.io.mesh_files.file_mesh import FileMesh, names_in
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.mesh import Mesh
 
-_SOLIDS = {
-    "TET4": "C3D4", "TE10": "C3D10", "PYR5": "C3D5", "PRI6": "C3D6", "PR15": "C3D15",
-    "CUB8": "C3D8", "CU20": "C3D20",
-}  # fmt: skip
-_PLANE = {"TRI3": "3", "TRI6": "6", "QUA4": "4", "QUA8": "8"}
-_CARDS = {
-    "SEG2": "CROD", "TRI3": "CTRIA3", "TRI6": "CTRIA6", "QUA4": "CQUAD4", "QUA8": "CQUAD8",
-    "TET4": "CTETRA", "TE10": "CTETRA", "PYR5": "CPYRAM", "PRI6": "CPENTA", "PR15": "CPENTA",
-    "CUB8": "CHEXA", "CU20": "CHEXA",
-}  # fmt: skip
+_SOLIDS, _PLANE = names_in("solid"), names_in("plane")
 _NASTRAN_ORDERS: dict[str, tuple[int, ...]] = {
     # VTK's order, but the middles between bottom and top stand before those of the top
     "PR15": (*range(9), 12, 13, 14, 9, 10, 11),
@@ -56,12 +47,6 @@ def abaqus_lines(mesh: Mesh, plane: str = "") -> list[str]:
     return lines
 
 
-# lines, and surfaces in space, of a deck of parts: beams and shells
-_STRUCTURES = {"SEG2": "B31", "SEG3": "B32", "TRI3": "S3", "TRI6": "STRI65", "QUA4": "S4",
-               "QUA8": "S8R"}  # fmt: skip
-_BEAMS = {"SEG2": "B21", "SEG3": "B22"}
-
-
 def abaqus_lines_of(mesh: FileMesh, plane: str = "") -> list[str]:
     """Lines of an Abaqus deck of a mesh with its named parts as sets.
 
@@ -75,8 +60,8 @@ def abaqus_lines_of(mesh: FileMesh, plane: str = "") -> list[str]:
     OutputError
         For cells that have no element, or names that a set cannot have.
     """
-    flat = {kind: plane + n for kind, n in _PLANE.items()} | _BEAMS if plane else _STRUCTURES
-    names = _SOLIDS | flat
+    flat = {kind: plane + n for kind, n in _PLANE.items()} | names_in("beam")
+    names = _SOLIDS | (flat if plane else names_in("structure"))
     others = sorted(set(mesh.cells) - set(names) - {"POI1"})
     if others:
         raise OutputError("io.mesh-cells-not-written", kind="ABAQUS", others=others, known=names)
@@ -128,7 +113,7 @@ def nastran_lines(mesh: Mesh) -> list[str]:
     for number, point in enumerate(_points(mesh), start=1):
         x, y, z = (f"{v:16.9E}" for v in point)
         lines += [f"GRID*   {number:16d}{0:16d}{x}{y}", f"*       {z}"]
-    for name, block, first, rows in _blocks(mesh, _CARDS, "NAS", _NASTRAN_ORDERS):
+    for name, block, first, rows in _blocks(mesh, names_in("nastran"), "NAS", _NASTRAN_ORDERS):
         for number, row in enumerate(rows.tolist(), start=first):
             fields = [f"{n:8d}" for n in (number, block, *row)]
             lines.append(f"{name:8s}" + "".join(fields[:8]))

@@ -2,13 +2,22 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.remembered import tables_of
 
 NONE = np.empty(0, dtype=np.int64)
+
+
+def names_in(form: str) -> dict[str, Any]:
+    """What a format calls the cells that it has, by type."""
+    tables = tables_of(Path(__file__).with_name("cells.toml"))
+    return {cell_type: names[form] for cell_type, names in tables.items() if form in names}
 
 
 def refuse_doubles(name: str, numbered: Iterable[tuple[int, object]]) -> None:

@@ -17,19 +17,14 @@ import numpy as np
 
 from ssilang.io.errors import InputError, readable
 from ssilang.io.mesh_files.bounds import Text, check_hdf5, nodes_held, opened, unpacked
-from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, padded, refuse_doubles
+from ssilang.io.mesh_files.file_mesh import NONE, FileMesh, Part, names_in, padded, refuse_doubles
 from ssilang.io.vtk.grid import ORDERS
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 
-_TYPES = {
-    "vertex": "POI1", "line": "SEG2", "line3": "SEG3", "triangle": "TRI3", "triangle6": "TRI6",
-    "quad": "QUA4", "quad8": "QUA8", "quad9": "QUA9", "tetra": "TET4", "tetra10": "TE10",
-    "pyramid": "PYR5", "pyramid13": "PY13", "wedge": "PRI6", "wedge15": "PR15",
-    "hexahedron": "CUB8", "hexahedron20": "CU20", "hexahedron27": "CU27",
-}  # fmt: skip
-NAMES = {cell_type: name for name, cell_type in _TYPES.items()}
+NAMES: dict[str, str] = names_in("meshio")
 """meshio's names of the cell types here."""
+_TYPES = {name: cell_type for cell_type, name in NAMES.items()}
 
 # middles of a brick's faces as VTK has them: x-, x+, y-, y+, bottom, top; then its own
 _FACES_OF_27 = (25, 23, 22, 24, 20, 21, 26)

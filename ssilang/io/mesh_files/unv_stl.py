@@ -12,19 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from ssilang.io.errors import InputError, OutputError, readable, text_of
-from ssilang.io.mesh_files.file_mesh import FileMesh, Part
+from ssilang.io.mesh_files.file_mesh import FileMesh, Part, names_in
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
 
 # I-DEAS element number -> cell type; orders along the contour, as Cast3M's
-_CELLS: dict[int, str] = {
-    11: "SEG2", 21: "SEG2", 22: "SEG3", 24: "SEG3", 41: "TRI3", 51: "TRI3", 61: "TRI3",
-    74: "TRI3", 81: "TRI3", 91: "TRI3", 42: "TRI6", 52: "TRI6", 62: "TRI6", 72: "TRI6",
-    82: "TRI6", 92: "TRI6", 44: "QUA4", 54: "QUA4", 64: "QUA4", 71: "QUA4", 84: "QUA4",
-    94: "QUA4", 45: "QUA8", 55: "QUA8", 65: "QUA8", 75: "QUA8", 85: "QUA8", 95: "QUA8",
-    111: "TET4", 118: "TE10", 112: "PRI6", 113: "PR15", 115: "CUB8", 116: "CU20",
-}  # fmt: skip
+_CELLS = {n: cell_type for cell_type, numbers in names_in("unv").items() for n in numbers}
 _BEAMS = frozenset({11, 21, 22, 24})  # these have a line of orientation before their nodes
 
 

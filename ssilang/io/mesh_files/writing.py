@@ -59,10 +59,6 @@ def _known(mesh: FileMesh, kind: str) -> None:
         raise OutputError("io.mesh-cells-not-written", kind=kind, others=others, known=list(NAMES))
 
 
-def _rows(cell_type: str, table: IntArray) -> IntArray:
-    return table[:, vtk_order(cell_type)]
-
-
 # ---- Gmsh: an element again for each further group that has it, as Gmsh itself writes 2.2 --------
 
 
@@ -90,14 +86,15 @@ def _tagged(mesh: FileMesh) -> Iterator[tuple[int, str, str, IntArray]]:
         for cell_type, rows in part.cells.items():
             d = CELL_TYPES[cell_type].dimension
             shown = name if d == max(dimensions) else f"{name}_{d}D"
-            found.append((tag, shown, cell_type, _rows(cell_type, mesh.cells[cell_type][rows])))
+            table = mesh.cells[cell_type][rows]
+            found.append((tag, shown, cell_type, table[:, vtk_order(cell_type)]))
             left[cell_type][rows] = False
         if len(part.nodes):
             shown = name if max(dimensions) == 0 else f"{name}_0D"
             found.append((tag, shown, "POI1", part.nodes[:, None]))
     for cell_type, table in mesh.cells.items():
         if left[cell_type].any():
-            found.append((0, "", cell_type, _rows(cell_type, table[left[cell_type]])))
+            found.append((0, "", cell_type, table[left[cell_type]][:, vtk_order(cell_type)]))
     # points first, as Gmsh has them; readers take a type's cells together
     yield from sorted(found, key=lambda f: (CELL_TYPES[f[2]].dimension, f[2]))
 
@@ -115,7 +112,7 @@ def _med(path: Path, mesh: FileMesh, dimension: int, plane: str) -> None:
     for cell_type, table in mesh.cells.items():
         groups = [(n, p.cells[cell_type]) for n, p in mesh.parts.items() if cell_type in p.cells]
         tags.append(_families(len(table), groups, cell_tags, -1))
-        cells.append((NAMES[cell_type], _rows(cell_type, _turned(cell_type, table))))
+        cells.append((NAMES[cell_type], _turned(cell_type, table)[:, vtk_order(cell_type)]))
     point_tags: dict[int, list[str]] = {}
     groups = [(n, p.nodes) for n, p in mesh.parts.items() if len(p.nodes)]
     nodes = _families(len(mesh.points), groups, point_tags, 1)

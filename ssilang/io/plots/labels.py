@@ -66,7 +66,24 @@ class Annotation:
 def draw_tags(axes: "Axes", view: View, annotation: Annotation, size: float) -> None:
     """Write the tags of a panel."""
     for tag in annotation.tags:
-        _draw_tag(axes, view, tag, size)
+        x, y = view.project(tag.point.coordinates)
+        right, up = PLACES[tag.place]
+        usual = 0.05 * size if tag.distance is None else tag.distance
+        reach = usual if right or up else 0.0
+        place: Any = (x + right * reach, y + up * reach)
+        line = {"arrowstyle": "-", "color": shade(tag.colour, ink=True), "lw": 0.8, "shrinkB": 0}
+        axes.annotate(
+            to_mathtext(tag.text),
+            (float(x), float(y)),
+            place,
+            color=shade(tag.colour, ink=True),
+            fontsize=9,
+            ha=_ALONG[int(right)],
+            va=_UP[int(up)],
+            arrowprops=line if tag.link and reach else None,
+            zorder=6,
+            bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7},
+        )
 
 
 def draw_categories(figure: "Figure", annotation: Annotation) -> None:
@@ -82,26 +99,6 @@ def draw_categories(figure: "Figure", annotation: Annotation) -> None:
             loc="outside right upper",
             frameon=False,
         )
-
-
-def _draw_tag(axes: "Axes", view: View, tag: Tag, size: float) -> None:
-    x, y = view.project(tag.point.coordinates)
-    right, up = PLACES[tag.place]
-    reach = (tag.distance if tag.distance is not None else 0.05 * size) if (right or up) else 0.0
-    place: Any = (x + right * reach, y + up * reach)
-    line = {"arrowstyle": "-", "color": shade(tag.colour, ink=True), "lw": 0.8, "shrinkB": 0}
-    axes.annotate(
-        to_mathtext(tag.text),
-        (float(x), float(y)),
-        place,
-        color=shade(tag.colour, ink=True),
-        fontsize=9,
-        ha=_ALONG[int(right)],
-        va=_UP[int(up)],
-        arrowprops=line if tag.link and reach else None,
-        zorder=6,
-        bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7},
-    )
 
 
 _DESCRIPTOR = re.compile(r"\(?\s*(?:1P)?([IFEDG])(\d+)(?:\.(\d+))?(?:E\d+)?\s*\)?$", re.IGNORECASE)

@@ -4,41 +4,12 @@ A mesh or a curve holds the index into `COLOURS` (0 = DEFA, black on white here)
 colours are toned so that lines and words stay readable in print; the hue is the name's.
 """
 
-from ssilang.io.errors import OutputError
+from pathlib import Path
 
-_SHADES: dict[str, str] = {
-    "DEFA": "#1b1f24",
-    "BLEU": "#1f5fbf",
-    "ROUG": "#cf2a2a",
-    "ROSE": "#d6399b",
-    "VERT": "#1e8c3a",
-    "TURQ": "#17a6a8",
-    "JAUN": "#e3b505",
-    "BLAN": "#ffffff",
-    "NOIR": "#000000",
-    "VIOL": "#8423b5",
-    "ORAN": "#f08a00",
-    "AZUR": "#2f94ee",
-    "OCEA": "#3ca86e",
-    "CYAN": "#6fbfe8",
-    "OLIV": "#8fb02e",
-    "GRIS": "#9aa0a6",
-    "POUR": "#c22a86",
-    "BRUN": "#8b4a1b",
-    "BRIQ": "#a83232",
-    "CORA": "#f4805a",
-    "BEIG": "#e8d2a8",
-    "OR": "#e0b400",
-    "MARI": "#14316b",
-    "BOUT": "#0d5c2a",
-    "LIME": "#7fd41b",
-    "LAVA": "#c3c3ec",
-    "BRON": "#c9982a",
-    "KAKI": "#d6cc7a",
-    "PEAU": "#f5b5bf",
-    "CARA": "#c4843f",
-    "INDI": "#4b2a8c",
-}
+from ssilang.io.errors import OutputError
+from ssilang.remembered import tables_of
+
+_SHADES: dict[str, str] = tables_of(Path(__file__).with_suffix(".toml"))
 COLOURS: tuple[str, ...] = tuple(_SHADES)
 
 # used one after the other where a drawing holds several curves without a colour of their own

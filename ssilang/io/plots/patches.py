@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.elements.shapes.polygons import regular_polygon
 from ssilang.kernel.elements.shapes.reference import shape_functions
+from ssilang.kernel.mesh.boundary import sharing
 from ssilang.kernel.mesh.cells import CELL_TYPES, POLYGON_SIDES, CellType
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
@@ -82,10 +83,7 @@ def _outer(faces: list[Faces]) -> list[Faces]:
         corners = f.nodes[:, list(CELL_TYPES[f.kind].corners)]
         keys[start : start + len(f.nodes), : corners.shape[1]] = corners
         start += len(f.nodes)
-    _, inverse, counts = np.unique(
-        np.sort(keys, axis=1), axis=0, return_inverse=True, return_counts=True
-    )
-    single = counts[inverse.ravel()] == 1
+    single = sharing(keys)[0] == 1
     kept, start = [], 0
     for f in faces:
         mine = single[start : start + len(f.nodes)]

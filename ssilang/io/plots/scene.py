@@ -75,7 +75,10 @@ def draw_scene(
             axes.set_axis_off()
         drawn = []
         for axes, (view, component), bounds in zip(grid, panels, box, strict=False):
-            shown = [_with_component(layer, component) for layer in layers]
+            shown = [
+                replace(layer, component=component) if component and layer.field else layer
+                for layer in layers
+            ]
             drawn.append(_Panel(axes, view, bounds, _prepared(shown, view, options), options))
             drawn[-1].begin()
             if component and len(panels) > 1:
@@ -95,10 +98,6 @@ def draw_scene(
         for panel in drawn:
             panel.finish(arrows, stage)
     return figure
-
-
-def _with_component(layer: Layer, component: str) -> Layer:
-    return replace(layer, component=component) if component and layer.field else layer
 
 
 def sheet_bounds(

@@ -1,7 +1,8 @@
 """Meshes and fields as the arrays that an unstructured VTK grid holds."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.cells import POLYGON_SIDES
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
+from ssilang.remembered import tables_of
 
 
 @dataclass(frozen=True)
@@ -37,45 +39,23 @@ class Grid:
 
 @dataclass(frozen=True)
 class _Family:
-    """Components that belong to one array: label, components by column, value where absent."""
+    """Components that belong to one array: label, components by column."""
 
     label: str
-    columns: tuple[str, ...]
-    absent: float
+    columns: Sequence[str]
     key: str = ""  # component that must be there
 
 
-# 3-vectors: nodes without the component stay in place (0), so that a warped shape is whole
-_VECTORS = (
-    _Family("displacement", ("UX", "UY", "UZ"), 0.0),
-    _Family("rotation", ("RX", "RY", "RZ"), 0.0),
-    _Family("force", ("FX", "FY", "FZ"), 0.0),
-    _Family("moment", ("MX", "MY", "MZ"), 0.0),
-    _Family("velocity", ("VX", "VY", "VZ"), 0.0),
-    _Family("acceleration", ("AX", "AY", "AZ"), 0.0),
+_TABLES = tables_of(Path(__file__).with_suffix(".toml"))
+_VECTORS, _AXIAL, _TENSORS, _LOCAL = (
+    [_Family(**row) for row in _TABLES[name]] for name in ("vectors", "axial", "tensors", "local")
 )
-# axisymmetric names: r and z are the first two coordinates
-_AXIAL = (
-    _Family("displacement", ("UR", "UZ", "UT"), 0.0),
-    _Family("force", ("FR", "FZ", "FT"), 0.0),
-)
-# symmetric tensors in ParaView's order XX YY ZZ XY YZ XZ
-_TENSORS = (
-    _Family("stress", ("SMXX", "SMYY", "SMZZ", "SMXY", "SMYZ", "SMXZ"), 0.0),
-    _Family("stress", ("SMRR", "SMZZ", "SMTT", "SMRZ", "SMZT", "SMRT"), 0.0),
-    _Family("strain", ("EPXX", "EPYY", "EPZZ", "GAXY", "GAYZ", "GAXZ"), 0.0),
-    _Family("strain", ("EPRR", "EPZZ", "EPTT", "GARZ", "GAZT", "GART"), 0.0),
-)
-# joints and bars, in their own axes: normal (or axial) first, then the tangents
-_LOCAL = (
-    _Family("traction", ("SMN", "SMSN", "SMS2"), 0.0, "SMSN"),
-    _Family("traction", ("SMN", "SMS1", "SMS2"), 0.0, "SMS1"),
-    _Family("opening", ("DRN", "DRSN", "DRS2"), 0.0, "DRSN"),
-    _Family("opening", ("DRN", "DRS1", "DRS2"), 0.0, "DRS1"),
-    _Family("opening", ("EXX", "GXY", "GXZ"), 0.0, "EXX"),  # of two points
-    _Family("section_force", ("EFFX", "EFFY", "EFFZ"), 0.0),
-    _Family("section_moment", ("MOMX", "MOMY", "MOMZ"), 0.0),
-)
+ORDERS: dict[str, tuple[int, tuple[int, ...]]] = {
+    **{name: (number, tuple(order)) for name, (number, order) in _TABLES["orders"].items()},
+    **{name: (7, tuple(range(n))) for name, n in POLYGON_SIDES.items()},
+}
+"""VTK's number of each cell type, and its local nodes in VTK's order."""
+
 # one component of these is shown as a number, under its own name
 _NEVER_ALONE = ("rotation", "moment", "section_force", "section_moment")
 
@@ -228,7 +208,7 @@ def matching_rows(wanted: IntArray, held: IntArray) -> IntArray:
 
 def _arrays(
     components: tuple[str, ...],
-    families: tuple[_Family, ...],
+    families: Sequence[_Family],
     column: object,
     name: str,
 ) -> dict[str, DataArray]:
@@ -240,8 +220,8 @@ def _arrays(
         lonely = len(held) == 1 and family.label in _NEVER_ALONE
         if not held or lonely or (family.key and family.key not in held):
             continue
-        stacked = np.column_stack([column(c, family.absent) for c in family.columns])
-        found.append((family.label, DataArray(stacked, family.columns)))
+        stacked = np.column_stack([column(c, 0.0) for c in family.columns])
+        found.append((family.label, DataArray(stacked, tuple(family.columns))))
         left = [c for c in left if c not in held]
     found += [(c, DataArray(column(c, np.nan))) for c in left]
     if not name:
@@ -251,47 +231,3 @@ def _arrays(
         name if bare and i == 0 else f"{name}_{label}": array
         for i, (label, array) in enumerate(found)
     }
-
-
-# VTK's cell numbers and node orders for Cast3M's cell types.
-#
-# `ORDERS[name]` is (VTK cell type, local nodes in VTK's order). VTK lists corners first, then
-# middles; Cast3M walks along the contour. Joints become the flat cell between their two faces: it
-# has no thickness as long as the joint is closed and opens with the displacement in ParaView's
-# "Warp By Vector". The sixteen-node joint has no VTK cell of its own: its corners are written.
-#
-# Source: the VTK file formats and `vtkCellType.h` (numbers 1 to 31).
-
-VtkOrder = tuple[int, tuple[int, ...]]
-
-ORDERS: dict[str, VtkOrder] = {
-    "POI1": (1, (0,)),
-    "SEG2": (3, (0, 1)),
-    "SEG3": (21, (0, 2, 1)),
-    "TRI3": (5, (0, 1, 2)),
-    "TRI6": (22, (0, 2, 4, 1, 3, 5)),
-    "TRI7": (34, (0, 2, 4, 1, 3, 5, 6)),
-    "QUA4": (9, (0, 1, 2, 3)),
-    "QUA8": (23, (0, 2, 4, 6, 1, 3, 5, 7)),
-    "QUA9": (28, (0, 2, 4, 6, 1, 3, 5, 7, 8)),
-    **{name: (7, tuple(range(n))) for name, n in POLYGON_SIDES.items()},
-    "TET4": (10, (0, 1, 2, 3)),
-    "TE10": (24, (0, 2, 4, 9, 1, 3, 5, 6, 7, 8)),
-    "PRI6": (13, (0, 1, 2, 3, 4, 5)),
-    "PR15": (26, (0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8)),
-    "PYR5": (14, (0, 1, 2, 3, 4)),
-    "PY13": (27, (0, 2, 4, 6, 12, 1, 3, 5, 7, 8, 9, 10, 11)),
-    "CUB8": (12, (0, 1, 2, 3, 4, 5, 6, 7)),
-    "CU20": (25, (0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11)),
-    # complete cells without VTK counterpart, or with other inner nodes, are written without them
-    "TE15": (24, (0, 2, 4, 9, 1, 3, 5, 6, 7, 8)),
-    "PY19": (27, (0, 2, 4, 6, 12, 1, 3, 5, 7, 8, 9, 10, 11)),
-    "PR21": (26, (0, 2, 4, 9, 11, 13, 1, 3, 5, 10, 12, 14, 6, 7, 8)),
-    "CU27": (25, (0, 2, 4, 6, 12, 14, 16, 18, 1, 3, 5, 7, 13, 15, 17, 19, 8, 9, 10, 11)),
-    "RAC2": (9, (0, 1, 3, 2)),
-    "RAC3": (30, (0, 2, 5, 3, 1, 4)),
-    "LIA3": (13, (0, 1, 2, 3, 4, 5)),
-    "LIA4": (12, (0, 1, 2, 3, 4, 5, 6, 7)),
-    "LIA6": (31, (0, 2, 4, 6, 8, 10, 1, 3, 5, 7, 9, 11)),
-    "LIA8": (12, (0, 2, 4, 6, 8, 10, 12, 14)),
-}

@@ -12,7 +12,6 @@ of its writes leave a file that cannot be read, and it locks the file for reader
 """
 
 import os
-import tempfile
 import zlib
 from collections.abc import Sequence
 from contextlib import suppress
@@ -21,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.io.atomic import cannot_write, put
+from ssilang.io.atomic import cannot_write, neighbour, put
 from ssilang.io.errors import OutputError
 from ssilang.io.vtk import hdf5
 from ssilang.system import GUARDED, usual_rights, write_at
@@ -46,14 +45,8 @@ class GrowingFile:
         self.end = self._known = hdf5.SUPERBLOCK
         self._root = hdf5.UNDEFINED
         self._changes: list[tuple[int, bytes]] = []
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._handle, name = tempfile.mkstemp(
-                dir=path.parent, prefix=f".{path.name}.", suffix=".part"
-            )
-        except OSError as error:
-            raise cannot_write(path, error) from error
-        self._aside: Path | None = Path(name)
+        self._aside: Path | None
+        self._handle, self._aside = neighbour(path)
         self._closed = False
 
     def place(self, size: int, *, in_page: bool = False) -> int:
@@ -256,11 +249,8 @@ class _Index:
         self._edge: list[_Node] = []
         self.root = hdf5.UNDEFINED
 
-    def append(self, address: int, size: int) -> None:
-        """Add the next chunk."""
-        self._add(0, address, size)
-
-    def _add(self, level: int, child: int, size: int) -> None:
+    def append(self, child: int, size: int, level: int = 0) -> None:
+        """Add the next chunk; on higher levels, the next node."""
         if level == len(self._edge):
             self._edge.append(self._node(level, 0))
             if level:  # what was the root is its first child
@@ -273,7 +263,7 @@ class _Index:
             full = self._edge[level]
             self._edge[level] = self._node(level, full.first + hdf5.BRANCHES ** (level + 1))
             self._enter(self._edge[level], level, child, size)
-            self._add(level + 1, self._edge[level].address, 0)
+            self.append(self._edge[level].address, 0, level + 1)
 
     def _node(self, level: int, first: int) -> _Node:
         blank = hdf5.node_head(level, 0).ljust(hdf5.node_size(self._rank), b"\0")

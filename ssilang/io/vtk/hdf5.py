@@ -46,7 +46,7 @@ def header(messages: Sequence[bytes], more: tuple[int, Sequence[bytes]] | None =
     Parameters
     ----------
     more : (int, messages), optional
-        Further messages, which stand at that address: one behind the other as `joined` has them.
+        Further messages, which stand at that address: one behind the other.
     """
     count = len(messages)
     if more is not None:
@@ -54,13 +54,8 @@ def header(messages: Sequence[bytes], more: tuple[int, Sequence[bytes]] | None =
         length = sum(map(len, others))
         messages = [*messages, _message(_CONTINUATION, struct.pack("<QQ", address, length))]
         count += 1 + len(others)
-    body = joined(messages)
+    body = b"".join(messages)
     return struct.pack("<BxHII4x", 1, count, 1, len(body)) + body
-
-
-def joined(messages: Sequence[bytes]) -> bytes:
-    """Messages one behind the other."""
-    return b"".join(messages)
 
 
 def group(links: Sequence[bytes], count: int = 0) -> list[bytes]:

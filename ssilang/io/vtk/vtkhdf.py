@@ -29,7 +29,9 @@ from ssilang.io.vtk.growing import (
 from ssilang.io.vtk.labels import Labels
 from ssilang.io.vtk.series import Part, Series
 
-_GRID_VERSION, _BLOCKS_VERSION = (2, 0), (2, 2)
+_ONE = [hdf5.attribute("Version", (2, 0)), hdf5.attribute("Type", "UnstructuredGrid")]
+_SEVERAL = [hdf5.attribute("Version", (2, 2)), hdf5.attribute("Type", "MultiBlockDataSet")]
+"""What the file says it holds: a grid, or several."""
 COMPONENT = ":"
 """Between the name of an array and that of a component, in the field data."""
 
@@ -119,11 +121,7 @@ class VtkHdfWriter(Series):
         assert times is not None
         values, count = file.add(times.header()), len(times)
         if tuple(self._parts) == ("",):
-            said = [
-                hdf5.attribute("Version", _GRID_VERSION),
-                hdf5.attribute("Type", "UnstructuredGrid"),
-            ]
-            top = self._parts[""].header(values, count, said)
+            top = self._parts[""].header(values, count, _ONE)
         else:
             top = self._blocks(values, count)
         return group_header(file, {"VTKHDF": top})
@@ -132,11 +130,7 @@ class VtkHdfWriter(Series):
         names = _link_names(tuple(self._parts))
         links = {}
         for i, (name, part) in enumerate(self._parts.items()):
-            said = [
-                hdf5.attribute("Version", _GRID_VERSION),
-                hdf5.attribute("Type", "UnstructuredGrid"),
-                hdf5.attribute("Index", i),
-            ]
+            said = [*_ONE, hdf5.attribute("Index", i)]
             links[names[name]] = part.header(values, count, said)
         if not self._assembly:
             soft = [
@@ -144,11 +138,7 @@ class VtkHdfWriter(Series):
             ]
             self._assembly = self._file.add(hdf5.header(hdf5.group(soft)))
         links["Assembly"] = self._assembly
-        said = [
-            hdf5.attribute("Version", _BLOCKS_VERSION),
-            hdf5.attribute("Type", "MultiBlockDataSet"),
-        ]
-        return group_header(self._file, links, said)
+        return group_header(self._file, links, _SEVERAL)
 
     _assembly = 0
 
@@ -359,7 +349,7 @@ def _mesh_links(file: GrowingFile, grid: Grid) -> dict[str, int]:
 def _behind(file: GrowingFile, links: Mapping[str, int]) -> tuple[int, list[bytes]]:
     """Write links for which a group's header has a place further on; there, and what they are."""
     made = [hdf5.hard_link(name, 1 + i, address) for i, (name, address) in enumerate(links.items())]
-    return file.add(hdf5.joined(made)), made
+    return file.add(b"".join(made)), made
 
 
 def _first(name: str, address: int, rest: tuple[int, list[bytes]]) -> list[bytes]:

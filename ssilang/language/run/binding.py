@@ -284,7 +284,8 @@ class Binder:
         if not g.repeated:
             return self._one(g, after)
         found: list[Any] = []
-        most = self._value(g.times) if g.times else None
+        read = reversed(self._levels)
+        most = next((v.values[g.times] for v in read if g.times in v.values), None)
         while self.call.operands and (most is None or len(found) < most) and self._may_begin(g):
             before, kept = len(self.call.used), self._kept()
             try:
@@ -300,10 +301,6 @@ class Binder:
         if len(found) < g.at_least:
             self._one(g, after)  # says what is missing
         return found
-
-    def _value(self, name: str) -> Any:
-        """What an entry read before gave, None if nothing."""
-        return next((v.values[name] for v in reversed(self._levels) if name in v.values), None)
 
     def _one(self, g: Group, after: int) -> Any:
         first = len(self.call.used)

@@ -330,15 +330,13 @@ class Evaluator(phrases.PhraseRunner):
         targets: list[tuple[tree.Item, str]] = []
         i = 0
         while i < len(items):
-            wanted = ""
-            if i + 2 < len(items) and isinstance(sign := items[i + 1], tree.Symbol):
-                kind = items[i + 2]
-                if sign.text == "*" and isinstance(kind, tree.Name | tree.Quoted):
+            match items[i + 1 : i + 3]:
+                case [tree.Symbol(text="*"), tree.Name() | tree.Quoted() as kind]:
                     targets.append((items[i], kind.text.upper().rstrip()))
                     i += 3
-                    continue
-            targets.append((items[i], wanted))
-            i += 1
+                case _:
+                    targets.append((items[i], ""))
+                    i += 1
         return targets
 
     def store(self, target: tree.Item, value: Any) -> None:

@@ -53,7 +53,8 @@ def leftover_error(
         return refused
     words = [o for o in left if isinstance(o.value, Mot) and not o.name and not o.result]
     unread = next((o for o in words if find_operator(str(o.value)) is not None), None)
-    called = words and (not _quoted(words[0]) or _begins(words[0].span))
+    # what begins a statement can only be meant as what it calls
+    called = words and (not _quoted(words[0]) or not _words_before(words[0].span))
     if unread is not None and not (_quoted(unread) and called):
         before = next((o for o in left if isinstance(o.value, Mot)), unread)
         name = "" if before is unread else before.span.text
@@ -72,11 +73,6 @@ def leftover_error(
 def _quoted(operand: Operand) -> bool:
     """Whether a word stands in quotes: behind an unknown one that calls it is its keyword."""
     return operand.span.text[:1] == "'"
-
-
-def _begins(span: Span) -> bool:
-    """Whether a word begins a statement, and can only be meant as what it calls."""
-    return not span.source.code[: span.start].rpartition(";")[2].strip()
 
 
 def _unknown_word(operand: Operand, later: Mapping[str, Span]) -> SsiError:
@@ -104,7 +100,8 @@ def _excess(operand: Operand, every: Sequence[Operand]) -> SsiError:
     kind = "parentheses" if caller else "numbers" if bare and len(every) > 1 else "order"
     kind = "join" if joined and not caller else kind
     told = {"found": type_of(operand.value), "name": operand.name, "kind": kind, "caller": caller}
-    return SsiError("excess", operand.span, **told, begins=_first_word(operand.span))
+    begins = next(iter(_words_before(operand.span)), "")
+    return SsiError("excess", operand.span, **told, begins=begins)
 
 
 def _called_with_parentheses(place: Span) -> str:
@@ -121,6 +118,6 @@ def _called_with_parentheses(place: Span) -> str:
     return ""
 
 
-def _first_word(span: Span) -> str:
-    """The first word of the statement that a place is in."""
-    return next(iter(span.source.code[: span.start].rpartition(";")[2].split()), "")
+def _words_before(span: Span) -> list[str]:
+    """Words of a statement before a place in it."""
+    return span.source.code[: span.start].rpartition(";")[2].split()

@@ -1,5 +1,6 @@
 """Calls of procedures and methods written in the language."""
 
+from collections.abc import Callable
 from typing import Any
 
 from ssilang.language.run.call import Call
@@ -90,8 +91,15 @@ def _argument(parameter: Parameter, call: Call, procedure: Procedure) -> Any:
         return operand.value
     if parameter.optional:
         return ANNULE
+    raise missing_parameter(procedure, parameter, call, type_of)
+
+
+def missing_parameter(
+    procedure: Procedure, parameter: Parameter, call: Call, kind_of: Callable[[Any], str]
+) -> SsiError:
+    """The error of an argument that is not there, pointing at what stands instead."""
     wrong = call.operands[0] if call.operands else None
     told = {"procedure": procedure.name, "parameter": parameter.name}
     told |= {"expected": parameter.type or "any object", "heading": heading(procedure.definition)}
-    told |= {"found": type_of(wrong.value) if wrong else "nothing"}
-    raise SsiError("missing-parameter", wrong.span if wrong else call.span, **told)
+    told |= {"found": kind_of(wrong.value) if wrong else "nothing"}
+    return SsiError("missing-parameter", wrong.span if wrong else call.span, **told)

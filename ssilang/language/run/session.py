@@ -197,14 +197,8 @@ class Session:
         if warning.span is not None:
             warning.span = self.own_place(warning.span)
         self.warnings.append(warning)
-        if self.on_warning is None:
-            return
-        try:
-            self.on_warning(warning)
-        except BrokenPipeError as closed:
-            raise ReaderLeft from closed
-        except OSError:  # nobody can be told; it is in the summary
-            self.on_warning = None
+        if self.on_warning is not None and not _heard(self.on_warning, warning):
+            self.on_warning = None  # nobody can be told; it is in the summary
 
     @property
     def in_library(self) -> bool:
@@ -226,13 +220,8 @@ class Session:
 
     def note(self, text: str) -> None:
         """Say what a calculation does, to who asked to hear it."""
-        if self.on_note is not None:
-            try:
-                self.on_note(text)
-            except BrokenPipeError as closed:
-                raise ReaderLeft from closed
-            except OSError:
-                self.on_note = None
+        if self.on_note is not None and not _heard(self.on_note, text):
+            self.on_note = None
 
     on_warning: Callable[[Any], object] | None = None
     on_note: Callable[[str], object] | None = None
@@ -240,3 +229,14 @@ class Session:
     hold: Callable[[], AbstractContextManager[None]] = nullcontext  # keeps a signal out meanwhile
     loops: LoopObserver | None = None
     on_form: Callable[[Any, Any, Any], object] | None = None  # told of each form that runs
+
+
+def _heard(listener: Callable[[Any], object], said: object) -> bool:
+    """Tell a listener; whether its stream took it."""
+    try:
+        listener(said)
+    except BrokenPipeError as closed:
+        raise ReaderLeft from closed
+    except OSError:
+        return False
+    return True

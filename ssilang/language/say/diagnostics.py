@@ -1,5 +1,6 @@
 """From an error to the text that its reader sees: place, source line, caret, hint, calls."""
 
+from collections import defaultdict
 from collections.abc import Iterable
 from typing import Any, cast
 
@@ -26,11 +27,6 @@ _KINDS = {"error": "label-error", "warning": "label-warning", "note": "label-not
 
 _NOTES = ("held_word", "unread_word", "quoted_operator", "begins_line", "read_here", "in_branch")
 """Data that phrases add to errors: sentences that are said before the hint (`phrase_errors`)."""
-
-
-class _Data(dict[str, Any]):
-    def __missing__(self, name: str) -> str:
-        return ""
 
 
 def render(error: SsiError, language: str = "en", names: Iterable[str] = ()) -> str:
@@ -89,7 +85,7 @@ def _calls(calls: list[tuple[str, Span]], language: str) -> list[str]:
 
 def sentence(error: SsiError, language: str, names: Iterable[str] = ()) -> tuple[str, str]:
     """What is wrong, and the hint ('' if there is none)."""
-    data = _Data(error.data)
+    data: dict[str, Any] = defaultdict(str, error.data)
     if "." not in error.code:  # the language's own sentences have parts that are computed
         data.update(_derived(error, language, names))
     text = message.sentence(error.code, data, language)
@@ -152,7 +148,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
         made["found_word"] = Sentence("found-word", found=data["found"])
     if error.code == "wrong-argument":
         made["found_text"] = _found(data, language)
-        made["caller_hint"] = hints.caller_hint(_code_before(error.span), str(data.get("operator")))
+        made["caller_hint"] = hints.caller_hint(error.span, str(data.get("operator")))
     if error.code in ("not-a-table", "dot-of-number"):
         made["a_found"] = _article(str(data["found"]), language)
         made["not_a_table_hint"] = hints.not_a_table_hint(data)
@@ -174,29 +170,19 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     if data.get("quoted"):
         made["keyword_hint"] = _keyword_hint(data)
     if _expected(data) == ["MOT"] and data.get("name") and error.code == "wrong-argument":
-        made["word_hint"] = hints.word_hint(str(data["name"]))
+        made["word_hint"] = Sentence("word-in-quotes", name=str(data["name"]))
     near = _near_hint(data, language, names)
     outside = error.code == "unknown-operator" and near == elsewhere(str(data["name"]), language)
     made["outside"], made["near_hint"] = (near, "") if outside else ("", near)
     made["excess_hint"] = hints.excess_hint(data)
     made["no_result_hint"] = hints.no_result_hint(data)
-    made["comment_hint"] = hints.comment_hint(_text_from(error.span))
+    made["comment_hint"] = hints.comment_hint(error.span)
     made["syntax_hint"] = _syntax_hint(data)
     made["known_hint"] = _known_hint(data)
     if "index" in data:
         made["index"] = _shown_index(data["index"])
     made["inside_text"] = _inside(data)
     return made
-
-
-def _text_from(span: Span | None) -> str:
-    """The source from a place on."""
-    return span.source.text[span.start : span.start + 80] if span else ""
-
-
-def _code_before(span: Span | None) -> str:
-    """The source up to a place, without comments."""
-    return span.source.code[: span.start] if span else ""
 
 
 def _types_text(types: list[str], language: str) -> str:

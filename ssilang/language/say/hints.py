@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ssilang.language.registry import find_operator
+from ssilang.language.text.source import Span
 from ssilang.messages.message import Sentence
 from ssilang.remembered import tables_of
 
@@ -24,17 +25,19 @@ def foreign_hint(word: str) -> Hint:
     return Sentence(code) if (code := next(found, "")) else ""
 
 
-def comment_hint(text: str) -> Hint:
+def comment_hint(span: Span | None) -> Hint:
     """For a statement that begins as comments of other languages do."""
+    text = span.source.text[span.start : span.start + 80] if span else ""
     begins = re.match(r"\s*(#|//|!|%|\"\"\"|--|/|\*)", text)
     return Sentence("write-comment") if begins else ""
 
 
-def caller_hint(before: str, operator: str) -> Hint:
+def caller_hint(span: Span | None, operator: str) -> Hint:
     """For an operator that a longer word of another language begins like: PRINT is PRIN.
 
-    `before` is the script up to what the operator has found.
+    `span` is what the operator has found.
     """
+    before = span.source.code[: span.start] if span else ""
     words = re.findall(r"[A-Za-z]\w*", before.rpartition(";")[2])
     named = find_operator(words[-1].upper()) if words else None
     if named is None or named.full_name != operator or words[-1].upper() in (named.name, operator):
@@ -66,8 +69,3 @@ def not_a_table_hint(data: Mapping[str, object]) -> Hint:
     a_list = str(data.get("found")).startswith("LIST")
     code = "item-of-list" if a_list else "only-tables-have-indices"
     return Sentence(code, name=data.get("name"))
-
-
-def word_hint(name: str) -> Hint:
-    """For an object that stands where a word was wanted, which its name may have been meant as."""
-    return Sentence("word-in-quotes", name=name)

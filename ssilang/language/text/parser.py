@@ -93,8 +93,6 @@ def decimal_commas(source: Source) -> list[SsiError]:
 
 _FIRST_WORD = re.compile(r"\s*'?(\w+)'?")
 _LAST_STATEMENT = re.compile(r"\s*(?:FIN|'FIN')\s*(?:\(\s*\)\s*)?;", re.IGNORECASE)
-_DEEPER = frozenset({"SI", "REPE", "DEBP", "DEBM"})
-_HIGHER = frozenset({"FINS", "FIN", "FINP", "FINM"})
 
 
 def end_of_run(source: Source) -> int | None:
@@ -114,5 +112,5 @@ def end_of_run(source: Source) -> int | None:
             continue
         found = _FIRST_WORD.match(statement)
         word = found.group(1).upper()[:4] if found else ""
-        depth += (word in _DEEPER) - (word in _HIGHER)
+        depth += (word in tree.BLOCKS) - (word in tree.BLOCKS.values())
     return None

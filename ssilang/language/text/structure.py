@@ -8,16 +8,13 @@ from ssilang.language.text.parser import decimal_commas, end_of_run, parse_state
 from ssilang.language.text.source import Source, Span
 from ssilang.late_imports import without_collections
 
-_CONTROL = {
-    "SI": "SI", "SINO": "SINO", "FINS": "FINS", "REPE": "REPE", "FIN": "FIN", "DEBP": "DEBP",
-    "FINP": "FINP", "DEBM": "DEBM", "FINM": "FINM",
-}  # fmt: skip
 _OPENS = {"SI": "FINSI", "SINO": "FINSI", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
 
 
 def control_word(statement: tree.Statement) -> str:
     """The control word that a statement begins with, '' if none."""
-    return _CONTROL.get(statement.first_word[:4].rstrip(), "")
+    word = statement.first_word[:4].rstrip()
+    return word if word in _STEPS else ""
 
 
 @dataclass
@@ -144,10 +141,6 @@ def _plain(stack: list[_Open], statement: tree.Statement) -> None:
     stack[-1].body.append(statement)
 
 
-def _rest(statement: tree.Statement) -> tree.Statement:
-    return tree.Statement((), statement.items[1:], statement.span)
-
-
 def _si(stack: list[_Open], statement: tree.Statement) -> None:
     stack.append(_Open("SI", statement))
 
@@ -172,7 +165,8 @@ def _finsi(stack: list[_Open], statement: tree.Statement) -> None:
     body = tuple(top.body)
     then, otherwise = (body, ()) if top.kind == "SI" else (top.then, body)
     span = top.statement.span.to(statement.span)
-    stack[-1].body.append(tree.If(_rest(top.statement), then, otherwise, span))
+    rest = tree.Statement((), top.statement.items[1:], top.statement.span)
+    stack[-1].body.append(tree.If(rest, then, otherwise, span))
 
 
 def _repe(stack: list[_Open], statement: tree.Statement) -> None:

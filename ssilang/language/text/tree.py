@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from ssilang.language.say.errors import SsiError
 
 
+BLOCKS = {"SI": "FINS", "REPE": "FIN", "DEBP": "FINP", "DEBM": "FINM"}
+"""Words that open blocks, four letters of each, and those that close them."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Number:
     """A literal ENTIER or FLOTTANT."""

@@ -23,11 +23,13 @@ script is meant to write its own procedure of that name.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
+from pathlib import Path
 from typing import Any
 
 from ssilang.language.registry import find_operator
 from ssilang.language.vocabulary.terms import UNSAID, Range, read_range
 from ssilang.messages.message import spoken
+from ssilang.remembered import tables_of
 from ssilang.resources import resource
 
 NUMBER, ANYTHING = "I", "*"
@@ -36,29 +38,11 @@ NUMBER, ANYTHING = "I", "*"
 WRITTEN, READ, BOTH, UNUSED, REFUSED = "written", "read", "both", "unused", "refused"
 """`unused` entries are accepted and change nothing, `refused` ones are not available."""
 
-THEMES = (
-    "problem",
-    "times",
-    "frequencies",
-    "scheme",
-    "steps",
-    "contact",
-    "kept",
-    "files",
-    "procedure",
-    "path",
-    "start",
-    "layers",
-    "modes",
-    "links",
-    "law",
-    "sizes",
-    "drawing",
-    "results",
-    "unused",
-    "refused",
-)
+_TABLES = tables_of(Path(__file__).with_suffix(".toml"))
+THEMES: tuple[str, ...] = tuple(_TABLES["themes"])
 """Groups of entries in the order in which they are shown."""
+MADE_BY: dict[str, str] = _TABLES["made_by"]
+"""How objects of a type are mostly made."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,19 +219,12 @@ def read_declaration(name: str) -> Declaration | None:
     replaceable = data.pop("replaceable", False)
     for argument, section in data.items():
         found = _entries_of(section, (argument,))
-        arguments.append(_argument(argument, section))
+        subtype, after = section.get("subtype", ""), tuple(section.get("after", ()))
+        arguments.append(Argument(argument, subtype, after))
         entries += {e.path: e for e in found}.values()  # what is said last holds
-    return Declaration(name.upper(), tuple(arguments), tuple(_in_order(entries)), replaceable)
-
-
-def _argument(name: str, section: dict[str, Any]) -> Argument:
-    return Argument(name, section.get("subtype", ""), tuple(section.get("after", ())))
-
-
-def _in_order(entries: list[TableEntry]) -> list[TableEntry]:
-    """By theme, what is inside of a table right behind it."""
-    order = {theme: i for i, theme in enumerate(THEMES)}
-    return sorted(entries, key=lambda e: order[e.theme])
+    # by theme, what is inside of a table right behind it
+    entries.sort(key=lambda e: THEMES.index(e.theme))
+    return Declaration(name.upper(), tuple(arguments), tuple(entries), replaceable)
 
 
 def _entries_of(section: dict[str, Any], path: tuple[str, ...]) -> Iterator[TableEntry]:

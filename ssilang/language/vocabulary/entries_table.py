@@ -21,7 +21,7 @@ _MOST = (26, 10, 8, 16)
 _LISTED = 6
 """Entries of one row that stand on lines of their own."""
 
-Row = tuple[str, str, str, str, str]
+Row = tuple[str, ...]
 """Index, types, unit, default, meaning."""
 
 
@@ -57,8 +57,7 @@ def tables_text(tables: Sequence[HelpTable], width: int) -> list[str]:
 
 def heads_of(language: str) -> Row:
     """Heads of the columns."""
-    index, types, unit, default, meaning = map(teller(language), _COLUMNS)
-    return index, types, unit, default, meaning
+    return tuple(map(teller(language), _COLUMNS))
 
 
 def title_of(declared: entries.Declaration, name: str, language: str) -> str:
@@ -138,14 +137,13 @@ def _widths(rows: Sequence[Sequence[str]], width: int) -> list[int]:
     for column, most in enumerate(_MOST):
         cells = [row[column] for row in rows]
         lines = [line for cell in cells for line in cell.split("\n")]
-        longest = max(len(line) - len(line.lstrip(" .")) + _longest(line) for line in lines)
+        longest = max(
+            len(line) - len(line.lstrip(" .")) + max(map(len, line.split()), default=0)
+            for line in lines
+        )
         widths.append(max(min(max(map(len, lines)), most), longest))
     left = width - 4 - sum(w + 2 for w in widths)
     return [*widths, max(left, 30)]
-
-
-def _longest(line: str) -> int:
-    return max((len(word) for word in line.split()), default=0)
 
 
 def _laid_out(row: Sequence[str], widths: Sequence[int]) -> list[str]:

@@ -14,6 +14,7 @@ from ssilang.language.search import meant as near_word
 from ssilang.language.text.source import Span
 from ssilang.language.values import Annule, Mot, Procedure, Table, is_of_noughts, type_of
 from ssilang.language.vocabulary.entries import (
+    MADE_BY,
     NUMBER,
     REFUSED,
     UNUSED,
@@ -36,20 +37,6 @@ _ODD = {
     "out-of-range": "entry-unusual", "not-increasing": "entry-out-of-order",
     "of-noughts": "entry-of-noughts",
 }  # fmt: skip
-
-MADE_BY = {
-    "CHARGEME": "CHAR 'MECA' CHPO1 EVOL1",
-    "CHPOINT": "MANU 'CHPO' MAIL1 'UX' X1",
-    "EVOLUTIO": "EVOL 'MANU' LREE1 LREE2",
-    "LISTENTI": "LECT 1 'PAS' 1 4",
-    "LISTMOTS": "MOTS 'UX' 'UY'",
-    "LISTREEL": "PROG 0. 'PAS' 0.1 1.",
-    "MCHAML": "MATE MODL1 'YOUN' X1",
-    "MMODEL": "MODE MAIL1 'MECANIQUE' 'ELASTIQUE'",
-    "RIGIDITE": "RIGI, MASS, AMOR MODL1 MAT1, BLOQ 'UX' MAIL1",
-    "TABLE": "TABL",
-}
-"""How objects of a type are mostly made."""
 
 
 def shown(path: tuple[object, ...]) -> str:

@@ -9,10 +9,12 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from ssilang.language import vocabulary
 from ssilang.language.vocabulary.terms import UNSAID, Quantity, Range, units
+from ssilang.remembered import tables_of
 
 _SYMBOL = re.compile(r"[A-Za-z]+")
 
@@ -56,34 +58,16 @@ class UnitSystem:
 
     def in_si(self) -> dict[str, float]:
         """The same with their sizes: 'length: mm' is 1e-3 m."""
-        return {
-            f"{what}: {self.written(unit)}": self.factor(unit) for what, unit in _MEASURED.items()
-        }
+        return {f"{what}: {self.written(u)}": self.factor(u) for what, u in _MEASURED.items()}
 
 
-_MEASURED = {
-    "length": "m", "force": "N", "mass": "kg", "time": "s", "stress": "Pa", "energy": "J",
-}  # fmt: skip
+_TABLES = tables_of(Path(__file__).with_suffix(".toml"))
+_MEASURED: dict[str, str] = _TABLES["measured"]
+SYSTEMS = {name: UnitSystem(name, **row) for name, row in _TABLES["systems"].items()}
 
-SYSTEMS: dict[str, UnitSystem] = {
-    s.name: s
-    for s in (
-        UnitSystem("SI", 1.0, 1.0, {}),
-        UnitSystem("KN-M", 1.0, 1e3, {"kg": "t", "N": "kN", "Pa": "kPa", "J": "kJ"}),
-        UnitSystem("MN-M", 1.0, 1e6, {"kg": "kt", "N": "MN", "Pa": "MPa", "J": "MJ"}),
-        UnitSystem("N-MM", 1e-3, 1.0, {"m": "mm", "kg": "t", "Pa": "MPa", "J": "mJ"}),
-    )
-}
-
-_FURTHER: dict[str, dict[str, float]] = {
-    "Pa": {"GPa": 1e9}, "Pa/m": {"GPa/m": 1e9}, "m": {"cm": 1e-2}, "m2": {"cm2": 1e-4},
-    "m4": {"cm4": 1e-8}, "1/K": {"1e-6/K": 1e-6},
-}  # fmt: skip
-"""Units that data sheets use and that belong to none of the systems: how many of the SI one is."""
-
-_WEIGHTS = {"kN/m3": 1e3 / 9.81, "N/m3": 1.0 / 9.81, "N/mm3": 1e9 / 9.81}
+_GRAVITY = 9.81
 _HEAVY = Range(900.0, 9000.0)
-"""Weights by volume that stand for densities, in kg/m3, and what the usual ones are."""
+"""Usual densities (kg/m3), of weights by volume."""
 
 
 def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> dict[str, float]:
@@ -98,12 +82,14 @@ def likely_units(value: float, unit: str, usual: Range, system: UnitSystem) -> d
     usual : Range
         What is usual, in that unit.
     """
-    known = {s.written(unit): s.factor(unit) for s in SYSTEMS.values()} | _FURTHER.get(unit, {})
+    known = {s.written(unit): s.factor(unit) for s in SYSTEMS.values()}
+    known |= _TABLES["further"].get(unit, {})
     known.pop(system.written(unit))
     here = system.factor(unit)
     found = {name: size for name, size in known.items() if value * size in usual}
     if unit == "kg/m3":
-        found |= {name: size for name, size in _WEIGHTS.items() if value * size in _HEAVY}
+        weights = {name: size / _GRAVITY for name, size in _TABLES["weights"].items()}
+        found |= {name: size for name, size in weights.items() if value * size in _HEAVY}
     return {name: value * size / here for name, size in found.items()}
 
 
@@ -158,13 +144,6 @@ def wave_flaw(soil: Mapping[str, Any], system: UnitSystem | None) -> dict[str, f
     return None if scaled or speed * here in WAVES else told
 
 
-_RATES = {
-    "DEPL": "", "DEPLACEMENTS": "", "VITE": "/s", "VITESSES": "/s", "ACCE": "/s2",
-    "ACCELERATIONS": "/s2",
-}  # fmt: skip
-"""What results at an index are, for each unit of an unknown."""
-
-
 def result_unit(component: str, index: str) -> str:
     """SI unit of a component of what a calculation keeps at an index, '' if that is not certain.
 
@@ -175,6 +154,6 @@ def result_unit(component: str, index: str) -> str:
     if len(units) != 1:
         return ""
     unit, unknown = units.pop(), any(w.kind == "unknown" for w in meant)
-    if index in _RATES:
-        return unit + _RATES[index] if unknown and unit in ("m", "rad") else ""
+    if index in _TABLES["rates"]:
+        return unit + _TABLES["rates"][index] if unknown and unit in ("m", "rad") else ""
     return "" if unknown else unit

@@ -205,31 +205,19 @@ def _draw_panel(panel: Axes, lines: list[Line], curve: Curve, options: CurveOpti
 
 def _draw_line(panel: Axes, line: Line) -> None:
     style = line.style
-    ink = line.colour
     if style.fill:
         paint = "white" if style.fill_white else line.colour
         opacity = 1.0 if style.fill_white else 0.25
         order = 2.0 - 1e-3 * line.number if not style.fill_white else 2.0 + 1e-2 * line.number
         _fill(panel, line, facecolor=paint, alpha=opacity, lw=0, zorder=order)
-    drawn: dict[str, Any] = {
-        "color": ink,
-        "linewidth": line.width,
-        "marker": style.marker,
-        "markersize": style.marker_size,
-        "markerfacecolor": ink if style.solid else "white",
-        "markeredgewidth": 1.2,
-        "label": line.name,
-        "zorder": 2.0 + 1e-2 * line.number + 5e-3,
-    }
+    drawn = _pen(line) | {"label": line.name, "zorder": 2.0 + 1e-2 * line.number + 5e-3}
     if style.marker is not None and style.few_markers:
         drawn["markevery"] = np.unique(np.linspace(0, max(len(line.x) - 1, 0), 6).astype(int))
     if line.codes is not None:
         _draw_segments(panel, line)
         drawn["linestyle"] = "none"
-    else:
-        drawn["linestyle"] = style.dash if style.line else "none"
     if len(line.x) == 1 and style.marker is None:
-        drawn |= {"marker": "o", "markerfacecolor": ink}
+        drawn |= {"marker": "o", "markerfacecolor": line.colour}
     panel.plot(line.x, line.y, **drawn)
     if style.label and len(line.x):
         _label_points(panel, line)
@@ -391,13 +379,17 @@ def _look(line: Line) -> tuple[object, ...]:
 def _handle(line: Line) -> Any:
     from matplotlib.lines import Line2D
 
-    style: Any = line.style
-    return Line2D(
-        [], [], color=line.colour, linewidth=line.width,
-        linestyle=style.dash if style.line else "none", marker=style.marker,
-        markersize=style.marker_size, markerfacecolor=line.colour if style.solid else "white",
-        markeredgewidth=1.2,
-    )  # fmt: skip
+    return Line2D([], [], **_pen(line))
+
+
+def _pen(line: Line) -> dict[str, Any]:
+    """How matplotlib draws a curve and its line of the legend."""
+    style = line.style
+    return {
+        "color": line.colour, "linewidth": line.width, "marker": style.marker,
+        "linestyle": style.dash if style.line else "none", "markersize": style.marker_size,
+        "markerfacecolor": line.colour if style.solid else "white", "markeredgewidth": 1.2,
+    }  # fmt: skip
 
 
 def draw_bars(panel: Axes, line: Line) -> None:

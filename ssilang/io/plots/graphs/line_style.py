@@ -1,38 +1,23 @@
 """How one curve is drawn, from the words of DESS's table ('TIRR MARQ S PLEIN ROND REGU')."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ssilang.io.errors import OutputError
+from ssilang.remembered import tables_of
 
-# dash patterns in points, by Cast3M's word; the position is the code in 'LIGNE_VARIABLE'
-DASHES: dict[str, object] = {
-    "LIGN": "-",
-    "TIRR": (0, (5, 2.5)),
-    "TIRC": (0, (2.5, 1.8)),
-    "TIRL": (0, (9, 3)),
-    "TIRM": (0, (8, 2.5, 2.5, 2.5)),
-    "POIN": (0, (1, 1.6)),
-}
-MARKERS = {
-    "CROI": "x",
-    "PLUS": "+",
-    "MOIN": "_",
-    "BARR": "|",
-    "ETOI": (8, 2, 0),
-    "CARR": "s",
-    "LOSA": "D",
-    "ROND": "o",
-    "POIN": ".",
-    "TRID": "v",
-    "TRIU": "^",
-    "TRIL": "<",
-    "TRIR": ">",
-}
-_OLD_MARKERS = {"TRIA": "v", "TRIB": "^"}  # names of older scripts
-_SIZES = {"SS": 2.5, "S": 4.0, "M": 5.5, "L": 8.0, "XL": 11.0, "XXL": 15.0}
+
+def _tuples(value: Any) -> Any:
+    """As matplotlib takes it."""
+    return tuple(map(_tuples, value)) if isinstance(value, list) else value
+
+
+_TABLES = tables_of(Path(__file__).with_suffix(".toml"))
+DASHES: dict[str, object] = {word: _tuples(dash) for word, dash in _TABLES["dashes"].items()}
+MARKERS: dict[str, object] = {word: _tuples(shape) for word, shape in _TABLES["markers"].items()}
 
 
 @dataclass(frozen=True)
@@ -89,11 +74,11 @@ def _marker(words: list[str]) -> dict[str, object]:
     chosen: dict[str, object] = {}
     while words:
         word = words.pop(0).upper()
-        if word in _SIZES:
-            chosen["marker_size"] = _SIZES[word]
+        if word in _TABLES["sizes"]:
+            chosen["marker_size"] = _TABLES["sizes"][word]
         elif word[:4] == "PLEI":
             chosen["solid"] = True
-        elif (marker := (MARKERS | _OLD_MARKERS).get(word[:4])) is not None:
+        elif (marker := (MARKERS | _TABLES["older"]).get(word[:4])) is not None:
             return chosen | {"marker": marker}
         else:
             raise OutputError("io.no-marker", word=word, markers=MARKERS)
