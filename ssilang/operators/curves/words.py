@@ -7,7 +7,7 @@ from ssilang.kernel.waves.shaken import strong_frequency
 from ssilang.operators.prelude import *
 
 __all__ = [
-    "COLOUR", "CURVE", "LIMITS", "RECORD", "axis_name", "check_together", "one_part",
+    "COLOUR", "CURVE", "LIMITS", "POWER", "RECORD", "axis_name", "check_together", "one_part",
     "read_colour", "read_colours", "shade", "warn_of_damping", "warn_of_motions", "warn_of_order",
     "warn_of_points", "warn_of_rate", "warn_of_sampling", "warn_of_steps",
 ]  # fmt: skip
@@ -16,6 +16,7 @@ CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples
 CURVE = arg("curve", "EVOLUTIO", en="curves")
 RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")
 COLOUR = choice("colour", COLOURS, en="colour")
+POWER = arg("power", "ENTIER", range=between(1, 26), en="2**N1 points")
 LIMITS = (
     key(
         "lowest",
