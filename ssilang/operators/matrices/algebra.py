@@ -66,7 +66,9 @@ def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
 
 
 @rule_with_call("*", "RIGIDITE", "CHPOINT")
-def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> NodeField:
+@rule_with_call("*", "CHPOINT", "RIGIDITE")
+def _times_field(call: Call, _sign: str, left: Any, right: Any) -> NodeField:
+    matrix, field = (left, right) if isinstance(left, Matrix) else (right, left)
     _warn_of_other_names(call, matrix, field)
     made = product(matrix, field)
     if flaw_of(made) and not flaw_of(field):  # sparse products raise no flag
@@ -74,11 +76,6 @@ def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> No
     if matrix.kind.startswith("MASS"):
         workspace(call.session).origins[made] = (), field
     return made
-
-
-@rule_with_call("*", "CHPOINT", "RIGIDITE")
-def _field_times(call: Call, sign: str, field: NodeField, matrix: Matrix) -> NodeField:
-    return _times_field(call, sign, matrix, field)
 
 
 def _warn_of_other_names(call: Call, matrix: Matrix, field: NodeField) -> None:
@@ -104,9 +101,7 @@ def _difference(_sign: str, left: Matrix, right: Matrix) -> Matrix:
     return parts.together(left, right.scaled(-1.0))
 
 
-@union(("RIGIDITE", "RIGIDITE"))
-def _both(left: Matrix, right: Matrix) -> Matrix:
-    return parts.together(left, right)
+union(("RIGIDITE", "RIGIDITE"))(parts.together)
 
 
 # --- parts -----------------------------------------------------------------------------------
