@@ -101,9 +101,7 @@ def dspr(
 ) -> Curve:
     """Power density."""
     part = one_part(call, curve)
-    step = constant_step(part.abscissas)
-    warn_of_points(call, part, 2**power)
-    warn_of_sampling(call, step, highest)
+    step = warned_step(call, part, 2**power, highest)
     f, y = power_density(part.ordinates, step, 2**power)
     kept = (f >= abs(lowest)) & (f <= (abs(highest) or np.inf))
     index = shade(colour, 0)

@@ -123,11 +123,10 @@ def onde(
     part, rows = one_part(call, curve), int(count[1])
     if not 0.0 < lowest < highest or rows < 1:
         raise call.error("operators.curves.frequencies-must-increase", fmin=lowest, fmax=highest)
-    step, n = signals.constant_step(part.abscissas), 2**power
+    n = 2**power
     if n * (rows + 1) > 20_000_000:
         raise call.error("operators.curves.transform-too-large")
-    warn_of_points(call, part, n)
-    warn_of_sampling(call, step, highest)
+    step = warned_step(call, part, n, highest)
     scale = signals.scales(lowest, highest, rows, pulsation)
     found = signals.transform(part.ordinates, step, n, scale, pulsation)
     times = part.abscissas[0] + step * np.arange(n)

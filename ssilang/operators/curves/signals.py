@@ -49,9 +49,7 @@ def tfr(
 ) -> Curve:
     """Transform signals."""
     part = one_part(call, signal)
-    step = signals.constant_step(part.abscissas)
-    warn_of_points(call, part, 2**power)
-    warn_of_sampling(call, step, highest)
+    step = warned_step(call, part, 2**power, highest)
     f, values = signals.fourier(part.ordinates, step, 2**power)
     kept = (f >= lowest) & (f <= highest)
     shades = (shade(colour, 0), shade(second_colour, 0))

@@ -262,28 +262,24 @@ def imaginary_names(
 @CHAN.form(
     said("INCO"),
     _CHANGED,
+    *(arg(name, "MOT", kind="component", en=en) for name, en in _FOUR),
+    *_SHAPE,
+    of=("RIGIDITE",),
+)
+@CHAN.form(
+    said("INCO"),
+    _CHANGED,
     *(arg(name, "LISTMOTS", en=en) for name, en in _FOUR),
     *_SHAPE,
     of=("RIGIDITE",),
 )
 def other_names(
-    call: Call, matrix: Matrix, shape: str | None, own: bool, **names: ListMots
+    call: Call, matrix: Matrix, shape: str | None, own: bool, **names: ListMots | str
 ) -> Matrix:
-    """Other names, from lists."""
-    lists = [[str(w).rstrip() for w in names[name].values] for name, _ in _FOUR]
-    return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
-
-
-@CHAN.form(
-    said("INCO"),
-    _CHANGED,
-    *(arg(name, "MOT", kind="component", en=en) for name, en in _FOUR),
-    *_SHAPE,
-    of=("RIGIDITE",),
-)
-def other_name(call: Call, matrix: Matrix, shape: str | None, own: bool, **names: str) -> Matrix:
-    """Other names of one unknown and one equation."""
-    lists = [[names[name].upper().rstrip()] for name, _ in _FOUR]
+    """Other names."""
+    given = [names[name] for name, _ in _FOUR]
+    words = [g.values if isinstance(g, ListMots) else [g.upper()] for g in given]
+    lists = [[str(w).rstrip() for w in own] for own in words]
     return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
 
 
