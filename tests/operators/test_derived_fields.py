@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from together import together
 
-from ssilang.kernel.matrices.assembly import assemble, numbering_of
+from ssilang.kernel.matrices.assembly import assemble
 
 TWO = "OPTI DIME 2 ; P = 0. 0. ; Q = 1. 0. ; K = (APPU 'UX' 4. P) ET (APPU 'UX' 5. Q) ; "
 AT = np.array([0, 4, 1, 2, 3])  # the ends of a line come first
@@ -28,35 +28,6 @@ def test_field_on_the_unknowns_of_a_matrix(found):
     assert (u.components["UX"].values == 2.5).all()
     assert len(r.components["UY"].nodes) == 12
     assert len(set(r.components["UY"].values)) == 12
-
-
-def test_outer_product_of_forces(found):
-    k = found(
-        TWO + "V = MANU 'CHPO' (P ET Q) 1 'FX' (PROG 1. 3.) 'NATURE' 'DISCRET' ; K = XXT V 2. ;",
-        "K",
-    )
-    np.testing.assert_allclose(dense(k), [[2, 6], [6, 18]])
-    assert numbering_of(k).unknowns == ("UX",)
-
-
-def test_relations_condensed_on_their_multipliers(found):
-    script = TWO + (
-        "C = (RELA 2. 'UX' P '+' 3. 'UX' Q) ET (BLOQ 'UX' Q) ; "
-        "D = MANU 'CHPO' (P ET Q) 1 'UX' (PROG 0.5 0.25) ; S = CMCT C D ; "
-        "DF = MANU 'CHPO' (P ET Q) 1 'FX' (PROG 0.5 0.25) ; SF = CMCT C DF ; "
-    )
-    s, sf = found(script, "S", "SF")
-    C = np.array([[2.0, 3.0], [0.0, 1.0]])
-    expected = C @ np.diag([0.5, 0.25]) @ C.T
-    np.testing.assert_allclose(dense(s), expected)
-    np.testing.assert_allclose(dense(sf), expected)
-    assert numbering_of(s).unknowns == ("LX",)
-
-
-def test_cable_is_a_bar_along_its_segments(found):
-    k = found("OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (3. 4.) ; K = CABL L 10. 2. ;", "K")
-    c = np.array([-0.6, -0.8, 0.6, 0.8])
-    np.testing.assert_allclose(dense(k), 10 / 0.02 / 5 * np.outer(c, c))
 
 
 def test_filter_is_a_weighted_mean(found):
@@ -109,35 +80,6 @@ def test_harmonic_at_an_angle(found):
         even, odd = (1.0, 1.0) if n == 0 else (even, odd)
         seen = [v[k].values[0] for k in ("UR", "UZ", "UT")]
         np.testing.assert_allclose(seen, [3 * even, 2 * even, 4 * odd])
-
-
-def test_distance_to_a_corner_of_lines_is_signed(found):
-    script = (
-        "OPTI DIME 2 ELEM SEG2 ; A = 0. 0. ; B = 2. 0. ; C = 2. 2. ; "
-        "L = (DROI 2 A B) ET (DROI 2 B C) ; "
-        "P = (1. 0.5) ET (1. -0.5) ET (3. -1.) ET (-3. 4.) ET (2.5 1.) ; "
-        "D = PSIP P L ; E = PSIP P L 1.2 ; F G = PSIP P L 'DEUX' A C ; "
-    )
-    d, e, g = found(script, "D", "E", "G")
-    np.testing.assert_allclose(d.components["PHI"].values, [0.5, -0.5, -np.sqrt(2), 5, -0.5])
-    assert len(e.components["PHI"].nodes) == 4
-    # ahead of the nearer end: of A towards -x, of C towards +y
-    np.testing.assert_allclose(g.components["PSI"].values, [-1, -1, -3, 3, -1])
-
-
-def test_distance_to_a_surface_in_space(found):
-    script = (
-        "OPTI DIME 3 ELEM TRI3 ; A = 0. 0. 0. ; B = 2. 0. 0. ; C = 2. 2. 0. ; D = 0. 2. 0. ; "
-        "S = (MANU 'TRI3' A B C) ET (MANU 'QUA4' A C D D) ; S = MANU 'TRI3' A B C ; "
-        "S = S ET (MANU 'TRI3' A C D) ; OPTI ELEM SEG2 ; FR = DROI 2 B C ; ELIM 1.E-6 FR S ; "
-        "FR = (DROI 1 B C) ; "
-        "P = (1. 1. 3.) ET (1. 1. -2.) ET (5. 1. 4.) ET (3. 0.5 1.) ; "
-        "X Y Z = PSIP P S 'TROI' FR ; "
-    )
-    phi, psi, tau = found(script, "X", "Y", "Z")
-    np.testing.assert_allclose(phi.components["PHI"].values, [3, -2, 5, np.sqrt(2)])
-    np.testing.assert_allclose(psi.components["PSI"].values, [-1, -1, 3, 1])
-    np.testing.assert_allclose(tau.components["TAU"].values, [1, 1, 1, 0.5])
 
 
 SERIES = (
@@ -334,24 +276,6 @@ def test_stresses_of_thick_shells_in_axes_of_their_surface(found, cell, element)
     assert values[:-1] == pytest.approx(expected, rel=1e-9)
 
 
-def test_moments_of_a_cylindrical_bending_at_half_a_right_angle(found):
-    """nu = 0, one curvature: at 45 degrees half of it on both axes, and half in torsion."""
-    script = (
-        "OPTI DIME 3 MODE TRID ELEM TRI3 ; "
-        "S = ((0. 0. 0.) DROI 3 (3. 0.5 0.)) TRAN 2 (0.3 2. 0.) ; "
-        "M = MODE S MECANIQUE ELASTIQUE DKT ; MA = MATE M 'YOUN' 12. 'NU' 0. 'EPAI' 1. ; "
-        "X Y Z = COOR S ; U = (NOMC 'UZ' (0.5 * (X ** 2))) ET (NOMC 'RY' (-1. * X)) ; "
-        "F = SIGM M MA U ; R = RTEN F M (1. 1. 0.) ; Q = RTEN F M (1. 0. 0.) ; "
-    )
-    values = found(
-        script + "X1 = MAXI 'ABS' (EXCO 'M11' R) ; X2 = MAXI 'ABS' (EXCO 'M22' R) ; "
-        "X3 = MAXI 'ABS' (EXCO 'M12' R) ; X4 = MAXI 'ABS' (EXCO 'M11' Q) ; "
-        "X5 = MAXI 'ABS' (EXCO 'M22' Q) ;",
-        "X1", "X2", "X3", "X4", "X5",
-    )  # fmt: skip
-    assert values == pytest.approx((0.5, 0.5, 0.5, 1.0, 0.0), abs=1e-9)
-
-
 def test_strains_of_shells_turn_as_tensors(found):
     shear, largest = found(
         SHELL + "E = RTEN (EPSI M MA U) M (1. 0. 0.) ; T = RTEN (EPSI M MA U) M (-1. 0. 0.) ; "
@@ -361,40 +285,6 @@ def test_strains_of_shells_turn_as_tensors(found):
     _, first = _axes()
     assert shear == pytest.approx(0.0, abs=1e-14)
     assert largest == pytest.approx(first @ np.diag([0.01, 0.02, 0.0]) @ first)
-
-
-UPRIGHT = (
-    "OPTI DIME 3 MODE TRID ELEM {cell} ; Q = (DROI 1 (0 0 0) ({x} {y} 0)) TRAN 1 (0 0 1) ; "
-    "M = MODE Q 'MECANIQUE' 'ELASTIQUE' '{element}' ; A = MATE M 'YOUN' 1. 'NU' 0.3 'EPAI' 0.1 ; "
-)
-
-
-def test_principal_directions_of_shells_are_global(found):
-    """Pulled along an edge at 36.87 degrees in the plane x y, whatever the cell's own frame."""
-    x, y, z, first, last = found(
-        UPRIGHT.format(cell="QUA4", element="COQ4", x=0.8, y=0.6)
-        + "U = ((NOMC 'UX' (COOR 1 Q)) * 0.8 * 0.8) + ((NOMC 'UX' (COOR 2 Q)) * 0.48)"
-        " + ((NOMC 'UY' (COOR 1 Q)) * 0.48) + ((NOMC 'UY' (COOR 2 Q)) * 0.36) ; "
-        "P = PRIN M (SIGM M A U) A ; X = MAXI 'ABS' (EXCO 'COX1' P) ; "
-        "Y = MAXI 'ABS' (EXCO 'COY1' P) ; Z = MAXI 'ABS' (EXCO 'COZ1' P) ; "
-        "S1 = MAXI (EXCO 'SI11' P) ; C = MAXI 'ABS' (EXCO 'COZ2' P) ;",
-        "X", "Y", "Z", "S1", "C",
-    )  # fmt: skip
-    assert (x, y, z) == pytest.approx((0.8, 0.6, 0.0), abs=1e-9)
-    assert first == pytest.approx(1 / (1 - 0.3**2))
-    assert last == pytest.approx(1.0)
-
-
-def test_third_principal_stress_of_a_line_shell_is_out_of_the_plane(found):
-    values = found(
-        "OPTI DIME 2 MODE AXIS ELEM SEG2 ; L = DROI 1 (3. 0.) (3. 1.) ; "
-        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'COQ2' ; A = MATE M 'YOUN' 1. 'NU' 0. 'EPAI' 0.1 ; "
-        "S = MANU 'CHML' M 'N11' 0.1 'N22' 0.3 'M11' 0. 'M22' 0. 'TYPE' 'CONTRAINTES' 'STRESSES' ; "
-        "P = PRIN M S A ; X = MAXI (EXCO 'SI11' P) ; Y = MAXI (EXCO 'SI33' P) ; "
-        "Z = MAXI 'ABS' (EXCO 'COY1' P) ;",
-        "X", "Y", "Z",
-    )  # fmt: skip
-    assert values == pytest.approx((1.0, 3.0, 1.0))
 
 
 def ring_levers(factors=None, bend=0.0):

@@ -287,45 +287,6 @@ def test_expansion_of_fibres_is_refused_and_none_without_their_alpha(found, refu
     assert "expansion of sections of fibres" in refused(section(extra="'ALPH' 1.E-5") + heat)
 
 
-def test_a_warm_body_beside_yielding_fibres_expands_alone(found):
-    law = section("PLASTIQUE PARFAIT_UNI", "'SIGY' 2.E8 'H' 0.", 1, 4)
-    script = law + (
-        "L = DROI 2 (0. 0. 0.) (2. 0. 0.) ; "
-        "M1 = MODE L MECANIQUE ELASTIQUE SECTION PLASTIQUE SECTION TIMO ; "
-        "D = DROI 2 (0. 5. 0.) (2. 5. 0.) ; "
-        "M2 = MODE D MECANIQUE ELASTIQUE PLASTIQUE PARFAIT BARR ; "
-        "A = (MATE M1 'MODS' MS 'MATS' AS) ET "
-        "(MATE M2 'YOUN' 1.E9 'NU' 0. 'SIGY' 1.E9 'SECT' 1. 'ALPH' 1.E-5) ; "
-        "T = TABL ; T . 'MODELE' = M1 ET M2 ; T . 'CARACTERISTIQUES' = A ; "
-        "T . 'BLOCAGES_MECANIQUES' = (BLOQ (POIN 1 L) 'DEPL' 'ROTA') ET (BLOQ D 'UY' 'UZ') "
-        "ET (BLOQ (POIN 1 D) 'UX') ; "
-        "T . 'CHARGEMENT' = CHAR 'T' (MANU 'CHPO' (L ET D) 1 'T' 50.) (EVOL 'MANU' (PROG 0. 1.) "
-        "(PROG 0. 1.)) ; T . 'TEMPS_CALCULES' = PROG 0. 1. ; PASAPAS T ; "
-        "U = T . 'DEPLACEMENTS' . 1 ; X = EXTR U (POIN 3 D) 'UX' ; Y = EXTR U (POIN 3 L) 'UX' ; "
-    )
-    x, y = found(script, "X", "Y")
-    assert x == pytest.approx(50 * 1e-5 * 2.0, rel=1e-9)
-    assert y == pytest.approx(0.0, abs=1e-12)
-
-
-def test_fibres_above_the_line_of_a_plane_beam_turn_its_end_up(found):
-    # two bars at y = 0.3 +- 0.1: pulled below them the beam bends upwards, by N e L / (E I)
-    script = (
-        "OPTI DIME 2 ELEM SEG2 ; MS = MODE (CHAN POI1 ((0.2 0.) ET (0.4 0.))) MECANIQUE ELASTIQUE "
-        "POJS ; AS = MATE MS 'YOUN' 2.E11 'NU' 0. 'SECT' 1.E-3 'ALPY' 1. ; "
-        "L = DROI 4 (0. 0.) (2. 0.) ; M = MODE L MECANIQUE ELASTIQUE SECTION TIMO ; "
-        "A = MATE M 'MODS' MS 'MATS' AS ; "
-        "U = RESO ((RIGI M A) ET (BLOQ (POIN 1 L) 'UX' 'UY' 'RZ')) (FORC (1.E5 0.) (POIN 5 L)) ; "
-        "R = EXTR U 'RZ' (POIN 5 L) ; X = EXTR U 'UX' (POIN 5 L) ; "
-        "C = PROG 1.E-3 ; N = PROG 0. ; MZ E = MOCU C N MS AS 1.E-9 ; "
-    )
-    r, x, e = found(script, "R", "X", "E")
-    inertia = 2 * 1e-3 * 0.1**2
-    assert r == pytest.approx(1e5 * 0.3 * 2.0 / (2e11 * inertia), rel=1e-9)
-    assert x == pytest.approx(1e5 * 2.0 / (2e11 * 2e-3) + 0.3 * r, rel=1e-9)
-    assert e.values[0] == pytest.approx(0.3e-3)  # bent about its middle, the line lengthens
-
-
 OFFSET = (
     "OPTI DIME 3 ELEM QUA4 ; S = (DROI 2 (-0.05 -0.1 0.) (0.05 -0.1 0.)) TRAN 3 (0. 0.2 0.) ; "
     "S1 = S PLUS (0.3 0.4 0.) ; "

@@ -84,17 +84,6 @@ def test_a_flat_joint_that_is_turned_over(found):
     )
 
 
-def test_axes_of_a_joint_whose_nodes_are_at_one_place_follow_the_mean_rotation(found):
-    x, y = found(
-        "OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; Q = 0. 0. ; L = MANU 'SEG2' P Q ; "
-        "M = MODE L 'MECANIQUE' 'ELASTIQUE' 'JOI1' 'LIE' ; "
-        "A = MATE M 'DIRECTION' (0. 1.) 'KN' 4. 'KS' 1. ; "
-        "C B = FORM (MANU 'CHPO' P 'RZ' (PI / 3.)) M A ; " + AXES,
-        "X", "Y",
-    )  # fmt: skip
-    assert (x, y) == pytest.approx((-0.5, np.sqrt(3) / 2))
-
-
 def test_axes_of_a_joint_in_space_turn_about_its_segment_and_with_it(found):
     """The part of the mean rotation vector along the segment, then the shortest turn."""
     moves = np.array([[0.3, -0.2, 0.5], [-1.1, 0.4, 0.8]])

@@ -78,25 +78,6 @@ def test_disc_on_a_cone_is_the_disc_with_a_monkey_tail(found):
     np.testing.assert_allclose(cone, 2.0 / (stiffness - 2e6 * W**2), rtol=1e-10)
 
 
-def test_supports_react_with_both_parts(found):
-    real, other = found(
-        "OPTI DIME 2 MODE PLAN DEFO ; P1 = 0. 0. ; P2 = 1. 0. ; L1 = MANU SEG2 P1 P2 ;"
-        "MO = MODE L1 MECANIQUE ELASTIQUE IMPEDANCE VOIGT (MOTS UX) ;"
-        "CA = MATE MO RAID 400. VISC 12. ; OPTI MODE FREQ ;"
-        "T1 = TABL ; T1 . 'MODELE' = MO ; T1 . 'CARACTERISTIQUES' = CA ;"
-        "B1 = BLOQ P1 UX ; T1 . 'BLOCAGES_MECANIQUES' = B1 ; T1 . 'AMORTISSEMENT' = AMOR MO CA ;"
-        "T1 . 'CHARGEMENT' = CHAR DIMP (DEPI B1 0.1) (EVOL MANU (PROG 0. 9.) (PROG 1. 1.)) ;"
-        "T1 . 'RIGIDITE_CONSTANTE' = APPU UX 50. P2 ;"
-        "T1 . 'TEMPS_CALCULES' = PROG 3. ; PASAPAS T1 ; R = T1 . 'REACTIONS' . 1 ;"
-        "X = EXTR R FX P1 ; Y = EXTR R IFX P1 ;",
-        "X",
-        "Y",
-    )
-    spring = 400.0 + 12.0j * 6.0 * np.pi
-    series = 1.0 / (1.0 / spring + 1.0 / 50.0)
-    assert complex(real, other) == pytest.approx(0.1 * series, rel=1e-12)
-
-
 MODES = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; A = 0. 0. ; B = 1. 0. ; L1 = DROI 1 A B ;
 M1 = MODE L1 MECANIQUE ELASTIQUE POUT ;

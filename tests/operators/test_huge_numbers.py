@@ -153,23 +153,6 @@ def test_an_operator_that_fails_over_a_field_names_it(tmp_path):
     assert run_text(NAN + text.format("0.1"), tmp_path).exit_code == 0
 
 
-@together(
-    "text, wanted",
-    [
-        ("Z = 3 EGA Y ;", False),
-        ("Z = Y EGA 3 ;", False),
-        ("Z = 3 EGA X ;", False),
-        ("Z = 3 EGA 3.7 ;", True),  # the second number is cut to the type of the first
-        ("Z = (10 ** 400) EGA Y ;", False),
-        ("Z = (10 ** 400) EGA (10 ** 400) ;", True),
-        ("Z = (10 ** 400) < Y ;", True),
-    ],
-)
-def test_huge_numbers_compare(text, wanted, tmp_path):
-    result = ran(NAN + text, tmp_path)
-    assert result.session.root.find("Z") is wanted
-
-
 def test_a_message_shows_an_integer_that_is_no_real():
     data = {"start": 10**400, "step": 1, "end": 2}
     assert "1000000000" in sentence("operators.lists.steps-not-finite", data, "en")

@@ -258,47 +258,6 @@ def test_body_at_rest_on_a_relation_has_no_acceleration(found):
     assert np.abs(found(text, "A").values).max() < 1e-7 * 10.0
 
 
-def test_mesh_split_along_a_surface_opens_there_alone(found):
-    text = """
-    OPTI DIME 3 ELEM CUB8 ;
-    B = (DROI 2 (0. 0. 0.) (1. 0. 0.)) TRAN 2 (0. 1. 0.) ;
-    S = B VOLU 'TRAN' 2 (0. 0. -1.) ; V = B VOLU 'TRAN' 2 (0. 0. 1.) ;
-    V2 B2 = PLUS V B (0. 0. 0.) ; J = LIAI B2 B ;
-    N = (NBNO (S ET V2)) - (NBNO (S ET V)) - (NBNO B) ;
-    MS = MODE (S ET V2) 'MECANIQUE' 'ELASTIQUE' ; MJ = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOI4' ;
-    AS = MATE MS 'YOUN' 1.E9 'NU' 0. ; AJ = MATE MJ 'KN' 2.E9 'KS' 2.E9 ;
-    F = V2 FACE 2 ; G = S FACE 2 ; C = BLOQ 'UX' 'UY' (S ET V2) ; C = C ET (BLOQ 'UZ' G) ;
-    D = BLOQ 'UZ' F ; K = (RIGI MS AS) ET (RIGI MJ AJ) ET C ET D ;
-    U = RESO K (DEPI D 1.E-3) ; O = EXCO 'DRN' (EPSI MJ U) ; O1 = MINI O ; O2 = MAXI O ;
-    """
-    # two blocks of 1 m and a joint in series: 1/1e9 + 1/2e9 + 1/1e9
-    added, least, largest = found(text, "N", "O1", "O2")
-    assert added == 0
-    expected = 1e-3 * (1 / 2e9) / (2 / 1e9 + 1 / 2e9)
-    assert least == pytest.approx(expected, rel=1e-10)
-    assert largest == pytest.approx(expected, rel=1e-10)
-
-
-def test_a_joint_between_points_of_one_place_follows_its_supports(found):
-    # no free unknown, no load, no size: nothing can fly off
-    script = (
-        "OPTI DIME 3 ELEM SEG2 ; P1 = 0. 0. 0. ; P2 = 0. 0. 0. ; J = DROI 1 P1 P2 ; "
-        "MO = MODE J MECANIQUE ELASTIQUE ORTHOTROPE PLASTIQUE COULOMB JOI1 ; "
-        "MA = MATE MO 'DIRECTION' (1. 0. 0.) (0. 1. 0.) 'KN' 100. 'KS1' 50. 'KS2' 50. 'QN' 40. "
-        "'QS1' 20. 'QS2' 30. 'TYPE' 1. 'FRIC' 45. 'QT' 10. 'FNE' 1.E6 'COHE' 0. ; "
-        "B1 = (BLOQ 'DEPL' P1) ET (BLOQ 'ROTA' J) ET (BLOQ 'UY' 'UZ' P2) ; B2 = BLOQ 'UX' P2 ; "
-        "T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; "
-        "T . 'BLOCAGES_MECANIQUES' = B1 ET B2 ; T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI B2 0.1) "
-        "(EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. -1. 1.)) ; "
-        "T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ; "
-        "F1 = EXTR (T . 'CONTRAINTES' . 1) 'EFFX' 1 1 1 ; "
-        "F2 = EXTR (T . 'CONTRAINTES' . 2) 'EFFX' 1 1 1 ; "
-    )
-    closed, opened = found(script, "F1", "F2")
-    assert abs(closed + 10.0) < 1e-9
-    assert opened == 0.0
-
-
 @pytest.mark.parametrize("place", ["NOEUD", "STRESSES"])
 def test_stiffness_given_at_nodes_is_the_mean_of_both_sides(place):
     """Below 1E6 (1 + x), above 3E6: a rigid opening w meets `w int (4E6 + 1E6 x) / 2 dx`."""

@@ -4,7 +4,7 @@ A group is said behind its `before` in one session, else each phrase in one of i
 `start` if it has one. What stands before the last `;` of a phrase is said first, what stands behind
 it gives the value, or several names with & between: numbers, words and lists as they are, points by
 their coordinates, curves as [abscissas, ordinates], meshes as [kind, cells of points] by block,
-tables by what they hold, fields by functions of x, y and z for each component.
+tables by what they hold, matrices whole, fields by functions of x, y and z for each component.
 """
 
 import math
@@ -22,6 +22,8 @@ from ssilang.cli.run import execute
 from ssilang.kernel.curves.curve import Curve
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
+from ssilang.kernel.matrices.assembly import assemble
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.language.text.source import Source
 from ssilang.language.values import Table
@@ -65,6 +67,8 @@ def plain(value, dimension=2):
         case Mesh():
             at = value.nodes.coordinates[:, :dimension]
             return [[b.cell_type, at[b.connectivity].tolist()] for b in value.blocks]
+        case Matrix():
+            return assemble(value).toarray()
         case Table():
             return {key: plain(item, dimension) for key, item in value.items()}
         case list() | tuple():

@@ -116,22 +116,6 @@ def test_condensed_mass_where_a_relation_ties_two_parts(nomu):
     assert x == pytest.approx(6 * (9 / 11) ** 2, rel=1e-12)
 
 
-def test_condensed_stiffness_of_a_series_of_springs():
-    """Two springs in series, the middle condensed: k1 k2 / (k1 + k2)."""
-    script = (
-        "OPTI DIME 2 MODE PLAN DEFO ; PA = 0. 0. ; PB = 1. 0. ; PC = 2. 0. ; "
-        "K1 = MANU 'RIGI' (PA DROI 1 PB) (MOTS 'UX') (PROG 2. -2. 2.) ; "
-        "K2 = MANU 'RIGI' (PB DROI 1 PC) (MOTS 'UX') (PROG 3. -3. 3.) ; "
-        "SU = SUPE 'RIGI' (K1 ET K2) (PA ET PC) ; R = EXTR SU 'RIGI' ; "
-        "F = R * (MANU 'CHPO' PC 1 'UX' 1.) ; X = EXTR F 'FX' PC ; Y = EXTR F 'FX' PA ; "
-        "T = TYPE SU ;"
-    )
-    script = script.replace("OPTI DIME 2", "OPTI ELEM SEG2 DIME 2")
-    x, y, kind = found(script, "X", "Y", "T")
-    assert (x, y) == pytest.approx((1.2, -1.2), rel=1e-12)
-    assert str(kind).strip() == "SUPERELE"
-
-
 def test_inner_mechanisms_are_refused():
     """A single master point leaves the body free to turn."""
     assert "rot" in refused("SU = SUPE 'RIGI' R2 P2 ;").lower()

@@ -1,15 +1,21 @@
-"""@BILANSSI's verdict in summary.json and in the report."""
+"""@BILANSSI's verdict in summary.json and report; records of a page; runs that were resumed."""
 
+import copy
 import json
 import re
+from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from together import together
 
-from ssilang.cli.run import run_text
+from ssilang.cli.run import RunOptions, RunResult, run_text
+from ssilang.operators.dynamics.checkpoints import KeptCalculation
+from ssilang.report.records import RecordError, kinds, read_record
 from ssilang.report.verdict import is_endless, verdict_html
+from tests.operators.test_checkpoints import EVERY, ROCKING
 
 
 def test_the_summary_has_the_figures_of_the_histories(verdict_run):
@@ -108,3 +114,98 @@ def test_friction_and_capacity_are_told_each_by_itself(given):
     (verdict,) = run.session.statistics["verdicts"]
     told = (verdict["area"], verdict["friction"], verdict["capacity"])
     assert told == (12.0, given.get("FROTTEMENT"), given.get("CAPACITE"))
+
+
+DECK = ROCKING + EVERY + "T2 = DYNAMIC T ;"
+
+
+def run(folder: Path, report: bool = True, resume: bool = False) -> RunResult:
+    return run_text(DECK, options=RunOptions(folder, report=report, resume=resume))
+
+
+@pytest.fixture
+def ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of a run that was interrupted behind its fortieth step."""
+    reached = KeptCalculation.reached
+
+    def end(self: KeptCalculation, done: int, state: Any) -> None:
+        if done >= 40:
+            raise KeyboardInterrupt
+        reached(self, done, state)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(KeptCalculation, "reached", end)
+        assert run(tmp_path / "ended").exit_code == 1
+    return tmp_path / "ended"
+
+
+def test_the_report_is_that_of_an_undisturbed_run(ended: Path, tmp_path: Path) -> None:
+    whole, table = tmp_path / "whole", "report/calculation_1.csv"
+    assert run(whole).exit_code == 0
+    assert len((ended / table).read_text().split("\n")) < 50  # what it had
+    assert run(ended, resume=True).exit_code == 0
+    for name in (table, "report/scene_1.vtkhdf"):
+        assert (ended / name).read_bytes() == (whole / name).read_bytes(), name
+
+
+def test_going_on_without_the_report_is_refused(ended: Path) -> None:
+    result = run(ended, report=False, resume=True)
+    assert result.exit_code == 1
+    assert "was made with --report" in result.message
+    assert "--resume --report" in result.message
+
+
+VALUES = {"text": "t", "a number": 0.5, "a count": 2, "true or false": True}
+VALUES["two of true or false"] = [False, True]
+
+
+def whole(kind, wrong, place=""):
+    """A value of a kind with two of everything; `wrong` gets places of what it holds."""
+    if isinstance(kind, str) and kind[0] == "@":
+        return whole(kinds()[kind[1:]], wrong, place)
+    if isinstance(kind, str):
+        wrong.append(place)
+        return VALUES.get(kind.removesuffix("?"), "DEPL")
+    if isinstance(kind, list):
+        return [whole(kind[0], wrong, f"{place}[{i}]") for i in range(2)]
+    inner = dict.fromkeys(sorted(kind["only"]), kind["each"]) if "only" in kind else kind
+    names = [(n.removesuffix("?"), k) for n, k in inner.items()]
+    return {n: whole(k, wrong, f"{place}.{n}".lstrip(".")) for n, k in names}
+
+
+def at(record, place):
+    """What holds a place, and its last step."""
+    steps = [
+        int(s) if s.isdigit() else s for s in place.replace("]", "").replace("[", ".").split(".")
+    ]
+    for step in steps[:-1]:
+        record = record[step]
+    return record, steps[-1]
+
+
+@pytest.mark.parametrize("name", ["summary", "fragility", "contents"])
+def test_a_wrong_value_is_told_by_its_place(name, tmp_path):
+    kind, places = kinds()[name], []
+    record, path = whole(kind, places), tmp_path / "r.json"
+    path.write_text(json.dumps(record | {"more": 1}))
+    assert read_record(path, name) == record | {"more": 1}
+    for place in places:
+        for bad, held in (({"odd": 1}, "dict"), (None, "None")):
+            changed = copy.deepcopy(record)
+            holder, last = at(changed, place)
+            holder[last] = bad
+            path.write_text(json.dumps(changed))
+            try:
+                found = read_record(path, name)
+            except RecordError as refused:
+                told = str(refused)
+                assert told.startswith(f"{place}: {held} != "), (told, place)
+            else:  # null says nothing: what may miss, or is not there
+                assert bad is None
+                holder, last = at(found, place)
+                assert holder[last] is None if isinstance(last, int) else holder.get(last) is None
+    needed = [n for n in kind if not n.endswith("?")]
+    for one in needed:
+        path.write_text(json.dumps({n: v for n, v in record.items() if n != one}))
+        with pytest.raises(RecordError, match=f"^{one} = "):
+            read_record(path, name)

@@ -1,4 +1,4 @@
-"""@CDG @TOTAL @HELICE @CIRCONS BOITE DEDANS MOYESPEC against closed forms."""
+"""@CDG @TOTAL @HELICE @CIRCONS BOITE MOYESPEC @STAT FZERO QUADRATU CONVT PECHE: closed forms."""
 
 import math
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from script_runs import found
+from script_runs import found, ran
 from together import together
 
 _HELIX = "OPTI DIME 3 ELEM {element} ; P0 = 0. 0. 0. ; VZ = 0. 0. 3. ; PA = 1. 0. 0. ; "
@@ -56,3 +56,38 @@ def test_circle_and_sphere_are_as_far_from_all_corners():
     )  # fmt: skip
     corners = np.array([(0, 0, 0), (2, 1, 0), (-1, 3, 0.5), (0, 0.5, 4)])
     assert np.allclose(np.linalg.norm(corners - centre, axis=1), radius, rtol=1e-12)
+
+
+def test_regression_line_is_that_of_least_squares():
+    x, y = np.array([0, 1.85, 4.65, 7, 10, 11]), np.array([2.25, 2.0, 1.75, 1.4, 1.0, 0.8])
+    lists = [" ".join(repr(float(v)) for v in values) for values in (x, y)]
+    values = found(
+        f"XM EX YM EY A B R = @STAT (PROG {lists[0]}) (PROG {lists[1]}) ;",
+        "XM", "EX", "YM", "EY", "A", "B", "R",
+    )  # fmt: skip
+    slope, level = np.polyfit(x, y, 1)
+    expected = (x.mean(), x.std(), y.mean(), y.std(), slope, level, np.corrcoef(x, y)[0, 1])
+    assert values == pytest.approx(expected, rel=1e-10)
+
+
+@together("count", range(21))
+def test_palette_has_different_colours_that_the_picture_knows(count):
+    colours = [str(c).strip() for c in found(f"L = @PALETTE {count} ;", "L").values]
+    assert len(set(colours)) == len(colours) == count
+
+
+def test_field_values_follow_the_mesh():
+    script = "OPTI DIME 2 ELEM SEG2 ; L = (0. 0.) DROI 4 (2. 0.) ; K = L ELEM (LECT 1 2) ; "
+    script += "A = CHPR0 ((COOR 1 K) + 1.) (INVE L) ;"
+    assert list(found(script, "A").values) in ([1.0, 1.5, 2.0, 0.0, 0.0], [0.0, 0.0, 2.0, 1.5, 1.0])
+
+
+def test_curve_goes_to_a_file_of_two_columns(tmp_path):
+    result = ran(
+        "E = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 1. 4.) ; @EXCEL1 E 'curve.csv' ; MESS 'after' ;",
+        output_directory=tmp_path,
+    )
+    assert result.output.split()[-1] == "after"
+    lines = next(tmp_path.rglob("curve.csv")).read_text().split("\n")
+    rows = [[float(v) for v in line.split(";")] for line in lines if line.strip()]
+    assert rows == [[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]]

@@ -63,19 +63,6 @@ def test_nearest_polynomial_of_a_broken_line():
     assert np.asarray(curve.values) == pytest.approx(x[:, None] ** np.arange(5) @ want, abs=1e-8)
 
 
-def test_zigzag_follows_sizes_in_a_tilted_plane():
-    script = (
-        "OPTI DIME 3 ELEM SEG2 ; L = ZIGZAG (1. 0. 0.) (0. 1. 0.) (0. 0. 1.) 'DINI' 0.05 'DFIN' "
-        "0.2 "
-        "'D' 1. 'A' 270. 'R' 1. ; P = L POIN 'FINA' ; A B C = COOR P ; X = MESU (L ELEM 1) ; "
-        "Y = MESU (L ELEM (NBEL L)) ;"
-    )
-    a, b, c, first, last = found(script, "A", "B", "C", "X", "Y")
-    assert (a, b, c) == pytest.approx((1.0, 0.0, 1.0), abs=1e-9)
-    assert first == pytest.approx(0.05, rel=0.15)
-    assert last == pytest.approx(0.2, rel=0.15)
-
-
 def test_small_system_needs_no_order_of_rows():
     rng = np.random.default_rng(1)
     matrix, side = rng.normal(size=(5, 5)), rng.normal(size=5)

@@ -1,4 +1,4 @@
-"""FREPART HAUBAN ROTA_IMP TRACHIS TRACHIT against closed forms."""
+"""FREPART HAUBAN ROTA_IMP against closed forms."""
 
 import numpy as np
 import pytest
@@ -69,72 +69,3 @@ def test_imposed_rotation_leaves_radius_and_axis_free():
     x, y, dx, dy = values
     turned = np.degrees(np.arctan2(y + dy, x + dx) - np.arctan2(dy, dx))
     assert turned == pytest.approx(40, abs=1e-6)
-
-
-HISTORY = (
-    "OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ; L = DROI 4 (0. 0.) (2. 0.) ; X = COOR 1 L ;"
-    "T = TABL ; T . 'TEMPS' = TABL ; T . 'DE' = TABL ;"
-    "REPE B 4 ; I = &B - 1 ; T . 'TEMPS' . I = 0.5 * I ;"
-    "T . 'DE' . I = (NOMC 'UX' (X * I)) ET (NOMC 'UY' (X * X * I)) ; FIN B ;"
-)
-
-
-def test_curves_along_a_line():
-    n, e, a, b = found(
-        HISTORY + "R = TRACHIS T 'DE' L (LECT 1 3) (MOTS 'UY') 'PREF' 'depl' 'UNIT' 'ms' ;"
-        "N = DIME R ; E = R . 2 . 'VALEUR' ; A = R . 2 . 'LEGEND1' ; B = R . 2 . 'LEGEND2' ;",
-        "N", "E", "A", "B",
-    )  # fmt: skip
-    assert n == 2
-    x = np.linspace(0, 2, 5)
-    np.testing.assert_allclose(e.parts[0].abscissas, x)
-    np.testing.assert_allclose(e.parts[0].ordinates, 3 * x**2)
-    assert str(a) == "depl"
-    assert str(b).replace(" ", "") == "UYt=1.50000E+03ms"
-
-
-def test_curves_along_a_line_by_times_and_names():
-    n, e, b = found(
-        HISTORY + "R = TRACHIS T 'DE' L (PROG 0.5) (MOTS 'UX' 'UY') (MOTS 'HORI' 'VERT') ;"
-        "N = DIME R ; E = R . 1 . 'VALEUR' ; B = R . 2 . 'LEGEND2' ;",
-        "N", "E", "B",
-    )  # fmt: skip
-    assert n == 2
-    np.testing.assert_allclose(e.parts[0].ordinates, np.linspace(0, 2, 5))
-    assert str(b).startswith("VERT t=")
-
-
-def test_curves_in_time_at_points():
-    n, e, a, b = found(
-        HISTORY + "C = TABL 'NOM_COMPOSANTE' ; C . 2 = 'monte' ; P = TABL 'NOM_POINT' ;"
-        "P . 5 = 'bout' ; R = TRACHIT T 'DE' L C P 'PREF' 'u' ; N = DIME R ;"
-        "E = R . 10 . 'VALEUR' ; A = R . 10 . 'LEGEND2' ; B = R . 4 . 'LEGEND2' ;",
-        "N", "E", "A", "B",
-    )  # fmt: skip
-    assert n == 10
-    np.testing.assert_allclose(e.parts[0].abscissas, [0, 0.5, 1, 1.5])
-    np.testing.assert_allclose(e.parts[0].ordinates, [0, 4, 8, 12])
-    assert (str(a), str(b)) == ("monte bout", "UX PT 4")
-
-
-BENDING = """
-OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = ((0. 0.) DROI 4 (4. 0.)) TRAN 2 (0. 1.) ;
-MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; T = TABL 'PASAPAS' ; T . 'MODELE' = MO ; LD = COTE 2 S ;
-T . 'CARACTERISTIQUES' = MATE MO 'YOUN' 1.E3 'NU' 0. ; B = BLOQ 'DEPL' (COTE 4 S) ;
-T . 'BLOCAGES_MECANIQUES' = B ; U = BLOQ 'UX' LD ; T . 'BLOCAGES_MECANIQUES' = B ET U ;
-T . 'CHARGEMENT' = CHAR 'DIMP' (DEPI U 0.2) (EVOL 'MANU' (PROG 0. 2.) (PROG 0. 2.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 1. 2. ; PASAPAS T ;
-"""
-
-
-def test_displacements_of_pasapas_along_a_line_and_in_time():
-    # the index spells an operator, and its fields hold multipliers that no line has
-    n, along, legend, m, history = found(
-        BENDING + "R = TRACHIS T 'DEPLACEMENTS' (COTE 1 S) ; N = DIME R ; DESTRA R ; "
-        "E = R . 3 . 'VALEUR' ; A = MOT R . 3 . 'LEGEND1' ; "
-        "Q = TRACHIT T 'DEPLACEMENTS' LD ; M = DIME Q ; F = Q . 1 . 'VALEUR' ; DESTRA Q ; ",
-        "N", "E", "A", "M", "F",
-    )  # fmt: skip
-    assert (n, m, str(legend)) == (6, 6, "DEPLACEMENTS")
-    np.testing.assert_allclose(along.parts[0].ordinates, 0.05 * np.arange(5), atol=1e-12)
-    np.testing.assert_allclose(history.parts[0].ordinates, [0, 0.2, 0.4], atol=1e-12)

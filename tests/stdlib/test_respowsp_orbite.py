@@ -1,8 +1,9 @@
-"""RESPOWSP against the spectra it has to give back; ORBITE draws its pictures."""
+"""Spectra forth and back: PRNS RESPOWNS RESPOWSP ORBITE SIGNSYNT."""
 
 import numpy as np
 import pytest
 from script_runs import found, ran
+from together import together
 
 # a density like that of a filtered noise, and its response spectrum
 NOISE = (
@@ -65,3 +66,84 @@ def test_a_picture_every_few_points(tmp_path):
         output_directory=tmp_path,
     )
     assert sorted(p.suffix for p in tmp_path.glob("*essai*")) == [".png"] * 2 + [".svg"] * 2
+
+
+MODULATION = (
+    "M1 = EVOL 'MANU' 'TEMP' (PROG 0. 2. 8. 10.) 'MODU' (PROG 0. 1. 1. 0.) ;"
+    "M2 = EVOL 'MANU' 'TEMP' (PROG 0. 4. 8. 10.) 'MODU' (PROG 0. 1. 1. 0.) ; MM = M1 ET M2 ;"
+    "LB = PROG 0.2 3. 25. ; LT = PROG 0.08 0.15 0.3 0.6 1.2 2.5 ;"
+    "S0 = EVOL 'MANU' 'FREQ' (PROG 0.2 1. 5. 25.) 'DSP' (PROG 0.1 1. 0.8 0.05) ;"
+)
+
+
+@together(
+    "quantity, more",
+    [("'ACCE' 'PERI'", ""), ("'VITE' 'FREQ'", "T1 . 'GPRP' = 'VITE' ; T1 . 'GPAB' = 'FREQ' ;"
+      " T1 . 'FFPS' = PROG 0.2 0.4 0.8 1.5 3. 5. 8. 12. 25. ;")],
+)  # fmt: skip
+def test_the_power_found_gives_the_spectrum_back(quantity, more):
+    script = MODULATION + (
+        f"R0 = PRNS S0 MM LB LT {quantity} 'TPLU' 5. 'NBIN' 4 ; T1 = TABL ; T1 . 'TTRS' = LT ;"
+        f"{more}"
+        "T1 . 'TPLU' = 5. ; T1 . 'NBIN' = 4 ; T1 . 'JHAN' = 2 ; T1 . 'EMAX' = 5.E-3 ;"
+        "S1 = RESPOWNS R0 MM LB T1 ; "
+        f"R1 = PRNS S1 MM LB LT {quantity} 'TPLU' 5. 'NBIN' 4 ;"
+    )
+    asked, made, density = found(script, "R0", "R1", "S1")
+    np.testing.assert_allclose(made.parts[0].ordinates, asked.parts[0].ordinates, rtol=0.03)
+    assert (len(density.parts[0].abscissas) == 9) == bool(more)
+
+
+def test_words_stand_in_any_order():
+    script = MODULATION + (
+        "A = PRNS S0 MM LB 0.02 LT 'DEPL' 'FREQ' 'NBPR' 4 'TPLU' 3. ROUG ;"
+        "B = PRNS S0 MM LB 'FREQ' 'NBPR' 4 LT 'TPLU' 3. 0.02 'DEPL' ;"
+    )
+    a, b = found(script, "A", "B")
+    np.testing.assert_array_equal(a.parts[0].ordinates, b.parts[0].ordinates)
+    np.testing.assert_allclose(a.parts[0].abscissas[0], 1.0 / 2.5)
+
+
+TABLE = (
+    "SP0 = EVOL 'MANU' 'FREQ' (PROG 0.1 0.5 1. 2.5 5. 33. 50.) 'ACCE' "
+    "(PROG 0.1 0.5 1. 2.5 2.5 1. 1.) ; T = TABL ; T . 'SEISME' = TABL ; "
+    "T . 'SEISME' . 'SPECTRE' = SP0 ; T . 'SEISME' . 'AMORT' = 0.05 ; "
+    "T . 'SEISME' . 'TYPSP' = 'ACCE' ; T . 'SIGNAL' = TABL ; T . 'SIGNAL' . 'NP' = 9 ; "
+    "T . 'SIGNAL' . 'DUREE' = 5.12 ; T . 'NALEAT' = 3 ; T . 'FRCOUP' = 40. ; T . 'NBITER' = 6 ; "
+)
+
+
+def test_spectrum_of_the_signal_comes_near_the_reference():
+    f, ratio = found(
+        TABLE + "E = SIGNSYNT FABR T ; LF = PROG 1. PAS 0.5 30. ; "
+        "S = SPO (E . 1) 'AMOR' (PROG 0.05) 'FREQ' LF 'ACCE' ; "
+        "R = (EXTR S 'ORDO') / (IPOL LF SP0) ;",
+        "LF", "R",
+    )  # fmt: skip
+    assert len(f) == 59
+    # what six corrections leave between the lines of the transform
+    assert np.sqrt(np.mean((ratio.values - 1) ** 2)) < 0.25
+    assert ratio.values.min() > 0.5
+
+
+def test_envelope_holds_and_signals_differ():
+    first, second = found(
+        TABLE + "T . 'SIGNAL' . 'ENVE' = 'PLATLIN' ; T . 'SIGNAL' . 'TDEBUT' = 1. ; "
+        "T . 'SIGNAL' . 'TFIN' = 3. ; T . 'NBSIGN' = 2 ; E = SIGNSYNT 'FABR' T ; "
+        "A = EXTR (E . 1) 'ORDO' ; B = EXTR (E . 2) 'ORDO' ;",
+        "A", "B",
+    )  # fmt: skip
+    assert first.values[0] == 0
+    assert abs(first.values[-1]) < 0.02 * np.abs(first.values).max()
+    assert np.abs(first.values - second.values).max() > 0.1
+
+
+def test_white_noise_has_unit_deviation_and_a_flat_spectrum():
+    noise, module = found(
+        "T = TABL ; T . 'NP' = 8 ; T . 'DELTAF' = 0.5 ; T . 'NALEAT' = 2 ; "
+        "E = SIGNSYNT 'BLANC' T ; "
+        "Y = EXTR E 'ORDO' ; M = EXTR (TFR 8 E 'MOPH') 'ORDO' 1 ;",
+        "Y", "M",
+    )  # fmt: skip
+    assert np.sqrt(np.mean(noise.values**2)) == pytest.approx(1.0)
+    np.testing.assert_allclose(module.values[1:-1], module.values[1], rtol=1e-9)

@@ -1,4 +1,4 @@
-"""ACCEVITE FREQPERI FTRAN EC8ACSIS FDENS REPART PARASTAT RAMBERG against closed forms."""
+"""FTRAN EC8ACSIS FDENS REPART PARASTAT RAMBERG against closed forms."""
 
 import numpy as np
 import pytest
@@ -9,33 +9,6 @@ from together import together
 
 def curve(value, part=0):
     return np.asarray(value.parts[part].abscissas), np.asarray(value.parts[part].ordinates)
-
-
-SPECTRUM = (
-    "E1 = EVOL 'MANU' 'FREQ' (PROG 0.5 2. 8.) 'ACCE' (PROG 1. 3. 2.) ;"
-    "E2 = E1 ET (EVOL 'ROUG' 'MANU' 'FREQ' (PROG 0.5 2. 8.) 'ACCE' (PROG 2. 5. 4.)) ;"
-)
-
-
-def test_velocity_is_acceleration_over_circular_frequency():
-    value = found(SPECTRUM + "V1 = ACCEVITE E2 'FREQ' ;", "V1")
-    f, v = curve(value, 1)
-    np.testing.assert_allclose(v, np.array([2, 5, 4]) / (2 * np.pi * f))
-    assert len(value.parts) == 2
-
-
-def test_spectra_in_period_and_in_frequency_agree():
-    a, b = found(
-        SPECTRUM + "A = FREQPERI (ACCEVITE E1 'FREQ') ; B = ACCEVITE (FREQPERI E1) 'PERI' ;",
-        "A", "B",
-    )  # fmt: skip
-    np.testing.assert_allclose(curve(a), curve(b))
-    assert curve(a)[0].tolist() == [0.125, 0.5, 2.0]
-
-
-def test_period_and_back_is_the_same_curve():
-    a = found(SPECTRUM + "A = FREQPERI (FREQPERI E2) ;", "A")
-    np.testing.assert_allclose(curve(a, 1), ([0.5, 2, 8], [2, 5, 4]))
 
 
 def test_transfer_of_a_delay_has_modulus_one_and_a_phase_that_grows_with_frequency():

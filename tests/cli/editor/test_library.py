@@ -1,13 +1,14 @@
-"""What an editor knows of the library's procedures, against what the language reads in them."""
+"""What an editor knows of the library, against what the language reads in it; whose tables are."""
 
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from together import together
 
-from ssilang.cli.editor.document import Document
+from ssilang.cli.editor.document import Document, holders
 from ssilang.language.text import tree
 from ssilang.language.text.source import Source
 from ssilang.language.text.structure import parse
@@ -79,3 +80,29 @@ def test_a_name_of_a_procedure_is_renamed_wherever_it_is_meant(path):
         indices = {i.span.start for n in parts(heading.body) if isinstance(n, tree.Path)
                    for i in n.indices}  # fmt: skip
         assert {o.start for o in alike} >= set(told) - indices
+
+
+PROCEDURES = SimpleNamespace(
+    declared_names=["@PA", "@PB"],
+    declared={
+        name: SimpleNamespace(arguments=[SimpleNamespace(name=n) for n in arguments])
+        for name, arguments in {"@PA": ["first", "second"], "@PB": ["only"]}.items()
+    }.get,
+)
+GIVEN = "ZT . 'A' = 1 ; AT . 'B' = 2 ; MT = TABL ; "
+
+
+@together(
+    "call, found",
+    [
+        ("X = @PA ZT AT ;", {"ZT": ["first"], "AT": ["second"]}),
+        ("X = @PA 3. AT 'MOT' ZT ;", {"AT": ["first"], "ZT": ["second"]}),
+        ("X = @PA MT ZT ;", {"ZT": ["second"], "MT": ["first"]}),
+        ("X = @PB AT ZT ;", {"AT": ["only"]}),
+        ("@PB ZT ; Y = 2 * (@PA AT ZT) ;", {"ZT": ["only", "second"], "AT": ["first"]}),
+    ],
+)
+def test_a_table_is_the_argument_whose_place_it_takes(call, found):
+    document = Document.of(GIVEN + call)
+    for table, names in found.items():
+        assert [name for _, name in holders(table, document, PROCEDURES)] == names

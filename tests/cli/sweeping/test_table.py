@@ -1,9 +1,16 @@
-"""The table of a sweep: names out of order, values that runs do not have, types that differ."""
+"""The table of a sweep, its joined histories, its processes: names and types in no order."""
 
+import csv
+import json
+import os
+
+import pyarrow as pa
 import pyarrow.parquet as pq
 from together import together
 
-from ssilang.cli.sweeping import table
+from ssilang.cli.sweeping import pool, table
+from ssilang.cli.sweeping.histories import join_histories
+from ssilang.cli.sweeping.pool import elsewhere
 from ssilang.io.plots import figure
 from ssilang.io.plots.graphs import curves
 
@@ -65,3 +72,78 @@ def test_pictures_have_a_curve_a_combination_in_the_order_of_the_axis(swept, tmp
     assert drawn["n"][2][1][1:] == ([-1], [2.5])
     assert list(drawn) == ["top", "n", "late"]
     assert [p.name for p in paths] == ["top.png", "n.png", "late.png"]
+
+
+SWEPT = ("ZETA", "MU", "ALFA", "CAS", "FLAG")  # neither sorted nor of one kind
+VALUES = [(2, 3, "dense", 7, True), (0.5, -1, "1", 8, False), (9.0, 0, "x", 9, True)]
+HISTORY = {"time": [0.0, 0.1, 0.3], "MU": [1.5, -2.5, 4.0], "b": [7.0, 8.0, 9.0]}
+
+
+def rows_in(folder, suffix):
+    """Three runs that wrote a table, one that failed, one whose columns are others."""
+    rows = []
+    for i, values in enumerate([*VALUES, VALUES[0], VALUES[1]]):
+        run = folder / "runs" / f"r{i}"
+        run.mkdir(parents=True)
+        columns = {k: [10.0 * i + x for x in v] for k, v in HISTORY.items()}
+        if i == 4:
+            columns["c"] = columns.pop("b")
+        if suffix == "csv":
+            lines = [list(columns), *zip(*columns.values(), strict=True)]
+            (run / "h.csv").write_text("\n".join(";".join(map(str, x)) for x in lines) + "\n")
+        else:
+            pq.write_table(pa.table(columns), run / "h.parquet")
+        (run / "summary.json").write_text(json.dumps({"files": [{"path": f"h.{suffix}"}]}))
+        named = dict(zip(SWEPT, values, strict=True))
+        rows.append({"run": i + 1, "folder": run.name, "exit_code": int(i == 3), **named})
+    return rows
+
+
+@together("suffix", ["csv", "parquet"])
+def test_swept_values_stand_under_their_own_names(tmp_path, suffix):
+    joined = join_histories(rows_in(tmp_path, suffix), SWEPT, tmp_path)
+    (path,) = joined.files
+    assert (path, joined.others) == (tmp_path / "histories" / f"h.{suffix}", 1)
+    if suffix == "csv":
+        with path.open() as stream:
+            found = list(csv.DictReader(stream, delimiter=";"))
+    else:
+        found = pq.read_table(path).to_pylist()
+    assert len(found) == 9
+    for i, values in enumerate(VALUES):
+        for k in range(3):
+            row = found[3 * i + k]
+            given = {"run": i + 1, **dict(zip(SWEPT, values, strict=True))}
+            given["MU (sweep)"] = given.pop("MU")
+            own = {name: 10.0 * i + HISTORY[name][k] for name in HISTORY}
+            assert set(row) == {*given, *own}
+            for name, value in (given | own).items():
+                if isinstance(value, bool):
+                    assert row[name] in (value, "VRAI" if value else "FAUX"), name
+                elif name == "ALFA":
+                    assert row[name] == value
+                else:
+                    assert float(row[name]) == value, name
+
+
+@together("before", [None, "0", "yes"])
+def test_processes_import_nothing_from_the_working_folder(before, monkeypatch):
+    name = "PYTHONSAFEPATH"
+    monkeypatch.delenv(name, raising=False)
+    if before is not None:
+        monkeypatch.setenv(name, before)
+    with elsewhere():
+        assert os.environ[name] == "1"
+    assert os.environ.get(name) == before
+
+
+@together(
+    "tasks, forks, way", [(7, True, "run_here"), (8, True, "run_grown"), (9, False, "run_here")]
+)
+def test_the_others_wait_for_the_first_run_where_they_are_many(tasks, forks, way, monkeypatch):
+    asked = []
+    for name in ("run_here", "run_grown"):
+        monkeypatch.setattr(pool, name, lambda *given, name=name: asked.append((name, *given)))
+    monkeypatch.setattr(pool, "CAN_FORK", forks)
+    pool.run_all(range(tasks), 2, str)
+    assert asked == [(way, range(tasks), 2, str)]

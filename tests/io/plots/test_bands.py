@@ -1,10 +1,11 @@
-"""Triangles cut into bands: areas and lines against closed forms."""
+"""Triangles cut into bands: areas and lines against closed forms; titles as matplotlib's text."""
 
 import numpy as np
 import pytest
 from together import together
 
 from ssilang.io.plots.bands import choose_levels, cut_bands, cut_lines
+from ssilang.io.plots.markup import LONGEST, to_mathtext
 
 
 def areas(polygons: np.ndarray) -> np.ndarray:
@@ -69,3 +70,17 @@ def test_colours_of_both_signs_meet_at_white(size: float) -> None:
 
 def test_one_value_is_one_band() -> None:
     assert len(choose_levels(np.full(5, 2.0)).bounds) == 2
+
+
+@together(
+    "written, drawn",
+    [
+        ("plain $ text", r"plain \$ text"),
+        (r"\a and \W", "α and Ω"),
+        ("u_{i}", r"u$\mathregular{{}_{i}}$"),
+        ("x" * LONGEST, "x" * LONGEST),
+        ("x" * 300_000, "x" * (LONGEST - 1) + "…"),
+    ],
+)
+def test_a_text_is_drawn_with_its_scripts_as_far_as_there_is_room(written, drawn):
+    assert to_mathtext(written) == drawn

@@ -21,11 +21,19 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.interface import family as _joints  # noqa: F401
-from ssilang.kernel.materials.axes import Directions, axis_parameters
+from ssilang.kernel.materials.axes import Directions, axis_parameters, integration_points
+from ssilang.kernel.materials.elasticity import (
+    isotropic_compliance,
+    isotropic_moduli,
+    orthotropic_compliance,
+    reduced_moduli,
+    rotated_moduli,
+)
 from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.parameters import geometric_names, known_names, material_names
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from tests.kernel.elements.samples import TILT, cell_zone, material, tilted_plate
+from tests.kernel.elements.samples import TILT, cell_zone, line_zone, material, tilted_plate
 
 WOOD = {"YG1": 12e9, "YG2": 1e9, "YG3": 0.8e9, "NU12": 0.3, "NU23": 0.4, "NU13": 0.25,
         "G12": 0.7e9, "G23": 0.1e9, "G13": 0.6e9}  # fmt: skip
@@ -318,3 +326,86 @@ def test_given_strains_are_zero_where_they_are_not_named():
     np.testing.assert_allclose(found[0], [[0] * 4, [5] * 4, [0] * 4, [1, 2, 3, 4]])
     other = zone_of("TRI3", Mode.PLANE_STRAIN, "ISOTROPE")
     assert not given_strain(other, CellField((block,))).any()
+
+
+X, Y = np.array([2.0, 0, 0]), np.array([0, 3.0, 0])
+
+
+def test_direction_is_normalised_and_turned():
+    zone = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    for angle, expected in ((0.0, (1, 0)), (90.0, (0, 1)), (30.0, (np.sqrt(3) / 2, 0.5))):
+        values, support = axis_parameters(zone, Directions(X, None, angle=angle))
+        got = [values[n][0, 0] for n in ("V1X", "V1Y")]
+        np.testing.assert_allclose(got, expected, atol=1e-15)
+        assert support == "GRAVITE"
+
+
+def test_axes_point_to_a_centre_in_the_plane_and_are_turned():
+    zone, centre = cell_zone("QUA8", Mode.PLANE_STRAIN), np.array([1.0, -2.0, 0.0])
+    values, support = axis_parameters(zone, Directions(centre, None, radial=True, angle=30.0))
+    assert support == "RIGIDITE"
+    way = (centre - integration_points(zone, support)) @ [1.0, 1j, 0.0] * np.exp(1j * np.pi / 6)
+    way /= np.abs(way)
+    np.testing.assert_allclose(values["V1X"] + 1j * values["V1Y"], way)
+
+
+def test_space_needs_two_vectors_that_are_not_parallel():
+    zone = cell_zone("CUB8", Mode.THREE_DIMENSIONAL)
+    with pytest.raises(MaterialError, match="two vectors"):
+        axis_parameters(zone, Directions(X, None))
+    with pytest.raises(MaterialError, match="parallel"):
+        axis_parameters(zone, Directions(X, X))
+    values, _ = axis_parameters(zone, Directions(X, X + Y))
+    assert values["V2Y"][0, 0] == pytest.approx(1.0)
+
+
+def test_each_element_knows_its_parameters():
+    beam = line_zone("POUT", [(0, 0, 0), (1, 0, 0)], Mode.THREE_DIMENSIONAL)
+    assert geometric_names(beam).required == ("SECT", "INRY", "INRZ", "TORS")
+    joint = line_zone("JOI1", [(0, 0), (1, 0)], Mode.PLANE_STRAIN, ("ELASTIQUE", "JOINT_SDM"))
+    assert {"KN", "KS", "FU", "GF", "FC", "FROT"} <= set(known_names(joint))
+    solid = cell_zone("QUA4", Mode.PLANE_STRAIN)
+    assert material_names(solid).required == ("YOUN", "NU")
+    assert "SECT" not in known_names(solid)
+
+
+E, NU = np.array(3.0e10), np.array(0.2)
+TIMBER = {
+    k: np.array(v)
+    for k, v in {
+        "YG1": 12e9, "YG2": 1e9, "YG3": 0.8e9, "NU12": 0.3, "NU23": 0.4, "NU13": 0.25,
+        "G12": 0.7e9, "G23": 0.1e9, "G13": 0.6e9,
+    }.items()
+}  # fmt: skip
+
+
+def test_moduli_and_compliance_are_inverse():
+    np.testing.assert_allclose(
+        isotropic_moduli(E, NU) @ isotropic_compliance(E, NU), np.eye(6), atol=1e-12
+    )
+
+
+def test_isotropic_moduli_do_not_depend_on_axes():
+    q, _ = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))
+    D = isotropic_moduli(E, NU)
+    np.testing.assert_allclose(rotated_moduli(D, q.T), D, rtol=1e-9, atol=1e-3)
+
+
+def test_quarter_turn_exchanges_the_orthotropic_axes():
+    D = np.linalg.inv(orthotropic_compliance(TIMBER))
+    turned = rotated_moduli(D, np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 1]]))
+    order = [1, 0, 2, 3, 5, 4]
+    np.testing.assert_allclose(turned, D[np.ix_(order, order)], rtol=1e-12, atol=1e-3)
+
+
+def test_plane_stress_leaves_no_stress_across():
+    D = reduced_moduli(isotropic_moduli(E, NU), Mode.PLANE_STRESS)
+    k = E / (1 - NU**2)
+    np.testing.assert_allclose(D[:2, :2], [[k, k * NU], [k * NU, k]])
+    assert not D[2].any()
+    assert not D[:, 2].any()
+
+
+def test_unstable_orthotropic_constants_are_refused():
+    with pytest.raises(MaterialError, match="stable"):
+        orthotropic_compliance({**TIMBER, "NU12": np.array(4.0)})

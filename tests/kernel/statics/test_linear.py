@@ -1,13 +1,18 @@
-"""Linear statics with conditions, against dense Karush-Kuhn-Tucker systems and closed forms."""
+"""Linear statics with conditions, against dense systems and closed forms; dissected; prestress."""
+
+import re
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from refusing import refusal
+from scipy.optimize import brentq
 from scipy.sparse import csr_array
+from together import together
 
-from ssilang.kernel.base.errors import ConvergenceError, KernelError, SingularMatrixError
+from ssilang.cli.run import run_text
+from ssilang.kernel.base.errors import ConvergenceError, KernelError, MeshError, SingularMatrixError
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     assemble,
@@ -18,6 +23,8 @@ from ssilang.kernel.matrices.assembly import (
 )
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, Relations
 from ssilang.kernel.mesh.nodes import NodeTable
+from ssilang.kernel.solvers import backends
+from ssilang.kernel.statics import linear
 from ssilang.kernel.statics.linear import (
     SolveOptions,
     linear_system,
@@ -26,6 +33,7 @@ from ssilang.kernel.statics.linear import (
     solve,
     stabilised,
 )
+from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
 
 SADDLE = SolveOptions(eliminate=False)
 
@@ -300,3 +308,110 @@ def test_of_loads_that_are_not_finite_one_is_named():
     (at,) = refused.value.data["at"]
     assert "UX" in str(at)
     assert "(1." in str(at)
+
+
+BEAM = """
+OPTI DIME 2 MODE PLAN DEFO ELEM QUA4 ;
+L = DROI 3 (0. 0.) (0. 1.) ; S = L TRAN 12 (6. 0.) ; P = S POIN 'PROC' (6. 1.) ;
+MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; MA = MATE MO 'YOUN' 2.E9 'NU' 0.3 ;
+CL = {conditions} ;
+U = RESO ((RIGI MO MA) ET CL) (FORC (0. -1.E4) P) ;
+MESS (EXTR U 'UY' P) (EXTR U 'UX' P) (MAXI (REAC CL U)) ;
+"""
+
+
+@together(
+    "conditions",
+    ["BLOQ 'DEPL' L", "(BLOQ 'DEPL' L) ET (RELA 'UX' P - 'UX' (S POIN 'PROC' (6. 0.)))"],
+)
+def test_a_beam(conditions, monkeypatch):
+    found = []
+    for least in (1, 10**9):
+        monkeypatch.setattr(backends, "DISSECTED", least)
+        used = []
+        real = linear.invert
+
+        def spy(*given, used=used, real=real):
+            inverse = real(*given)
+            used.append(inverse.factor.name)
+            return inverse
+
+        monkeypatch.setattr(linear, "invert", spy)
+        result = run_text(BEAM.format(conditions=conditions))
+        monkeypatch.setattr(linear, "invert", real)
+        assert result.exit_code == 0, result.output
+        assert used == [backends.DISSECTION if least == 1 else "SuperLU"]
+        found.append([float(x) for x in re.findall(r"-?\d\.\d+E?[-+]?\d*", result.output)])
+    assert len(found[0]) >= 3
+    assert found[0] == pytest.approx(found[1], rel=1e-5)
+
+
+X = np.cumsum([[0, 0, 0], [2, 0.1, 0], [1.5, 0.4, 0.3], [1, 0.9, 0.2], [2.5, 0.2, -0.4]], axis=0)
+CABLE = Cable(np.array([3, 1, 0, 2]), np.array([0, 1, 2, 3, 4]))
+STIFF = np.array([2e8, 1.5e8, 2.2e8, 1.8e8])
+SECTION = np.array([1e-3, 8e-4, 1.1e-3, 9e-4])
+
+
+def march(x, force, losses, stiffness):
+    """Tensions from the first end: friction bar by bar, then the slip by its definition."""
+    legs = np.diff(x, axis=0)
+    length = np.linalg.norm(legs, axis=1)
+    alpha, s, h = 0.0, 0.0, []
+    for k in range(len(legs)):
+        if k:
+            turn = legs[k] @ legs[k - 1] / (length[k] * length[k - 1])
+            alpha += np.arccos(turn)
+        h.append(losses.angular * alpha + losses.linear * (s + length[k] / 2))
+        s += length[k]
+    h = np.array(h)
+    T = force * np.exp(-h)
+    if not losses.slip:
+        return T
+
+    def after(d):
+        return np.where(h < d, force * np.exp(-2 * d) * np.exp(h), T)
+
+    def slipped(d):
+        return ((T - after(d)) * length / stiffness).sum() - losses.slip
+
+    if slipped(h[-1] + 1e-12) > 0:
+        return after(brentq(slipped, 0, h[-1]))
+    level = brentq(
+        lambda c: ((T - c * np.exp(h)) * length / stiffness).sum() - losses.slip, -force, force
+    )
+    return np.maximum(level * np.exp(h), 0.0)
+
+
+@together("slip", [0.0, 5e-4, 5e-3, 0.02, 0.06])
+@together("pulled", [(True, False), (False, True), (True, True)])
+def test_tensions_are_those_of_the_march_from_each_end_that_is_pulled(slip, pulled):
+    losses = Losses(0.2, 0.01, slip, 0.5, 1.6e9, 2.0)
+    found = tensions(CABLE, X, pulled, 1.2e6, STIFF, SECTION, losses)
+    parts = []
+    if pulled[0]:
+        parts.append(march(X, 1.2e6, losses, STIFF))
+    if pulled[1]:
+        parts.append(march(X[::-1], 1.2e6, losses, STIFF[::-1])[::-1])
+    T = np.max(parts, axis=0)
+    stress = T / SECTION
+    loss = 6 * 2.0 / 100 * np.maximum(stress / 1.6e9 - 0.5, 0) * stress
+    np.testing.assert_allclose(found, (stress - loss) * SECTION, rtol=1e-9)
+    assert (loss > 0).any() or slip > 0.01
+
+
+def test_without_losses_all_bars_have_the_force():
+    found = tensions(CABLE, X, (True, False), 7.0, STIFF, SECTION, NO_LOSSES)
+    np.testing.assert_allclose(found, 7.0)
+
+
+def test_bars_in_any_order_and_sense_are_strung_into_cables():
+    nodes = NodeTable()
+    nodes.add(np.arange(27.0).reshape(9, 3) ** 1.1)
+    cells = np.array([[5, 2], [7, 5], [0, 1], [3, 2], [1, 8]])
+    found = {tuple(c.nodes): tuple(c.bars) for c in cables_of(nodes, cells)}
+    assert found == {(7, 5, 2, 3): (1, 0, 3), (0, 1, 8): (2, 4)}
+    turned = CABLE.turned()
+    assert (turned.bars.tolist(), turned.nodes.tolist()) == ([2, 0, 1, 3], [4, 3, 2, 1, 0])
+    for bad, match in (([[0, 1], [1, 2], [1, 3]], "branch"), ([[0, 1], [1, 2], [2, 0]], "ring")):
+        with pytest.raises(MeshError, match=match):
+            cables_of(nodes, np.array(bad))

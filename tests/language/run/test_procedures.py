@@ -1,30 +1,10 @@
-"""Section 10: procedures."""
+"""Section 10: procedures, and whose their names are."""
 
 import os
 
 from ssilang.language.run import library
-
-_SUM = (
-    "DEBP SUM2 a*FLOTTANT b/FLOTTANT ; SI (EXIS b) ; r = a + b ; SINON ; r = a ; FINSI ; FINP r ;"
-)
-
-
-def test_mandatory_and_optional_arguments(run):
-    script = run(_SUM + "x = SUM2 1. 2. ; y = SUM2 1. ;")
-    assert (script["x"], script["y"]) == (3.0, 1.0)
-
-
-def test_a_missing_mandatory_argument_is_an_error(fails):
-    assert fails(_SUM + "x = SUM2 «'a'» ;") == "missing-parameter"
-
-
-def test_names_that_begin_with_an_exclamation_mark_are_not_inherited(run):
-    text = "!g = 1 ; DEBP P ; r = TYPE !g ; FINP r ; x = P ;"
-    assert run(text)["x"].rstrip() == "MOT"
-
-
-def test_assignments_vanish_at_the_end(run):
-    assert run("DEBP P ; local = 4 ; FINP ; P ; x = TYPE local ;")["x"].rstrip() == "MOT"
+from ssilang.language.run.scopes import Frame
+from ssilang.language.values import ANNULE
 
 
 def test_at_procedures_are_found_beside_the_deck(tmp_path):
@@ -52,24 +32,6 @@ def test_the_chain_of_calls_is_told(tmp_path):
     assert [name for name, _ in error.calls] == ["INNER", "OUTER"]
 
 
-def test_replacing_a_procedure_of_the_library_is_told(tmp_path):
-    from ssilang.cli.run import run_text
-
-    text = "DEBP @BILAN t*TABLE ; FINP 7 ; t1 = TABL ; x = @BILAN t1 ;"
-    result = run_text(text, output_directory=tmp_path)
-    assert result.session.root.find("X") == 7
-    assert [w.code for w in result.session.warnings] == ["overrides-procedure"]
-
-
-def test_a_name_forgotten_in_a_procedure_is_forgotten_there_alone(run):
-    script = run(
-        "Y = 7 ; DEBP P ; Y = 3 ; OUBL Y ; FINP (TYPE Y) ; DEBP Q ; OUBL Y ; FINP (TYPE Y) ;"
-        "A = P ; B = Q ; DEBP R ; OUBL Y ; Y = 4 ; FINP Y ; C = R ;"
-    )
-    assert [str(script[name]).strip() for name in "AB"] == ["ANNULE", "ANNULE"]
-    assert (script["C"], script["Y"]) == (4, 7)
-
-
 def test_sessions_share_the_tree_of_a_file_of_the_library_until_it_changes(tmp_path, monkeypatch):
     path = tmp_path / "double.ssi"
     path.write_text("DEBP DOUBLE X1*FLOTTANT ; Y1 = X1 + X1 ; FINP Y1 ;")
@@ -79,3 +41,31 @@ def test_sessions_share_the_tree_of_a_file_of_the_library_until_it_changes(tmp_p
     path.write_text("DEBP DOUBLE X1*FLOTTANT ; Y1 = X1 + X1 + 0. ; FINP Y1 ;")
     os.utime(path, ns=(1, 1))
     assert library.Library(tmp_path).find("DOUBLE").definition is not first.definition
+
+
+def test_frames_over_frames():
+    root = Frame()
+    for name, value in {"Z": 1, "A": 2, "!OWN": 3, "GONE": 4}.items():
+        root.assign(name, value)
+    middle = Frame(root, "OUTER")
+    middle.assign("A", 20)
+    middle.assign("FALSE", False)
+    inner = Frame(middle, "INNER")
+    inner.assign("B", 300)
+    inner.assign("!OWN", 5)
+    assert [f.depth for f in (root, middle, inner)] == [0, 1, 2]
+    assert [inner.find(n) for n in ("Z", "A", "B", "FALSE", "NONE")] == [1, 20, 300, False, None]
+    assert [f.find("!OWN") for f in (root, middle, inner)] == [3, None, 5]
+    assert [f.find("A") for f in (root, middle)] == [2, 20]
+    inner.assign("Z", 100)
+    assert (root.find("Z"), middle.find("Z"), inner.find("Z")) == (1, 1, 100)
+    inner.forget("GONE", hiding=True)  # only the script's own words come back
+    assert inner.find("GONE") is ANNULE
+    assert inner.names() == {"Z", "A", "B", "!OWN", "FALSE"}
+    assert middle.names() == {"Z", "A", "!OWN", "GONE", "FALSE"}
+    root.forget("GONE", hiding=True)
+    root.forget("Z", hiding=False)
+    assert root.find("GONE") is None
+    assert root.names() == {"A", "!OWN"}
+    assert middle.results == []
+    assert middle.results is not inner.results

@@ -158,13 +158,6 @@ def test_prisms_about_an_axis_become_pyramids_and_tetrahedra(cell: str, kinds: s
     assert value(f"{base} X = 0. ; {parts}") == pytest.approx(after)
 
 
-@pytest.mark.parametrize(("prism", "side"), [("PRI6", "QUA4"), ("PR15", "QUA8")])
-def test_lines_sweep_quadrangles_where_prisms_are_chosen(prism: str, side: str) -> None:
-    base = f"OPTI DIME 3 ELEM {prism} ; O = 0. 0. 0. ; A = 1. 0. 0. ; L = O D 2 A ; "
-    made = value(base + "X = L TRAN 3 (0. 2. 0.) ;").single_block()
-    assert (made.cell_type, len(made)) == (side, 6)
-
-
 def test_six_faces_come_in_any_order() -> None:
     base = SPACE + "".join(f"P{k} = {k % 2} {k // 2 % 2} {k // 4} ; " for k in range(8))
     edges = [(a, a | bit) for bit in (1, 2, 4) for a in range(8) if not a & bit]
@@ -189,29 +182,6 @@ def test_four_sides_of_a_grid_come_in_any_order(order: str) -> None:
     assert value(f"{base} S = DALL {order} ; X = MESU S ;") == pytest.approx(1.0)
     middles = {tuple(x) for x in made.single_block().coordinates.mean(axis=1)[:, :2].round(6)}
     assert middles == {(i / 4, round(j / 6, 6)) for i in (1, 3) for j in (1, 3, 5)}
-
-
-@together(
-    "phrase, cells",
-    [
-        ("S VOLU 3 'TRAN' Z", 24),
-        ("VOLU 3 S 'TRAN' Z", 24),
-        ("S VOLU 'TRAN' 3 Z", 24),
-        ("S 'VOLUME' 'TRANSLATION' Z 3", 24),
-        ("S VOLU 3 (S PLUS Z)", 24),
-        ("S VOLU 'PROG' (PROG 0. 0.2 1.) 'TRAN' Z", 16),
-        ("S VOLU 'GENE' (DROI 5 O Z)", 40),
-        ("(S VOLU 2 'TRAN' (0. 0. 0.5)) VOLU 1 'TRAN' (0. 0. 0.5)", 24),
-        ("VOLU (ENVE (S VOLU 2 'TRAN' Z))", None),
-        ("(S PLUS (0. 0. 0.5)) VOLU 1. Z", 8),
-    ],
-)
-def test_volumes_have_their_volume(phrase: str, cells: int | None) -> None:
-    volume = value(SPACE + f"L = O D 4 A ; S = L TRAN 2 (0. 1. 0.) ; X = {phrase} ; V = MESU X ;")
-    if cells is not None:
-        assert volume.n_cells == cells
-    script = SPACE + f"L = O D 4 A ; S = L TRAN 2 (0. 1. 0.) ; V = {phrase} ; X = MESU V ;"
-    assert value(script) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(("end", "told"), [("0. 1.04", 1), ("0. 1.", 0)])

@@ -1,7 +1,5 @@
 """DALL and SURF 'POLY', PARC: positions against their formulas."""
 
-import math
-
 import numpy as np
 import pytest
 from script_runs import found, refused
@@ -41,18 +39,6 @@ def test_parameters_are_even_or_lengths_are():
     assert last > 3.0 * first
     _, first, last, _ = found(script.format("'REGU'"), "N", "A", "B", "X")
     assert last == pytest.approx(first, rel=0.05)  # chords of equal arcs
-
-
-def test_plane_polynomial_has_its_area_and_sides():
-    script = (
-        "OPTI DIME 2 ELEM QUA4 DENS 0.3 ; S = SURF 'POLYNOME' 2 2 (0. 0.) (2. 0.) (1. 3.) (0. "
-        "0.) ; "
-        "A = MESU S ; B = MESU (CONT S) ; N = (NBEL (COTE 1 S)) * (NBEL (COTE 2 S)) ; M = NBEL S ;"
-    )
-    area, edge, product, count = found(script, "A", "B", "N", "M")
-    assert area == pytest.approx(6.0)
-    assert edge == pytest.approx(4.0 + 2.0 * math.sqrt(10.0))
-    assert product == count
 
 
 def test_parabolas_touch_the_circle_at_their_ends():

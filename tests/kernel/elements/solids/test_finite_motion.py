@@ -1,24 +1,36 @@
-"""Rotation and stretch of a gradient, and the components that a mode gives it."""
+"""Rotation, stretch and gradients in every hypothesis; generalised plane strain."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.linalg as la
 from refusing import refusal
 from script_runs import ran
 from together import together
 
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.solids.finite_motion import (
     gradient_components,
     polar,
     transformation,
     work,
 )
-from ssilang.kernel.elements.solids.gradients import gradient_names
+from ssilang.kernel.elements.solids.gradients import (
+    gradient_names,
+    logarithmic_strain,
+    scalar_gradient,
+)
 from ssilang.kernel.elements.solids.solid import kinematics
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.materials.axes import integration_points
 from ssilang.kernel.materials.model import Mode
-from tests.kernel.elements.samples import cell_zone
+from ssilang.kernel.mesh.mesh import Point
+from tests.kernel.elements.samples import cell_zone, field, material
 
 
 def turn(axis: tuple[float, float, float], angle: float) -> np.ndarray:
@@ -119,3 +131,89 @@ def test_stresses_work_on_the_squares_of_gradients(text, exact, tmp_path):
     )
     result = ran(text, tmp_path)
     assert result.session.root.find("Z") == pytest.approx(exact, rel=1e-12)
+
+
+MODE = Mode.GENERALISED_PLANE_STRAIN
+E, NU = 3e7, 0.2
+
+
+@pytest.fixture(params=["QUA4", "TRI6", "QUA8"])
+def zone(request):
+    plain = cell_zone(request.param, MODE)
+    node = int(plain.cells.nodes.add(np.array([[0.7, -0.4]]))[0])
+    return replace(plain, options={"DPGE": Point(plain.cells.nodes, node)})
+
+
+def motion(zone, u, section):
+    """Displacements of the cell's nodes and UZ RX RY of the section's."""
+    table = zone.cells.nodes
+    nodes = np.sort(zone.cells.connectivity[0])
+    parts = {n: NodeValues(nodes, u(table.coordinates[nodes])[:, i]) for i, n in
+             enumerate(("UX", "UY"))}  # fmt: skip
+    own = np.array([zone.options["DPGE"].number])
+    parts |= {n: NodeValues(own, np.array([v])) for n, v in
+              zip(("UZ", "RX", "RY"), section, strict=True)}  # fmt: skip
+    return NodeField(table, parts, "DIFFUS")
+
+
+def test_strains_across_grow_from_the_section_s_point(zone):
+    A = np.array([[1e-3, -4e-4], [2e-3, 3e-3]])
+    found = families.strain(zone, motion(zone, lambda x: x[:, :2] @ A.T, (2e-3, 5e-4, -3e-4)))
+    x = integration_points(zone, "STRESSES")[0]
+    across = 2e-3 + (x[:, 1] + 0.4) * 5e-4 + (x[:, 0] - 0.7) * 3e-4
+    for name, value in (("EPXX", 1e-3), ("EPYY", 3e-3), ("GAXY", 1.6e-3), ("EPZZ", across)):
+        np.testing.assert_allclose(found.components[name][0], value, atol=1e-12)
+
+
+def test_forces_on_the_section_are_the_resultants_of_the_stresses_across(zone):
+    given = material(zone, YOUN=E, NU=NU)
+    u = motion(zone, lambda x: x[:, :2] * [1e-3, -2e-3], (2e-3, 5e-4, -3e-4))
+    stress = families.stress(zone, given, u)
+    forces = families.internal_forces(zone, CellField((stress,)), given)
+    K = families.stiffness(zone, given)
+    layout = Layout(zone.cells.nodes, K.raw_nodes, K.local, K.unknowns)
+    exact = layout.scatter(np.einsum("cij,cj->ci", K.values, layout.gather(u)))
+    nodes = np.unique(K.raw_nodes)
+    for name in ("FX", "FY", "FZ", "MX", "MY"):
+        np.testing.assert_allclose(
+            forces.values_at(name, nodes), exact.values_at(name, nodes), atol=1e-6
+        )
+    w = families.integration_weights(zone, "STRESSES", given)[0]
+    x, s = integration_points(zone, "STRESSES")[0], stress.components["SMZZ"][0]
+    at = np.array([zone.options["DPGE"].number])
+    for name, arm in (("FZ", 1.0), ("MX", x[:, 1] + 0.4), ("MY", 0.7 - x[:, 0])):
+        assert forces.values_at(name, at)[0] == pytest.approx((w * s * arm).sum(), rel=1e-9)
+
+
+@together("element, mode", [("QUA8", Mode.PLANE_STRAIN), ("CU20", Mode.THREE_DIMENSIONAL)])
+def test_a_linear_component_has_one_gradient(element, mode):
+    zone = cell_zone(element, mode)
+    found = scalar_gradient(zone, field(zone, T=lambda x: 3 * x[:, 0] - 2 * x[:, 1] + x[:, 2]), "T")
+    d = mode.dimension
+    np.testing.assert_allclose(
+        found[0], np.broadcast_to(np.array([3.0, -2.0, 1.0])[:d, None], found[0].shape)
+    )
+
+
+@together("of_displacement", [False, True])
+@together("mode", [Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.AXISYMMETRIC, Mode.THREE_DIMENSIONAL])
+def test_logarithmic_strains_are_those_of_the_matrix_logarithm(mode, of_displacement):
+    space = mode is Mode.THREE_DIMENSIONAL
+    zone = cell_zone("CUB8" if space else "QUA4", mode)
+    d = 3 if space else 2
+    rng = np.random.default_rng(1)
+    p = 4
+    F = np.eye(3)[None] + 0.0 * np.ones((p, 1, 1))
+    F[:, :d, :d] += 0.3 * rng.standard_normal((p, d, d))
+    if mode is Mode.AXISYMMETRIC:
+        F[:, 2, 2] = rng.uniform(0.8, 1.3, p)
+    given = F - np.eye(3) if of_displacement else F
+    flat = given[:, :d, :d].reshape(p, -1).T
+    if mode is Mode.AXISYMMETRIC:
+        flat = np.vstack([flat, given[:, 2, 2]])
+    assert len(flat) == len(gradient_names(zone))
+    found = logarithmic_strain(zone, flat[None], of_displacement)
+    for k in range(p):
+        E = 0.5 * la.logm(F[k].T @ F[k])
+        rows = [E[0, 0], E[1, 1], E[2, 2], 2 * E[0, 1], 2 * E[0, 2], 2 * E[1, 2]]
+        np.testing.assert_allclose(found[0, :, k], rows[: found.shape[1]], atol=1e-10)

@@ -1,13 +1,15 @@
-"""Every law along irregular paths in fine steps: work is what is stored and what is lost."""
+"""Every law along irregular paths: work is what is stored and lost; bonded joints, outlines."""
 
 import itertools
 
 import numpy as np
 import pytest
+from references.law_points import energies
 from references.law_points import energies as energies_at
 from together import together
 
 from ssilang.kernel.interface.laws.columns import N_PARAMETERS, N_STATE, LawCode, Parameter
+from ssilang.kernel.interface.laws.macro_law import outline_of
 from ssilang.kernel.interface.laws.point_laws import respond
 
 FINE = 400
@@ -123,3 +125,72 @@ def test_all_that_is_answered_is_written_and_the_tangent_is_its_slope(name, d):
             compared += 1
         point.to(w)
     assert compared > 25
+
+
+@together("d", [2, 3])
+def test_a_bonded_joint_is_its_springs(d):
+    rng = np.random.default_rng(4)
+    springs = {"KS1": 3e8, "KS2": 5e8, "KN": 7e8}
+    p = np.zeros((20, N_PARAMETERS))
+    for name, value in springs.items():
+        p[:, Parameter[name]] = value
+    k = np.array([3e8, 7e8] if d == 2 else [3e8, 5e8, 7e8])
+    w = rng.uniform(-1e-3, 1e-3, (20, d))
+    t, new, D = np.ones((20, d)), np.ones((20, N_STATE)), np.ones((20, d, d))
+    state = np.zeros((20, N_STATE))
+    respond(np.full(20, int(LawCode.ELASTIC)), w, state, p, t, new, D)
+    np.testing.assert_allclose(t, k * w, rtol=1e-15)
+    np.testing.assert_allclose(D, np.tile(np.diag(k), (20, 1, 1)), rtol=1e-15)
+    np.testing.assert_array_equal(new, state)
+    stored, lost = energies(int(LawCode.ELASTIC), w[0], t[0], new[0], p[0])
+    assert stored == pytest.approx(0.5 * k @ w[0] ** 2, rel=1e-14)
+    assert lost == 0.0
+
+
+BED = 3e8
+SHAPES = {
+    "strip": (LawCode.STRIP, 2, {"LARG": 1.4}),
+    "strip of a length": (LawCode.STRIP, 2, {"LARG": 1.4, "LONG": 3.0}),
+    "rectangle": (LawCode.STRIP, 3, {"LARG": 1.4, "LONG": 3.0}),
+    "disc": (LawCode.DISC, 3, {"RAYO": 0.8}),
+    "springs": (LawCode.SPRINGS, 2, {"LARG": 1.4}),
+}
+AREAS = {"strip": 1.4, "strip of a length": 4.2, "rectangle": 4.2, "disc": np.pi * 0.64}
+
+
+def places_of(name):
+    """Equal parts of the base: places (n, d - 1) along t1 and t2."""
+    s = (np.arange(400) + 0.5) / 200 - 1
+    if name == "springs":
+        return np.array([[-0.7], [0.7]])
+    if name.startswith("strip"):
+        return 0.7 * s[:, None]
+    x, y = np.meshgrid(*((0.7 * s, 1.5 * s) if name == "rectangle" else (0.8 * s, 0.8 * s)))
+    places = np.column_stack([x.ravel(), y.ravel()])
+    return places if name == "rectangle" else places[np.hypot(*places.T) < 0.8]
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_contact_pressure_and_opening_are_those_of_the_plane(name):
+    code, d, given = SHAPES[name]
+    p = np.zeros(N_PARAMETERS)
+    for parameter, value in (given | {"BED": BED}).items():
+        p[Parameter[parameter]] = value
+    outline, places = outline_of(code, p, d), places_of(name)
+    area = AREAS.get(name, 1.0)
+    stiffness = 0.5 * BED if name == "springs" else BED / area
+    assert outline.area == pytest.approx(area)
+    assert outline.stiffness == pytest.approx(stiffness)
+    w = np.random.default_rng(3).uniform(-1.0, 1.0, (40, d)) * [*(2e-3, 1e-3)[: d - 1], 1.5e-3]
+    w[:6] = 0.0
+    w[1, -1], w[2, -1], w[3, 0], w[4, -2] = 1e-3, -1e-3, 1e-3, -1e-3
+    w[5, 0], w[5, -1] = 1e-3, 2e-4
+    turns = w[:, :1] * places.T if d == 2 else w[:, :1] * places[:, 1] - w[:, 1:2] * places[:, 0]
+    opened = w[:, -1:] + turns
+    share = outline.share(w)
+    np.testing.assert_allclose(share[1:], (opened < 0.0).mean(axis=1)[1:], atol=6e-3)
+    assert np.ptp(share) == 1.0
+    edge = 2e-5 if name != "springs" else 1e-15
+    np.testing.assert_allclose(outline.opening(w), np.maximum(opened.max(axis=1), 0.0), atol=edge)
+    pressed = stiffness * np.maximum(-opened.min(axis=1), 0.0)
+    np.testing.assert_allclose(outline.pressure(w), pressed, atol=stiffness * edge)

@@ -1,4 +1,4 @@
-"""Grids on four sides, in six faces and on parameters: unlike counts, graded, crooked."""
+"""Grids on four sides, in six faces and on parameters: unlike counts, graded, crooked; numbers."""
 
 import itertools
 
@@ -403,3 +403,24 @@ def test_cells_are_joined_to_a_point_but_those_that_hold_it():
         cone(Mesh.of(base.nodes, "POI1", np.array([[4]])), 4)
     with pytest.raises(MeshError, match="TET4"):
         cone(Mesh(base.nodes, made.blocks[1:]), 0)
+
+
+@together("degree", [1, 2])
+def test_far_side_then_lateral_lines_then_inside(degree):
+    table = NodeTable()
+    x = np.linspace(0.0, 3.0, 3 * degree + 1)
+    ids = table.add(np.column_stack([x, 0.0 * x]))
+    cells = np.stack([ids[i : len(ids) - degree + i : degree] for i in range(degree + 1)], axis=1)
+    line = Mesh.of(table, "SEG2" if degree == 1 else "SEG3", cells)
+    cuts = Subdivision(np.array([0.0, 0.5, 1.0]), 1.0, 1.0)
+    sweep_line(line, translation(np.array([0.0, 2.0, 0.0])), cuts, "QUA4")
+    made = table.coordinates[len(ids) :]
+    n = len(ids)
+    np.testing.assert_allclose(made[:n], np.column_stack([x, 0 * x + 2.0, 0 * x]))
+    heights = [1.0] if degree == 1 else [0.5, 1.0, 1.5]
+    side = np.array(heights)
+    for k, at in enumerate((0.0, 3.0)):
+        rows = made[n + k * len(side) : n + (k + 1) * len(side)]
+        np.testing.assert_allclose(rows[:, 0], at)
+        np.testing.assert_allclose(rows[:, 1], side)
+    assert (np.diff(made[n + 2 * len(side) :, 1]) >= 0.0).all()

@@ -1,16 +1,23 @@
-"""Compiled passes over elements against the laws themselves, and terms that stay in their place."""
+"""Small models with dense matrices, Cholesky and LU, compiled passes: the same steps."""
+
+from pathlib import Path
 
 import numpy as np
 import pytest
+from references.keeper import Ending
+from references.tower_on_clay import stepped_tower, tower_on_clay
 from together import together
 
-from ssilang.kernel.base.sparse import assemble_triplets
+from ssilang.kernel.base.sparse import assemble_triplets, sp
 from ssilang.kernel.curves.curve import Curve, CurvePart
 from ssilang.kernel.materials.plastic.backbone import hyperbola
 from ssilang.kernel.materials.plastic.laws import PLASTIC_LAWS, PlasticLaw, law_at
 from ssilang.kernel.materials.plastic.response import PointParameters
+from ssilang.kernel.plasticity import newton, run
 from ssilang.kernel.plasticity.points import PointState
-from ssilang.kernel.plasticity.solving.positive import Pattern
+from ssilang.kernel.plasticity.solving import dense
+from ssilang.kernel.plasticity.solving.dense import places_of
+from ssilang.kernel.plasticity.solving.positive import Pattern, PositiveFactors
 from ssilang.kernel.plasticity.zone_points import zone_pass
 
 M = 900
@@ -125,3 +132,97 @@ def test_terms_stay_where_the_assembly_puts_them() -> None:
         pattern.add(data, block, matrices)
     whole = assemble_triplets(places, values, n)
     assert np.allclose(pattern.matrix(data).toarray(), whole.toarray(), rtol=0, atol=1e-14)
+
+
+STEPS = 40
+
+
+def stepped(law: str = "J2", keeper=None):
+    """History, displacements and energies of a tower of one cell's width on clay."""
+    history, seen, strain = stepped_tower(law, STEPS, 1, keeper)
+    return history, seen.of("u"), strain
+
+
+@pytest.mark.parametrize("law", ["J2", "CINEMATIQUE", "DRUCKER_PRAGER"])
+def test_dense_matrices_lead_to_the_same_steps(law: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Compiled laws on one side, arrays of all points on the other."""
+    history, u, strain = stepped(law)
+    assert history.solver == "LAPACK"
+    assert np.mean(strain > 0) > 0.1
+    monkeypatch.setattr(dense, "FEW", 0)
+    monkeypatch.setattr(run, "WORTH", 10**9)
+    monkeypatch.setattr(run._BulkLoop, "_guess", lambda self, dt: None)
+    sparse, expected, strains = stepped(law)
+    assert sparse.solver == "SuperLU"
+    assert history.iterations <= sparse.iterations
+    assert np.abs(u - expected).max() <= 1e-8 * np.abs(expected).max()
+    assert np.abs(strain - strains).max() <= 1e-8 * strains.max()
+    assert np.abs(history.energies - sparse.energies).max() <= 1e-8 * sparse.energies.max()
+
+
+def test_a_run_that_was_ended_goes_on_to_the_last_bit(tmp_path: Path) -> None:
+    whole = stepped()
+    with pytest.raises(KeyboardInterrupt):
+        stepped(keeper=Ending(tmp_path, 4, 12))
+    resumed = stepped(keeper=Ending(tmp_path, 4, resume=True))
+    assert np.array_equal(resumed[0].energies, whole[0].energies)
+    assert np.array_equal(resumed[1][-12:], whole[1][-12:])
+    assert np.array_equal(resumed[2], whole[2])
+
+
+def test_terms_go_where_the_conditions_put_them() -> None:
+    rng = np.random.default_rng(5)
+    K = sp.csr_array(sp.random_array((9, 9), density=0.5, rng=rng))
+    V, T = (sp.csr_array(sp.random_array((9, 5), density=0.4, rng=rng)) for _ in range(2))
+    K.sort_indices()
+    placed = places_of(Pattern(K.indptr, K.indices, ()), V, T, 0.7)
+    expected = 0.7 * (V.T @ K @ T).toarray()
+    assert np.allclose((placed @ K.data).reshape(5, 5), expected, rtol=0, atol=1e-15)
+
+
+TURNS = 12
+
+
+class Listening(PositiveFactors):
+    """Notes which of its solves succeed."""
+
+    solved: list[bool]
+
+    def solve(self, *given):
+        found = super().solve(*given)
+        self.solved.append(found is not None)
+        return found
+
+
+def turned(solved: list[bool], monkeypatch: pytest.MonkeyPatch) -> np.ndarray:
+    """Displacements; whether Cholesky factors solved, each time that they were asked."""
+    Listening.solved = solved
+    monkeypatch.setattr(newton, "PositiveFactors", Listening)
+    history, seen, strain = stepped_tower("J2", TURNS, full=True)
+    assert history.solver == ("nested dissection" if solved else "SuperLU")
+    assert (strain > 0).any()
+    return seen.of("u")
+
+
+def test_both_lead_to_the_same_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    none, solved = [], []
+    monkeypatch.setattr(newton, "dissection_pays", lambda n: True)
+    found = turned(solved, monkeypatch)
+    monkeypatch.setattr(newton, "dissection_pays", lambda n: False)
+    expected = turned(none, monkeypatch)
+    assert not none
+    assert len(solved) > 2 * TURNS
+    assert all(solved)
+    assert np.abs(found - expected).max() <= 1e-9 * np.abs(expected).max()
+
+
+def test_what_is_not_positive_or_not_symmetric_is_left_to_others() -> None:
+    problem, _ = tower_on_clay("J2", 1)
+    n = problem.numbering.size
+    factors, load = PositiveFactors(problem), np.ones(n)
+    none, A = sp.csr_array((n, n)), sp.csr_array(sp.eye_array(n))
+    T = problem.constraints.T
+    assert np.allclose(factors.solve(A, none, load), T @ (T.T @ load))
+    assert factors.solve(-A, none, load) is None
+    rubs = sp.csr_array(([1.0], ([0], [1])), shape=(n, n))
+    assert factors.solve(A, rubs, load) is None

@@ -1,14 +1,18 @@
-"""What is told of a problem before it steps: loose and sunk bodies, swings, masses alone."""
+"""What is told of a problem before it steps: bodies, swings, masses alone, dampings, steps."""
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 from references.assembled import Bench
 from together import together
 
 from ssilang.kernel.curves.curve import Load
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.stepping.problem import plausibility, problem
+from ssilang.kernel.stepping.problem.bodies import full_uplift, loose_bodies
+from ssilang.kernel.stepping.problem.constraints import split_damping
 from ssilang.kernel.stepping.problem.plausibility import (
+    Resolution,
     Start,
     against_supports,
     contact_resolution,
@@ -230,3 +234,95 @@ def test_joints_of_several_bodies_share_the_push(normal):
     assert found.dt == pytest.approx(3e-3)
     if not normal[0]:
         assert stiffness_contrast(problem) == pytest.approx(4e5 / 2e6)  # of 1/70, 1/5 and 2
+
+
+@together("first", [0, 1])
+def test_each_body_at_a_joint_counts_the_points_that_touch_it(first):
+    """Two joints on three nodes above ground: two bodies meet on the first, one of them has mass.
+
+    A third, at a joint of two points, stands on a spring as well.
+    """
+    bench = Bench()
+    x = [0.0, 1.0, 2.5]
+    above, below = ([bench.node(v, 0.0) for v in x] for _ in range(2))
+    cells = [[above[k], above[k + 1], below[k], below[k + 1]] for k in (0, 1)]
+    bench.joint("RAC2", cells, "JOI2", KN=3e6, KS=1e6)
+    foot, head = bench.node(5.0, -1.0), bench.node(5.0, 0.0)
+    bench.joint("SEG2", [foot, head], "JOI1", KN=3e6, KS=1e6)
+    for node in (*below, foot):
+        bench.fix(node)
+    bench.spring(2e5, head)
+    bench.relate([(1.0, "UY", above[1]), (-1.0, "UY", above[2])])  # the second body
+    heavy = above[:1] if first == 0 else above[1:]
+    for node in heavy:
+        bench.mass(7.0, node)
+    problem = bench.problem(np.array([0.0, 1e-3]))
+    joints = problem.interface
+    tractions = np.zeros((joints.n_points, 2))
+    tractions[:, -1] = -1.0
+    line = np.flatnonzero((joints.B[:, -1] != 0.0).sum(axis=1) > 1)
+    assert len(line) == 4
+    tractions[line[:2], -1] = 0.0  # the first joint is open
+    one, two = sorted(loose_bodies(problem, tractions), key=lambda b: b.node)
+    assert (one.node, one.open_points, one.points) == (above[0], 2, 2)
+    assert (two.open_points, two.points) == (2, 4)
+    assert two.node == above[1]
+    masses = [7.0, 0.0] if first == 0 else [0.0, 14.0]
+    assert [one.mass, two.mass] == masses
+    assert (full_uplift(problem, tractions) or one) == one
+    assert (full_uplift(problem, tractions) is None) == (first == 0)
+    assert full_uplift(problem, 0.0 * tractions).node == (above[1] if first == 0 else above[0])
+    assert loose_bodies(problem, np.abs(tractions))[0].open_points == 2
+
+
+def chain(n=60):
+    K = 3e8 * sp.diags_array([-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=(-1, 0, 1))
+    M = sp.diags_array(
+        [np.full(n - 1, 1.0), np.full(n, 4.0), np.full(n - 1, 1.0)], offsets=(-1, 0, 1)
+    )
+    return sp.csr_array(K), sp.csr_array(M)
+
+
+@together("alpha, beta", [(0.7, 3e-4), (0.7, 0.0), (0.0, 3e-4)])
+@together("lumped", [True, False])
+@together("dashpots", [0, 9])
+def test_shares_and_rest(alpha, beta, lumped, dashpots):
+    K, M = chain()
+    if lumped:
+        M = sp.csr_array(sp.diags_array(M.sum(axis=1)))
+    extra = np.zeros(60)
+    extra[:dashpots] = 1e4
+    C = sp.csr_array(alpha * M + beta * K + sp.diags_array(extra))
+    a, b, rest = split_damping(C, M, K)
+    assert a == pytest.approx(alpha, rel=1e-11, abs=1e-9)
+    assert b == pytest.approx(beta, rel=1e-11, abs=1e-17)
+    if alpha or not lumped or dashpots == 0:
+        assert rest.nnz == dashpots
+    np.testing.assert_allclose(
+        (a * M + b * K + rest).toarray(), C.toarray(), atol=1e-12 * abs(C).max()
+    )
+
+
+def test_another_damping_is_all_rest():
+    K, M = chain()
+    C = sp.csr_array(sp.diags_array(np.random.default_rng(0).uniform(1.0, 2.0, 60)))
+    assert split_damping(C, M, K)[:2] == (0.0, 0.0)
+    assert split_damping(C, M, K)[2] is C
+    assert split_damping(sp.csr_array((60, 60)), M, K)[2].nnz == 0
+
+
+@together("size", [1e-12, 1e12])
+def test_dashpots_do_not_count_in_any_unit(size):
+    K, M = chain()
+    extra = np.zeros(60)
+    extra[:9] = 1e4
+    C = sp.csr_array(size * (0.7 * M + 3e-4 * K + sp.diags_array(extra)))
+    a, b, rest = split_damping(C, sp.csr_array(size * M), sp.csr_array(size * K))
+    assert (a, b, rest.nnz) == (pytest.approx(0.7, rel=1e-9), pytest.approx(3e-4, rel=1e-9), 9)
+
+
+@together("contact_time", [0.030, 0.0299, 0.0281, 0.02999])
+def test_a_step_that_is_told_as_the_limit_is_no_reason_to_warn(contact_time):
+    told = float(f"{Resolution(contact_time, 1.0).wanted_dt:.3g}")
+    assert Resolution(contact_time, told).resolved
+    assert not Resolution(contact_time, 1.02 * told).resolved
