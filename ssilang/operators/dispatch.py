@@ -121,9 +121,4 @@ def _unite(call: Call) -> Any:
 def unite_all(call: Call, holder: Any, values: list[Any]) -> Any:
     if not values:
         raise call.error("operators.tables.empty-table", holder)
-    total = values[0]
-    if len(values) == 1:
-        return total
-    for value in values[1:]:
-        total = united(call, total, value, call.span)
-    return total
+    return reduce(lambda total, value: united(call, total, value, call.span), values)

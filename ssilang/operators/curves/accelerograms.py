@@ -95,23 +95,13 @@ def chsp(
     return Curve(tuple(parts), spectrum.title)
 
 
-@operator(
-    "DSPR",
-    arg("power", "ENTIER", range=POSITIVE, en="2**N1 points"),
-    RECORD,
-    *LIMITS,
-    family="signals",
-)
+@operator("DSPR", POWER, RECORD, *LIMITS, family="signals")
 def dspr(
     call: Call, power: int, curve: Curve, lowest: float, highest: float, colour: str | None = COLOUR
 ) -> Curve:
     """Power density."""
-    if not 1 <= power <= 26:
-        raise call.error("operators.curves.power-of-two", power, power=power)
     part = one_part(call, curve)
-    step = constant_step(part.abscissas)
-    warn_of_points(call, part, 2**power)
-    warn_of_sampling(call, step, highest)
+    step = warned_step(call, part, 2**power, highest)
     f, y = power_density(part.ordinates, step, 2**power)
     kept = (f >= abs(lowest)) & (f <= (abs(highest) or np.inf))
     index = shade(colour, 0)

@@ -193,20 +193,12 @@ def _complex(call: Call, colours: list[int]) -> Curve:
         )  # fmt: skip
     kinds = ("PREE", "PIMA") if form == "REIM" else ("MODU", "PHAS")
     default = ("Re", "Im") if form == "REIM" else ("Amp", "Phi")
-    parts = tuple(
-        CurvePart(
-            x.values,
-            values[i],
-            x_name[:12],
-            names[i][:12],
-            legends[i] or default[i],
-            colours[min(i, len(colours) - 1)],
-            (),
-            kinds[i],
-        )
-        for i in range(2)
-    )
-    return Curve(parts, workspace(call.session).title, "COMPLEXE")
+    parts = []
+    for i, (name, y) in enumerate(zip(names, values, strict=True)):
+        legend, colour = legends[i] or default[i], colours[min(i, len(colours) - 1)]
+        part = CurvePart(x.values, y, x_name[:12], name[:12], legend, colour, (), kinds[i])
+        parts.append(part)
+    return Curve(tuple(parts), workspace(call.session).title, "COMPLEXE")
 
 
 # ---- along lines --------------------------------------------------------------------------------
@@ -401,24 +393,20 @@ def _in_a_cell(
     name = str(call.required("MOT")).rstrip()
     zone, cell, point = (call.given(_CELL) for _ in range(3))
     legend = f"{name} {zone} {cell} {point}"
+    recorded, values = None, list[float]()
     if isinstance(fields, instants.RecordedPoints):
         recorded = fields.history(name, zone, cell, point)
-        if recorded is not None:
-            part = CurvePart(times, recorded, "TEMP", name[:12], legend, colour)
-            return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
-        fields = [fields[0]]  # the others lack it too
-    values = []
+        fields = fields[:1] if recorded is None else ()  # the others lack it too
     for field in fields:
-        held = (
-            field.blocks[zone - 1].components.get(name) if 1 <= zone <= len(field.blocks) else None
-        )
-        if held is None or not 1 <= cell <= len(held) or point < 1:
+        held = field.blocks[zone - 1].components.get(name) if zone <= len(field.blocks) else None
+        if held is None or cell > len(held):
             raise call.error(
                 "operators.curves.no-value-at-point", name=name, zone=zone, cell=cell, point=point
             )
         row = held[cell - 1]
         values.append(float(row[min(point, len(row)) - 1]))
-    part = CurvePart(times, np.asarray(values), "TEMP", name[:12], legend, colour)
+    ordinates = np.asarray(values) if recorded is None else recorded
+    part = CurvePart(times, ordinates, "TEMP", name[:12], legend, colour)
     return Curve((part.measured("s", unit_of(name)),), workspace(call.session).title)
 
 
@@ -484,7 +472,7 @@ def results_in_time(
     held, times = table.get(index), table.get("TEMPS")
     if isinstance(held, Table) and isinstance(times, Table):
         steps = sorted(i for i, _ in held.items() if type(i) is int)
-        return [held.get(i) for i in steps], reals([times.get(i) for i in steps])
+        return [held.get(i) for i in steps], np.array([times.get(i) for i in steps], dtype=float)
     found = []
     if unmade and isinstance(table, LazyRows) and table.untouched:
         ready = table.stand_ins(index)
@@ -499,11 +487,7 @@ def results_in_time(
     if not found:
         raise KernelError("operators.curves.no-results-in-time", index=index)
     found.sort(key=lambda pair: float(str(pair[0])))
-    return [f for _, f in found], reals([t for t, _ in found])
-
-
-def reals(values: list[Any]) -> FloatArray:
-    return np.asarray(values, dtype=float)
+    return [f for _, f in found], np.array([t for t, _ in found], dtype=float)
 
 
 KINDS: Filled[str, Callable[[Call, list[int]], Curve]] = Filled("kinds of curves")

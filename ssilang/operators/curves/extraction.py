@@ -133,12 +133,6 @@ def _picked(curve: Curve, choose: Any, zero: bool = False) -> Curve:
     return replace(curve, parts=parts)
 
 
-def _every(call: Call, curve: Curve, step: int) -> Curve:
-    if step < 1:
-        raise call.error("operators.curves.step-of-points", step, step=step)
-    return _picked(curve, lambda p: slice(None, None, step))
-
-
 def _between(
     call: Call, curve: Curve, by_place: bool, low: float, high: float, zero: bool = False
 ) -> Curve:
@@ -160,7 +154,7 @@ _PARTS: dict[str, Any] = {
     "ABSC": lambda call, curve, place: abscissa_list(numbered(call, curve, place)),
     "ORDO": lambda call, curve, place: ordinate_list(numbered(call, curve, place)),
     "COUR": _curves,
-    "PAS": _every,
+    "PAS": lambda call, curve, step: _picked(curve, lambda p: slice(None, None, step)),
     "AVAN": partial(_between, low=-np.inf),
     "APRE": partial(_between, high=np.inf),
     "COMP": _between,

@@ -84,7 +84,7 @@ def zond(
 )
 def onde(
     call: Call,
-    power: int = Arg("ENTIER", range=POSITIVE, en="2**N1 points"),
+    power: int = Arg("ENTIER", range=between(1, 20), en="2**N1 points"),
     curve: Curve = CURVE,
     form: str = Choice(
         ("CRMO", "CRPH", "REIM", "MOPH"),
@@ -120,16 +120,13 @@ def onde(
     colour: str | None = COLOUR,
 ) -> Any:
     """Wavelet transform."""
-    if not 1 <= power <= 20:
-        raise call.error("operators.curves.power-of-two-of-wavelets", power, power=power)
     part, rows = one_part(call, curve), int(count[1])
-    if not 0.0 < lowest < highest or rows < 1 or pulsation <= 0.0:
+    if not 0.0 < lowest < highest or rows < 1:
         raise call.error("operators.curves.frequencies-must-increase", fmin=lowest, fmax=highest)
-    step, n = signals.constant_step(part.abscissas), 2**power
+    n = 2**power
     if n * (rows + 1) > 20_000_000:
         raise call.error("operators.curves.transform-too-large")
-    warn_of_points(call, part, n)
-    warn_of_sampling(call, step, highest)
+    step = warned_step(call, part, n, highest)
     scale = signals.scales(lowest, highest, rows, pulsation)
     found = signals.transform(part.ordinates, step, n, scale, pulsation)
     times = part.abscissas[0] + step * np.arange(n)

@@ -25,14 +25,13 @@ def spectrum(
     return Curve(parts, title, "COMPLEXE")
 
 
-_POWER = arg("power", "ENTIER", range=POSITIVE, en="2**N1 points")
 _REIM = "real and imaginary parts, or modulus and phase"
 _FORM = choice("form", ("REIM", "MOPH"), optional=False, en=_REIM)
 
 
 @operator(
     "TFR",
-    _POWER,
+    POWER,
     arg("signal", "EVOLUTIO", en="signal at constant step", over="s"),
     _FORM,
     *LIMITS,
@@ -49,24 +48,16 @@ def tfr(
     second_colour: str | None = Choice(COLOURS, en="colour of the second curve"),
 ) -> Curve:
     """Transform signals."""
-    _check_power(call, power)
     part = one_part(call, signal)
-    step = signals.constant_step(part.abscissas)
-    warn_of_points(call, part, 2**power)
-    warn_of_sampling(call, step, highest)
+    step = warned_step(call, part, 2**power, highest)
     f, values = signals.fourier(part.ordinates, step, 2**power)
     kept = (f >= lowest) & (f <= highest)
     shades = (shade(colour, 0), shade(second_colour, 0))
     return spectrum(f[kept], values[kept], form, shades, signal.title)
 
 
-def _check_power(call: Call, power: int) -> None:
-    if not 1 <= power <= 26:
-        raise call.error("operators.curves.power-of-two", power, power=power)
-
-
 @tfr.form(
-    _POWER,
+    POWER,
     arg("fields", "LISTCHPO", en="fields at constant step"),
     arg("times", "LISTREEL", en="their times", unit="s", range=ANY_NUMBER, usual=IN_ORDER),
     _FORM,
@@ -82,7 +73,6 @@ def tfr_of_fields(
     highest: float,
 ) -> tuple[ListChpo, ListChpo, ListReel]:
     """Transform fields: real and imaginary ones, and the frequencies."""
-    _check_power(call, power)
     held: list[Any] = fields.values
     if len(held) != len(times):
         told = {"n_fields": len(held), "n_times": len(times)}
@@ -126,7 +116,7 @@ _CUT = arg("cut", "FLOTTANT", en="cut-off frequency", unit="Hz", range=POSITIVE)
 @operator("FILT", family="signals", full_name="FILTRE")
 def filt(
     call: Call,
-    power: int = _POWER,
+    power: int = POWER,
     type: bool = Flag("TYPE", en="its type follows"),
     kind: Chosen | None = Cases(
         {
@@ -143,7 +133,7 @@ def filt(
     ),
 ) -> Curve:
     """Make a filter."""
-    if kind is None or spacing <= 0 or not 1 <= power <= 26:
+    if kind is None or spacing <= 0:
         raise call.error("operators.curves.filter-incomplete")
     f = spacing * np.arange(2 ** (power - 1) + 1)
     cut = kind["cut"]

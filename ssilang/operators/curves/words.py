@@ -3,19 +3,21 @@
 import re
 
 from ssilang.io.plots.palette import COLOURS, index_of
+from ssilang.kernel.records.signals import constant_step
 from ssilang.kernel.waves.shaken import strong_frequency
 from ssilang.operators.prelude import *
 
 __all__ = [
-    "COLOUR", "CURVE", "LIMITS", "RECORD", "axis_name", "check_together", "one_part",
+    "COLOUR", "CURVE", "LIMITS", "POWER", "RECORD", "axis_name", "check_together", "one_part",
     "read_colour", "read_colours", "shade", "warn_of_damping", "warn_of_motions", "warn_of_order",
-    "warn_of_points", "warn_of_rate", "warn_of_sampling", "warn_of_steps",
+    "warn_of_rate", "warn_of_steps", "warned_step",
 ]  # fmt: skip
 
 CONTENT = 0.99  # of a signal's energy: where it lies below half of what samples show, they do
 CURVE = arg("curve", "EVOLUTIO", en="curves")
 RECORD = arg("curve", "EVOLUTIO", en="curves", over="s")
 COLOUR = choice("colour", COLOURS, en="colour")
+POWER = arg("power", "ENTIER", range=between(1, 26), en="2**N1 points")
 LIMITS = (
     key(
         "lowest",
@@ -154,19 +156,17 @@ def axis_name(call: Call) -> str:
     return whole.text
 
 
-def warn_of_points(call: Call, part: CurvePart, points: int) -> None:
-    """Warn of a signal that is cut to so many points."""
+def warned_step(call: Call, part: CurvePart, points: int, highest: float) -> float:
+    """The step of a signal, warned of its cut to so many points, of frequencies above half its."""
+    step = constant_step(part.abscissas)
     if len(part.abscissas) > points + 1:  # a last point closes the period
         left = float(part.abscissas[points - 1])
         call.warn(
             "operators.curves.signal-cut", count=len(part.abscissas), points=points, time=left
         )
-
-
-def warn_of_sampling(call: Call, step: float, highest: float) -> None:
-    """Warn of frequencies above half that of the samples."""
     if np.isfinite(highest) and highest > 0.5 / step * (1.0 + 1e-6):
         call.warn("operators.curves.beyond-sampling", highest=highest, most=0.5 / step)
+    return step
 
 
 def warn_of_order(call: Call, abscissas: FloatArray) -> None:

@@ -134,9 +134,7 @@ def dess(call: Call, curves: tuple[Operand, ...], table: Table | None, **said: A
     pictures.tell_vain(call, vain)
     title = str(found.get("title") or curve.title)
     stem = pictures.picture_name(call.session, title, curves[0].name or "dess")
-    files = pictures.save_picture(
-        call.session, figure, stem, pictures.picture_formats(call.session, ("png", "svg"))
-    )
+    files = pictures.save_picture(call.session, figure, stem, ("png", "svg"))
     recording = run_output(call.session).recording
     if recording is not None:
         _take_down(recording, curve, options, title, [f.name for f in files])
@@ -220,7 +218,7 @@ def _settings(
 ) -> dict[str, Any]:
     """Options of the drawing from what DESS has read."""
     numbers = [[n] if isinstance(n, int) else n.values.tolist() for n in chosen]
-    found = {k: v for k, v in plain.items() if v is not None and v is not False and k not in _IDLE}
+    found = pictures.asked(plain)
     if plain["difference"] is False:
         found["difference"] = False
     found["chosen"] = tuple(n for several in numbers for n in several)
@@ -235,7 +233,6 @@ def _settings(
 
 
 _DASHES = len(DASHES) - 1  # last code of LIGNE_VARIABLE: 0 full, 1 to 5 TIRR TIRC TIRL TIRM POIN
-_IDLE = frozenset({"logo", "no_click"})  # of other programs' windows
 
 
 def _styles(call: Call, table: Table, sizes: list[int]) -> dict[str, Any]:

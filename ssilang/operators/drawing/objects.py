@@ -7,14 +7,10 @@ from ssilang.operators.dispatch import COUL, EXTR, union
 from ssilang.operators.prelude import *
 
 
-@union(("DEFORME", "DEFORME"))
-def _deformed_union(left: deformed.Deformed, right: deformed.Deformed) -> deformed.Deformed:
-    return deformed.Deformed(left.parts + right.parts)
-
-
-@union(("VECTEUR", "VECTEUR"))
-def _arrows_union(left: deformed.Arrows, right: deformed.Arrows) -> deformed.Arrows:
-    return deformed.Arrows(left.parts + right.parts)
+@union(("DEFORME", "DEFORME"), ("VECTEUR", "VECTEUR"))
+def together(left: Any, right: Any) -> Any:
+    """Shapes or arrows in one picture."""
+    return replace(left, parts=left.parts + right.parts)
 
 
 def is_colour(word: str) -> bool:
@@ -145,9 +141,7 @@ def amplification(
 ANNO = shared("ANNO", "drawing")
 
 
-@union(("ANNOTATI", "ANNOTATI"))
-def _both(left: Annotation, right: Annotation) -> Annotation:
-    return left.joined(right)
+union(("ANNOTATI", "ANNOTATI"))(Annotation.joined)
 
 
 @ANNO.form(said("CATE"))

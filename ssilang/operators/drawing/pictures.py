@@ -26,13 +26,20 @@ def picture_name(session: Session, title: str, fallback: str) -> str:
 
 
 def save_picture(
-    session: Session, figure: "Figure", name: str, formats: tuple[str, ...]
+    session: Session, figure: "Figure", name: str, usual: tuple[str, ...]
 ) -> list[Path]:
     """Write a figure under the next number; returns the files."""
     output = run_output(session)
-    files = output.pictures.save(figure, name, formats)
+    files = output.pictures.save(figure, name, picture_formats(session, usual))
     output.wrote(*files)
     return files
+
+
+def asked(options: dict[str, Any]) -> dict[str, Any]:
+    """Options that a statement gives, without those of other programs' windows."""
+    idle = ("no_click", "logo")
+    said = {k: v for k, v in options.items() if k not in idle}
+    return {k: v for k, v in said.items() if v is not None and v is not False}
 
 
 def tell_vain(call: Call, vain: Iterable[tuple[str, str]]) -> None:

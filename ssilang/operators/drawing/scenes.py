@@ -18,6 +18,7 @@ from ssilang.kernel.mesh.combine import union as united
 from ssilang.language.registry import words_in
 from ssilang.language.vocabulary.unit_systems import result_unit
 from ssilang.operators.drawing import pictures
+from ssilang.operators.drawing.objects import together
 from ssilang.operators.files.outputs import run_output
 from ssilang.operators.prelude import *
 
@@ -73,10 +74,6 @@ _OPTIONS: tuple[Entry, ...] = (
 )
 
 
-def _mesh(said: _Said, value: Any) -> None:
-    said.subjects.meshes.append(value)
-
-
 def _matrix(said: _Said, value: Any) -> None:
     cells, held = support_mesh(Matrix(value.table, value.blocks, ())), relation_nodes(value)
     parts = [cells] if cells.blocks else []
@@ -85,14 +82,10 @@ def _matrix(said: _Said, value: Any) -> None:
     said.subjects.meshes.append(united(*parts, as_given=True) if parts else cells)
 
 
-def _deformed(said: _Said, value: Deformed) -> None:
-    old = said.subjects.deformed
-    said.subjects.deformed = value if old is None else Deformed(old.parts + value.parts)
-
-
-def _arrows(said: _Said, value: Arrows) -> None:
-    old = said.subjects.arrows
-    said.subjects.arrows = value if old is None else Arrows(old.parts + value.parts)
+def _parts(said: _Said, value: Deformed | Arrows) -> None:
+    name = "deformed" if isinstance(value, Deformed) else "arrows"
+    old = getattr(said.subjects, name)
+    setattr(said.subjects, name, value if old is None else together(old, value))
 
 
 def _values(said: _Said, value: Any) -> None:
@@ -107,10 +100,10 @@ def _annotation(said: _Said, value: Annotation) -> None:
 
 
 _OBJECTS: dict[str, Callable[[_Said, Any], None]] = {
-    "MAILLAGE": _mesh,
+    "MAILLAGE": lambda said, value: said.subjects.meshes.append(value),
     "RIGIDITE": _matrix,
-    "DEFORME": _deformed,
-    "VECTEUR": _arrows,
+    "DEFORME": _parts,
+    "VECTEUR": _parts,
     "CHPOINT": _values,
     "MCHAML": _values,
     "MMODEL": lambda said, value: None,
@@ -159,9 +152,7 @@ def _said(
     **plain: Any,
 ) -> _Said:
     """Options of the picture from what TRAC has read."""
-    options = {
-        k: v for k, v in plain.items() if v is not None and v is not False and k not in _IDLE
-    }
+    options = pictures.asked(plain)
     aimed = None
     if direct:
         a, b, _ = (p.coordinates for p in options["beyond"])
@@ -176,9 +167,6 @@ def _said(
     if no_legend:
         options["legend"] = False
     return _Said(options=options, qualify=names, animation=animation or "", aimed=aimed)
-
-
-_IDLE = frozenset({"no_click", "logo"})  # of other programs' windows
 
 
 def _draw(call: Call, session: Session, said: _Said) -> None:
@@ -233,9 +221,7 @@ def _draw_files(
     stage = run_output(session).pictures.stage
     figure = draw_scene(made.layers, (view,), options, made.arrows, made.components, stage)
     stem = pictures.picture_name(session, options.title, "-".join(said.names[:3]) or "trac")
-    files = pictures.save_picture(
-        session, figure, stem, pictures.picture_formats(session, ("png",))
-    )
+    files = pictures.save_picture(session, figure, stem, ("png",))
     deformed = said.subjects.deformed
     if said.animation and deformed is not None and len(deformed.parts) > 1:
         frames = animation_frames(deformed, said.subjects, view, options, stage)

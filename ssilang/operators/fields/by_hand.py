@@ -10,13 +10,11 @@ from ssilang.kernel.fields.node_field import Nature
 from ssilang.kernel.materials.parameters import geometric_names, material_names
 from ssilang.kernel.statics.constitutive import variable_names
 from ssilang.operators.dispatch import MANU
+from ssilang.operators.fields.cell_supports import SUPPORTS
 from ssilang.operators.fields.components import NATURE, support_nodes
 from ssilang.operators.fields.signs import names_of, nature_of
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import on_zones
-
-_SUPPORTS: tuple[Support, ...] = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
-
 
 _TITLE = key("title", "TITRE", "MOT", en="title of the field")
 
@@ -74,8 +72,7 @@ def _on_nodes(
                 "operators.fields.values-per-point", value, n_values=len(value), n_nodes=len(nodes)
             )
         values = value.values if listed else np.full(len(nodes), float(value))
-        part = _merged(call, name, nodes, values, nature)
-        made[name] = part
+        made[name] = _merged(call, name, nodes, values, nature)
     return NodeField(support.nodes, made, nature, title)
 
 
@@ -159,8 +156,8 @@ def cell_field(
 ) -> CellField:
     """Field in cells from pairs of a component and its value, or zero but at one point."""
     at = points or integration or (position or "NOEUD").rstrip()
-    if at not in _SUPPORTS:
-        raise call.error("operators.fields.no-support", support=at, supports=_SUPPORTS)
+    if at not in SUPPORTS:
+        raise call.error("operators.fields.no-support", support=at, supports=SUPPORTS)
     kind = (title or "").rstrip()
     named = [(name.rstrip(), value) for name, value in pairs]
     if place:
@@ -238,7 +235,7 @@ def _cell_values(value: Any, n: int, deal: bool, taken: int) -> Any:
 
 
 _TITLES: dict[str, tuple[str, Support]] = {
-    **{support: ("SCALAIRE", support) for support in _SUPPORTS},
+    **{support: ("SCALAIRE", support) for support in SUPPORTS},
     "DEPLACEM": ("DEPLACEMENTS", "NOEUD"),
     "FORCES": ("FORCES", "NOEUD"),
     "TEMPERAT": ("TEMPERATURES", "NOEUD"),
@@ -271,10 +268,6 @@ _NAMES: dict[str, Callable[[Zone], tuple[str, ...]]] = {
 """Names of components in a zone, by the word for a kind of field."""
 
 
-def _names(zone: Zone, what: str) -> tuple[str, ...]:
-    return _NAMES[what](zone) if what in _NAMES else ("SCAL",)
-
-
 @operator("ZERO", family="fields")
 def zero(
     call: Call,
@@ -291,7 +284,7 @@ def zero(
             s = len(family_of(zone).strain_names(zone))
             return hooke_block(zone, np.zeros((1, n_points(zone.element, support), s, s)), support)
         shape = (len(zone.cells), n_points(zone.element, support))
-        components = {n: np.zeros(shape) for n in _names(zone, word)}
-        return zone.block(components, support)
+        names = _NAMES[word](zone) if word in _NAMES else ("SCAL",)
+        return zone.block({n: np.zeros(shape) for n in names}, support)
 
     return on_zones(model, title, make)

@@ -5,7 +5,7 @@ from ssilang.kernel.fields.cell_algebra import united
 from ssilang.operators.dispatch import CHAN, COOR, REDU
 from ssilang.operators.prelude import *
 
-SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
+SUPPORTS: tuple[Support, ...] = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
 _TITLE = opt("title", "MOT", en="sub-type of the result")
@@ -17,6 +17,15 @@ def _trimmed(title: str | None) -> str | None:
     return None if title is None else str(title).rstrip()
 
 
+def placed(
+    model: Model, field: NodeField | CellField, support: Support, title: str | None = None
+) -> CellField:
+    """A field at the points of a support of a model's cells."""
+    if isinstance(field, NodeField):
+        return supports.cells_of_nodal(model, field, support, title or "")
+    return supports.moved(model, field, support, title)
+
+
 @CHAN.form(said(*SUPPORTS))
 def chan_support(
     word: str,
@@ -25,9 +34,7 @@ def chan_support(
     title: str | None = _TITLE,
 ) -> CellField:
     """Another support."""
-    if isinstance(field, NodeField):
-        return supports.cells_of_nodal(model, field, cast(Support, word), _trimmed(title) or "")
-    return supports.moved(model, field, cast(Support, word), _trimmed(title))
+    return placed(model, field, cast(Support, word), _trimmed(title))
 
 
 @CHAN.form(said("CHAM"))
@@ -43,9 +50,7 @@ def chan_cells(
         if support != "NOEUD":
             call.warn("operators.fields.mesh-has-nodes-alone", support=support)
         return supports.cells_of_mesh(place, cast(NodeField, field), _trimmed(title) or "")
-    if isinstance(field, CellField):
-        return supports.moved(place, field, cast(Support, support), _trimmed(title))
-    return supports.cells_of_nodal(place, field, cast(Support, support), _trimmed(title) or "")
+    return placed(place, field, cast(Support, support), _trimmed(title))
 
 
 @CHAN.form(said("CHPO"))

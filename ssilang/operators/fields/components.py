@@ -119,8 +119,7 @@ def _renamed(
 
 
 def _with_nature(call: Call, field: NodeField, word: str | None) -> NodeField:
-    nature = nature_of(call, word)
-    return field if nature is None else node_algebra.rebuilt(field, field.components, nature)
+    return node_algebra.rebuilt(field, field.components, nature_of(call, word))
 
 
 CHAN.form(said("COMP"), *_NEW_NAMES, of=_FIELDS, gives=Like("field"))(nomc.forms[0].function)
@@ -155,9 +154,7 @@ def change_constituent(
 ) -> CellField:
     """Another constituent."""
     name = constituent.rstrip()
-    blocks = tuple(
-        CellFieldBlock(b.cells, b.components, b.support, b.element, name) for b in field.blocks
-    )
+    blocks = tuple(replace(b, constituent=name) for b in field.blocks)
     return CellField(blocks, field.title)
 
 

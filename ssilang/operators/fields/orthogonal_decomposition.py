@@ -47,19 +47,17 @@ def pod_of_table(
     call: Call, result: Table, entry: str | None, **said: Any
 ) -> Table | tuple[ListChpo, ListReel]:
     """Orthogonal decomposition of the fields of a result."""
-    if entry is not None:
-        names = [entry.rstrip().upper()]
-    else:
-        names = ["DEPLACEMENTS"] if result.has(Mot("DEPLACEMENTS")) else ["DEPL"]
-    inner = result.get(Mot(names[0]))
+    usual = "DEPLACEMENTS" if result.has("DEPLACEMENTS") else "DEPL"
+    word = Mot(usual if entry is None else entry.rstrip().upper())
+    inner = result.get(word)
     source = inner if isinstance(inner, Table) else result
     found = {}
     for index, value in source.items():
-        item = value.get(Mot(names[0])) if isinstance(value, Table) else value
+        item = value.get(word) if isinstance(value, Table) else value
         if type(index) is int and isinstance(item, NodeField):
             found[index] = item
     if not found:
-        raise call.error("operators.fields.table-has-no-fields", result, name=names[0])
+        raise call.error("operators.fields.table-has-no-fields", result, name=word)
     return _decomposed(call, result, dict(sorted(found.items())), **said)
 
 
@@ -77,7 +75,7 @@ def _decomposed(
 ) -> Table | tuple[ListChpo, ListReel]:
     if not fields:
         raise call.error("operators.fields.no-field-to-decompose", held)
-    if count < 1 or method is None:
+    if method is None:
         raise call.error("operators.fields.pod-method-and-count")
     if numbers is not None:
         missing = [int(i) for i in numbers.values if int(i) not in fields]

@@ -82,7 +82,7 @@ def _multiply(call: Call, sign: str, a: NodeField, b: NodeField) -> NodeField:
     said = call.keyword(("NATU",))
     word = None if said is None else call.required("MOT", after=call.keyword_end)
     nature = nature_of(call, word)
-    return made if nature is None else node_algebra.rebuilt(made, made.components, nature)
+    return node_algebra.rebuilt(made, made.components, nature)
 
 
 def _power(call: Call, x: FloatArray, exponent: float) -> FloatArray:
@@ -107,12 +107,8 @@ def _with_number(sign: str, x: Any, number: float, left: bool) -> Any:
     return _ARRAY[sign](number, x) if left else _ARRAY[sign](x, number)
 
 
-def _node_number(sign: str, field: NodeField, number: float) -> NodeField:
-    return node_algebra.applied(field, lambda x: _with_number(sign, x, float(number), False))
-
-
-def _number_node(sign: str, number: float, field: NodeField) -> NodeField:
-    return node_algebra.applied(field, lambda x: _with_number(sign, x, float(number), True))
+def _scaled(sign: str, field: NodeField, number: float, left: bool) -> NodeField:
+    return node_algebra.applied(field, lambda x: _with_number(sign, x, float(number), left))
 
 
 def _node_power(call: Call, sign: str, field: NodeField, number: float) -> NodeField:
@@ -120,9 +116,9 @@ def _node_power(call: Call, sign: str, field: NodeField, number: float) -> NodeF
 
 
 for _kind in ("ENTIER", "FLOTTANT"):
-    rule("+ - * /", "CHPOINT", _kind)(_node_number)
+    rule("+ - * /", "CHPOINT", _kind)(lambda sign, a, b: _scaled(sign, a, b, False))
     rule_with_call("**", "CHPOINT", _kind)(_node_power)
-    rule(SIGNS, _kind, "CHPOINT")(_number_node)
+    rule(SIGNS, _kind, "CHPOINT")(lambda sign, a, b: _scaled(sign, b, a, True))
 
 
 @INVE.form()
@@ -206,13 +202,10 @@ def _stresses(model: Model, matrices: CellField, strains: CellField) -> CellFiel
 
 
 @rule_with_call("* /", "MMODEL", "MCHAML")
-def _model_first(call: Call, sign: str, model: Model, a: CellField) -> CellField:
-    return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
-
-
 @rule_with_call("* /", "MCHAML", "MMODEL")
-def _model_second(call: Call, sign: str, a: CellField, model: Model) -> CellField:
-    return _multiply_cells(call, sign, a, call.required("MCHAML"), model)
+def _with_model(call: Call, sign: str, left: Any, right: Any) -> CellField:
+    model, field = (left, right) if isinstance(left, Model) else (right, left)
+    return _multiply_cells(call, sign, field, call.required("MCHAML"), model)
 
 
 def _cell_number(
@@ -234,13 +227,9 @@ def _cell_number(
     return cell_algebra.applied(field, made, names, objects=True)
 
 
-def _number_cell(call: Call, sign: str, number: float, field: CellField) -> CellField:
-    return _cell_number(call, sign, field, number, True)
-
-
 for _kind in ("ENTIER", "FLOTTANT"):
     rule_with_call(SIGNS, "MCHAML", _kind)(_cell_number)
-    rule_with_call(SIGNS, _kind, "MCHAML")(_number_cell)
+    rule_with_call(SIGNS, _kind, "MCHAML")(lambda c, sign, a, b: _cell_number(c, sign, b, a, True))
 
 
 # ---- PSCA ---------------------------------------------------------------------------------------

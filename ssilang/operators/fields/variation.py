@@ -2,13 +2,11 @@
 
 from ssilang.kernel.curves.algebra import beyond, interpolated
 from ssilang.kernel.curves.cloud import Cloud
-from ssilang.kernel.elements.results.supports import cells_of_nodal, moved
 from ssilang.kernel.fields import cell_algebra, node_algebra
 from ssilang.kernel.mesh.mesh import same_cells
 from ssilang.operators.curves.words import one_part
+from ssilang.operators.fields.cell_supports import SUPPORTS, placed
 from ssilang.operators.prelude import *
-
-_SUPPORTS = ("NOEUD", "GRAVITE", "RIGIDITE", "MASSE", "STRESSES")
 
 
 def argument_name(names: list[str], part: CurvePart) -> str:
@@ -27,7 +25,7 @@ def argument_name(names: list[str], part: CurvePart) -> str:
     raise FieldError("operators.fields.no-component-is-abscissa", names=names, wanted=wanted)
 
 
-_SUPPORT = choice("support", _SUPPORTS, default="RIGIDITE", en="points of the result")
+_SUPPORT = choice("support", SUPPORTS, default="RIGIDITE", en="points of the result")
 _LAW = arg("curve", "EVOLUTIO", en="law of variation")
 
 
@@ -64,13 +62,6 @@ def vari_at_nodes(
     _warn_beyond(call, part, given.values)
     values = interpolated(part.abscissas, part.ordinates, given.values)
     return node_algebra.rebuilt(field, {name or "SCAL": NodeValues(given.nodes, values)})
-
-
-def placed(model: Model, field: NodeField | CellField, support: Support) -> CellField:
-    """A field at the points of a support of a model's cells."""
-    if isinstance(field, NodeField):
-        return cells_of_nodal(model, field, support)
-    return moved(model, field, support, None)
 
 
 def _warn_beyond(call: Call, part: CurvePart, at: FloatArray) -> None:

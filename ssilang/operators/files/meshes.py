@@ -162,7 +162,7 @@ def _parts_of(call: Call, given: Any) -> tuple[list[Mesh], dict[str, Any]]:
     """The whole, where there is one, and the named parts."""
     if isinstance(given, Mesh):
         found = call.session.frame.named().items()
-        return [given], {n: v for n, v in found if _lies_on(v, given)}
+        return [given], {n: v for n, v in found if lies_on(v, given)}
     entries = {str(i).strip(): v for i, v in given.items() if isinstance(i, str)}
     whole = [v for n in ("MAILLAGE", "TOTAL") if isinstance(v := entries.get(n), Mesh)]
     skipped = ("MAILLAGE", "TOTAL", "NOEUDS")
@@ -172,7 +172,8 @@ def _parts_of(call: Call, given: Any) -> tuple[list[Mesh], dict[str, Any]]:
     }  # fmt: skip
 
 
-def _lies_on(value: Any, mesh: Mesh) -> bool:
+def lies_on(value: Any, mesh: Mesh) -> bool:
+    """Whether a value is a point or a part of a mesh."""
     ids = value.sorted_node_ids if isinstance(value, Mesh | Point) else ()
     return len(ids) > 0 and bool(np.isin(ids, mesh.sorted_node_ids).all())
 

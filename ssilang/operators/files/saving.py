@@ -40,10 +40,6 @@ def _fill_table(made: Table, pairs: Any) -> None:
         made.set(index, value)
 
 
-def _pack_objet(value: Objet) -> Any:
-    return [value.class_name, value.attributes, value.methods]
-
-
 def _fill_objet(made: Objet, parts: Any) -> None:
     made.class_name, attributes, methods = parts
     if not isinstance(made.class_name, str):
@@ -99,15 +95,15 @@ register_packing(Annule, "Annule", Packing(lambda _: None, lambda _: Annule()))
 register_packing(Solution, "Solution", _SOLUTION)
 register_packing(Texte, "Texte", Packing(lambda v: print_items(v.items), _texte))
 register_packing(Procedure, "Procedure", Packing(_source_of, _procedure))
+_TABLE = Packing(
+    lambda t: [list(p) for p in t.items()], lambda _: Table(), _fill_table, mutable=True
+)
 for _table in (Table, LazyTable, LazyRows):  # what is made later is made to be saved
-    register_packing(
-        _table,
-        "Table",
-        Packing(
-            lambda t: [list(p) for p in t.items()], lambda _: Table(), _fill_table, mutable=True
-        ),
-    )
-register_packing(Objet, "Objet", Packing(_pack_objet, lambda _: Objet(), _fill_objet, mutable=True))
+    register_packing(_table, "Table", _TABLE)
+_OBJET = Packing(
+    lambda o: [o.class_name, o.attributes, o.methods], lambda _: Objet(), _fill_objet, mutable=True
+)
+register_packing(Objet, "Objet", _OBJET)
 
 
 # ---- SAUV

@@ -1,6 +1,5 @@
 """SORT: what it writes, by the word that follows; its text formats CSV and CHAI."""
 
-import math
 from pathlib import Path
 
 from ssilang.io.tables import Column, csv_lines
@@ -43,10 +42,8 @@ def _exce(
         {"SEPA": [choice("sign", tuple(_SEPARATORS), optional=False)]}, en="separator"
     ),
 ) -> None:
-    options: dict[str, Any] = {}
-    for name, n in (("width", width), ("digits", digits)):
-        if n is not None:
-            options[name] = n
+    given = {"width": width, "digits": digits}
+    options: dict[str, Any] = {name: n for name, n in given.items() if n is not None}
     if separator is not None:
         options["separator"] = _SEPARATORS[separator["sign"]]
     units = workspace(call.session).units
@@ -86,15 +83,12 @@ def _chai(call: Call, word: str) -> None:
 def _bila(
     call: Call,
     name: str = Lead("MOT", en="name of the figure"),
-    value: float = Arg("FLOTTANT", en="figure", range=CARRIED),
-    expected: float | None = Opt("FLOTTANT", en="value expected", range=CARRIED),
+    value: float = Arg("FLOTTANT", en="figure", range=ANY_NUMBER),
+    expected: float | None = Opt("FLOTTANT", en="value expected", range=ANY_NUMBER),
     tolerance: float | None = Opt("FLOTTANT", range=NOT_NEGATIVE, en="largest distance to it"),
 ) -> None:
     if expected is not None and tolerance is None:
         raise call.missing(("FLOTTANT",))
-    for number in (value, expected, tolerance):
-        if number is not None and not math.isfinite(number):
-            raise call.error("operators.files.figure-not-finite", number, name=str(name).strip())
     said, checks = str(name).strip(), call.session.checks
     before = next((c.value for c in checks if c.name == said), value)
     if before != value and expected is None:  # checks may bear one name

@@ -10,7 +10,7 @@ from ssilang.io.mesh_files.decks import abaqus_lines, nastran_lines
 from ssilang.io.mesh_files.unv_stl import stl_lines
 from ssilang.kernel.mesh.changes.local_refinement import parted
 from ssilang.kernel.mesh.combine import poi1
-from ssilang.operators.files.meshes import PLANE, mesh_table
+from ssilang.operators.files.meshes import PLANE, lies_on, mesh_table
 from ssilang.operators.files.outputs import input_path, option_name, run_output
 from ssilang.operators.files.reading import LIRE
 from ssilang.operators.files.saving import check_settings
@@ -28,11 +28,16 @@ def _avs(
     time: float | None = Key("TEMP", "FLOTTANT", range=ANY_NUMBER, en="time, in s"),
 ) -> None:
     support = _support(call, mesh, nodal, cells)
+    lines = avs_lines(structure_of(support, nodal, cells, time))
+    _write(call, lines, ".inp", follows=follows)
+
+
+def _write(call: Call, lines: list[str], suffix: str, *also: str, follows: bool = False) -> None:
+    """Put lines into the file of OPTI SORT, in place of what it holds or behind it."""
     output = run_output(call.session)
     if not follows:
         output.reopen("SORT")
-    lines = avs_lines(structure_of(support, nodal, cells, time))
-    output.add_lines("SORT", target_path(call, ".inp"), lines)
+    output.add_lines("SORT", target_path(call, suffix, also), lines)
 
 
 def _support(
@@ -50,9 +55,7 @@ def _support(
 
 @SORT.form(said("STL"))
 def _stl(call: Call, mesh: Mesh = Arg("MAILLAGE", en="surface of TRI3")) -> None:
-    output = run_output(call.session)
-    output.reopen("SORT")
-    output.add_lines("SORT", target_path(call, ".stl"), stl_lines(mesh))
+    _write(call, stl_lines(mesh), ".stl")
 
 
 _MESH = arg("mesh", "MAILLAGE", en="mesh")
@@ -62,18 +65,12 @@ _MESH = arg("mesh", "MAILLAGE", en="mesh")
 def _abaq(call: Call, mesh: Mesh = _MESH) -> None:
     ws = workspace(call.session)
     plane = PLANE.get(ws.mode, "CPE") if ws.dimension == 2 else ""
-    lines = abaqus_lines(parted(mesh)[0], plane)
-    output = run_output(call.session)
-    output.reopen("SORT")
-    output.add_lines("SORT", target_path(call, ".inp"), lines)
+    _write(call, abaqus_lines(parted(mesh)[0], plane), ".inp")
 
 
 @SORT.form(said("NAS"))
 def _nas(call: Call, mesh: Mesh = _MESH) -> None:
-    lines = nastran_lines(parted(mesh)[0])
-    output = run_output(call.session)
-    output.reopen("SORT")
-    output.add_lines("SORT", target_path(call, ".bdf", (".nas",)), lines)
+    _write(call, nastran_lines(parted(mesh)[0]), ".bdf", ".nas")
 
 
 @SORT.form(said("MAT"))
@@ -114,10 +111,8 @@ def _sort_mesh(
 ) -> None:
     frame = call.session.frame
     encoder = Encoder()
-    names = {}
-    for name, value in frame.named().items():
-        if value is mesh or _is_part(value, mesh):
-            names[name] = encoder.encode(value)
+    held = {n: v for n, v in frame.named().items() if v is mesh or lies_on(v, mesh)}
+    names = {name: encoder.encode(value) for name, value in held.items()}
     if not any(frame.find(name) is mesh for name in names):
         names["MAILLAGE"] = encoder.encode(mesh)
     path = target_path(call)
@@ -126,14 +121,6 @@ def _sort_mesh(
         path, encoder.objects, encoder.arrays, [Record("", names)], {"DIME": ws.dimension}
     )
     run_output(call.session).wrote(path)
-
-
-def _is_part(value: Any, mesh: Mesh) -> bool:
-    if isinstance(value, Point):
-        return bool(np.isin(value.node, mesh.sorted_node_ids))
-    if isinstance(value, Mesh) and value.blocks:
-        return bool(np.isin(value.sorted_node_ids, mesh.sorted_node_ids).all())
-    return False
 
 
 @LIRE.form(gives="TABLE|")

@@ -111,19 +111,13 @@ def _one_file(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]
 
 def _files(output: RunOutput, path: Path, said: _Said, parts: tuple[str, ...]) -> Series:
     """The series of .vtu files to which the step is added."""
-    begun = output.series.get(path)
-    if begun is not None and begun.one_file:
-        begun = None
-    time = said.time or 0.0
-    if said.listing == "SUIT" and begun is None:
-        begun = SeriesWriter(path, said.encoding, resume=True, constants=said.constants)
-    elif said.listing == "NOUV" or (
-        said.listing == "AUTO" and begun is not None and not begun.accepts(time, parts)
-    ):
-        begun = None
-    if begun is None:
-        listed = said.listing != "NPVD"
-        begun = SeriesWriter(path, said.encoding, listed=listed, constants=said.constants)
+    begun, time = output.series.get(path), said.time or 0.0
+    anew = begun is None or begun.one_file or said.listing == "NOUV"
+    if begun is None or anew or (said.listing == "AUTO" and not begun.accepts(time, parts)):
+        begun = SeriesWriter(
+            path, said.encoding, resume=said.listing == "SUIT", listed=said.listing != "NPVD",
+            constants=said.constants,
+        )  # fmt: skip
     output.keep_series(begun)
     return begun
 

@@ -1,6 +1,6 @@
 """Items of lists by their places: EXTR ENLE INSE REMP SOMM DIME INVE COPI, ET."""
 
-from itertools import accumulate
+from itertools import accumulate, chain
 
 from ssilang.operators.curves.instants import refused_place, tell_zero
 from ssilang.operators.dispatch import COPI, DIME, ENLE, EXTR, INVE, union
@@ -229,13 +229,14 @@ def _copy(value: AnyList = _LIST) -> Any:
 # ---- ET ---------------------------------------------------------------------------------------
 
 
-def _check_joined(a: Any, b: Any) -> None:
-    """A loop of `L = L ET L` is stopped long before it fills the memory."""
-    check_length(sum(len(v) if isinstance(v, AnyList) else 1 for v in (a, b)))
+def _held(lists: Any, a: Any, b: Any) -> list[Any]:
+    """What two lists hold, or a list and an item, or two.
 
-
-def _array(value: Any) -> Any:
-    return value.values if isinstance(value, ListReel | ListEnti) else [value]
+    A loop of `L = L ET L` is stopped long before it fills the memory.
+    """
+    held = [v.values if isinstance(v, lists) else [v] for v in (a, b)]
+    check_length(sum(map(len, held)))
+    return held
 
 
 @union(
@@ -245,38 +246,23 @@ def _array(value: Any) -> Any:
     ("FLOTTANT", "FLOTTANT"), ("ENTIER", "FLOTTANT"), ("FLOTTANT", "ENTIER"),
 )  # fmt: skip
 def _join_reals(a: Any, b: Any) -> ListReel:
-    _check_joined(a, b)
-    made = ListReel()
-    made.values = np.concatenate((_array(a), _array(b))).astype(float, copy=False)
-    return made
+    return ListReel.of(np.concatenate(_held(ListReel | ListEnti, a, b)).astype(float, copy=False))
 
 
 @union(("LISTENTI", "LISTENTI"), ("LISTENTI", "ENTIER"), ("ENTIER", "LISTENTI"), ("ENTIER",) * 2)
 def _join_integers(a: Any, b: Any) -> ListEnti:
-    _check_joined(a, b)
-    made = ListEnti()
-    made.values = np.concatenate((_array(a), _array(b))).astype(np.int64, copy=False)
-    return made
+    return ListEnti(np.concatenate(_held(ListReel | ListEnti, a, b)))
 
 
 @union(("LISTCHPO", "LISTCHPO"), ("LISTCHPO", "CHPOINT"), ("CHPOINT", "LISTCHPO"))
 def _join_fields(a: Any, b: Any) -> ListChpo:
-    _check_joined(a, b)
-    made = ListChpo()
-    made.values = [*_objects(a), *_objects(b)]
-    return made
-
-
-def _objects(value: Any) -> list[Any]:
-    return value.values if isinstance(value, ListChpo | ListObje) else [value]
+    return ListChpo(chain(*_held(ListChpo | ListObje, a, b)))
 
 
 @union(("LISTOBJE", "*"), ("*", "LISTOBJE"))
 def _join_objects(a: Any, b: Any) -> ListObje:
     """A LISTOBJE with a list or an object of the same type."""
-    _check_joined(a, b)
-    made = ListObje()
-    made.values = [*_objects(a), *_objects(b)]
+    made = ListObje(chain(*_held(ListChpo | ListObje, a, b)))
     kinds = dict.fromkeys(type_of(v) for v in made.values)
     if len(kinds) > 1:
         raise KernelError("operators.lists.objects-of-one-type", kinds=kinds)

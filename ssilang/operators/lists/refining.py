@@ -18,13 +18,12 @@ RAFF.form(
 
 @RAFF.form()
 def _refined_by_number(
-    call: Call,
     value: ListReel = _LIST,
     number: int = Arg(
         "ENTIER", en="parts of each interval, negative for graded ones", range=NOT_ZERO
     ),
 ) -> ListReel:
-    values, lengths = _intervals(call, value)
+    values, lengths = _intervals(value)
     check_length(abs(float(number)) * len(lengths))
     if number > 0:
         return ListReel(_joined(values, [_even(number)] * (len(values) - 1)))
@@ -45,20 +44,17 @@ def _refined_by_number(
 
 @RAFF.form()
 def _refined_by_size(
-    call: Call,
     value: ListReel = _LIST,
     size: float = Arg("FLOTTANT", en="size wanted", range=POSITIVE),
 ) -> ListReel:
-    values, lengths = _intervals(call, value)
+    values, lengths = _intervals(value)
     check_length(float(np.sum(lengths / size)))
     return ListReel(_joined(values, [_even(max(1, math.floor(d / size + 0.5))) for d in lengths]))
 
 
-def _intervals(call: Call, value: ListReel) -> tuple[FloatArray, FloatArray]:
+def _intervals(value: ListReel) -> tuple[FloatArray, FloatArray]:
     """Values of a list and the lengths between them."""
     values = np.asarray(value.values, dtype=float)
-    if not np.isfinite(values).all():
-        raise call.error("operators.lists.finite-numbers")
     return values, np.abs(np.diff(values))
 
 

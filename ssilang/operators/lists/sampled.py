@@ -54,27 +54,22 @@ def cvol(
     ),
 ) -> ListReel:
     """Convolution."""
-    return ListReel(_convolved(call, signal.values, response.values, before, ends == "SYME"))
-
-
-def _convolved(
-    call: Call, signal: FloatArray, response: FloatArray, before: int | None, mirrored: bool
-) -> FloatArray:
+    samples, kernel, mirrored = signal.values, response.values, ends == "SYME"
     if before is None:
-        before = len(response) - 1
-        response = np.concatenate([response[:0:-1], response])
-    after = len(response) - 1 - before
-    if len(response) == 0 or before < 0 or after < 0:
+        before = len(kernel) - 1
+        kernel = np.concatenate([kernel[:0:-1], kernel])
+    after = len(kernel) - 1 - before
+    if len(kernel) == 0 or before < 0 or after < 0:
         raise call.error(
-            "operators.lists.response-too-short", n_response=len(response), before=before
+            "operators.lists.response-too-short", n_response=len(kernel), before=before
         )
-    if mirrored and max(before, after) > len(signal) - 1:
+    if mirrored and max(before, after) > len(samples) - 1:
         raise call.error(
-            "operators.lists.signal-too-short", n_signal=len(signal), before=max(before, after)
+            "operators.lists.signal-too-short", n_signal=len(samples), before=max(before, after)
         )
     # value k needs the signal from k - after to k + before
-    padded = np.pad(signal, (after, before), "reflect" if mirrored else "constant")
-    return np.convolve(padded, response, "valid")
+    padded = np.pad(samples, (after, before), "reflect" if mirrored else "constant")
+    return ListReel(np.convolve(padded, kernel, "valid"))
 
 
 def _special(kind: str, name: str, x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -115,11 +110,9 @@ def fonc(
 
 @operator("ZLEG", family="lists")
 def zleg(
-    call: Call, degree: int = Arg("ENTIER", en="degree", range=NOT_NEGATIVE)
+    degree: int = Arg("ENTIER", en="degree", range=between(1, 500)),
 ) -> tuple[ListReel, ListReel]:
     """Lobatto's quadrature."""
-    if not 1 <= degree <= 500:
-        raise call.error("operators.lists.degree", degree, degree=degree)
     legendre = np.polynomial.legendre.Legendre.basis(degree)
     inner = np.sort(legendre.deriv().roots().real) if degree > 1 else np.zeros(0)
     x = np.concatenate([[-1.0], inner, [1.0]])

@@ -66,7 +66,9 @@ def _power(_sign: str, matrix: Matrix, power: float) -> Matrix:
 
 
 @rule_with_call("*", "RIGIDITE", "CHPOINT")
-def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> NodeField:
+@rule_with_call("*", "CHPOINT", "RIGIDITE")
+def _times_field(call: Call, _sign: str, left: Any, right: Any) -> NodeField:
+    matrix, field = (left, right) if isinstance(left, Matrix) else (right, left)
     _warn_of_other_names(call, matrix, field)
     made = product(matrix, field)
     if flaw_of(made) and not flaw_of(field):  # sparse products raise no flag
@@ -74,11 +76,6 @@ def _times_field(call: Call, _sign: str, matrix: Matrix, field: NodeField) -> No
     if matrix.kind.startswith("MASS"):
         workspace(call.session).origins[made] = (), field
     return made
-
-
-@rule_with_call("*", "CHPOINT", "RIGIDITE")
-def _field_times(call: Call, sign: str, field: NodeField, matrix: Matrix) -> NodeField:
-    return _times_field(call, sign, matrix, field)
 
 
 def _warn_of_other_names(call: Call, matrix: Matrix, field: NodeField) -> None:
@@ -104,9 +101,7 @@ def _difference(_sign: str, left: Matrix, right: Matrix) -> Matrix:
     return parts.together(left, right.scaled(-1.0))
 
 
-@union(("RIGIDITE", "RIGIDITE"))
-def _both(left: Matrix, right: Matrix) -> Matrix:
-    return parts.together(left, right)
+union(("RIGIDITE", "RIGIDITE"))(parts.together)
 
 
 # --- parts -----------------------------------------------------------------------------------
@@ -267,28 +262,24 @@ def imaginary_names(
 @CHAN.form(
     said("INCO"),
     _CHANGED,
+    *(arg(name, "MOT", kind="component", en=en) for name, en in _FOUR),
+    *_SHAPE,
+    of=("RIGIDITE",),
+)
+@CHAN.form(
+    said("INCO"),
+    _CHANGED,
     *(arg(name, "LISTMOTS", en=en) for name, en in _FOUR),
     *_SHAPE,
     of=("RIGIDITE",),
 )
 def other_names(
-    call: Call, matrix: Matrix, shape: str | None, own: bool, **names: ListMots
+    call: Call, matrix: Matrix, shape: str | None, own: bool, **names: ListMots | str
 ) -> Matrix:
-    """Other names, from lists."""
-    lists = [[str(w).rstrip() for w in names[name].values] for name, _ in _FOUR]
-    return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
-
-
-@CHAN.form(
-    said("INCO"),
-    _CHANGED,
-    *(arg(name, "MOT", kind="component", en=en) for name, en in _FOUR),
-    *_SHAPE,
-    of=("RIGIDITE",),
-)
-def other_name(call: Call, matrix: Matrix, shape: str | None, own: bool, **names: str) -> Matrix:
-    """Other names of one unknown and one equation."""
-    lists = [[names[name].upper().rstrip()] for name, _ in _FOUR]
+    """Other names."""
+    given = [names[name] for name, _ in _FOUR]
+    words = [g.values if isinstance(g, ListMots) else [g.upper()] for g in given]
+    lists = [[str(w).rstrip() for w in own] for own in words]
     return _renamed(matrix, *_name_changes(call, matrix, lists), shape, own)
 
 

@@ -123,8 +123,7 @@ def rigi(call: Call, model: Model, fields: tuple[CellField, ...], silent: bool) 
     if any(z.formulation == "CONTACT" for z in model.zones):
         # bodies, and the unilateral relations of sides
         material = joined(fields) if fields else None
-        rubbing = next((z for z in model.zones if z.behaviour[:1] == ("FROTTANT",)), None)
-        if rubbing is not None:
+        if any(z.behaviour[:1] == ("FROTTANT",) for z in model.zones):
             raise call.error("operators.matrices.friction-is-no-matrix")
         relations = tuple(c.relations for c in model_relations(model, material))
         zones = present(call, model).zones

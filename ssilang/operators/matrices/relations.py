@@ -23,29 +23,6 @@ class _Sum:
 # --- sums of terms ---------------------------------------------------------------------------
 
 
-def _sums(call: Call, sense: int) -> Matrix:
-    terms = _read_terms(call)
-    warn_of_foreign(call, [t.unknown for t in terms])
-    ws = workspace(call.session)
-    lists = [_spelled(call, t) for t in terms]
-    count = max(len(rows) for rows in lists)
-    if any(len(rows) not in (1, count) for rows in lists):
-        raise call.error("operators.matrices.terms-do-not-add")
-    alone = [t.unknown for t, rows in zip(terms, lists, strict=True) if len(rows) < count]
-    if alone:
-        call.warn("operators.matrices.terms-of-other-counts", names=alone, count=count)
-    parts = []
-    for i in range(count):
-        row = [term for rows in lists for term in rows[i if len(rows) > 1 else 0]]
-        parts.append(made.relation_rows(ws.nodes, row, sense))
-    rows = made.joined(parts)
-    empty = made.saying_nothing(rows)
-    if empty.size:
-        told = ws.nodes.told(int(rows.nodes[rows.row_start[empty[0]]]))
-        call.warn("operators.matrices.terms-cancel", count=int(empty.size), node=told)
-    return as_matrix(rows)
-
-
 def _spelled(call: Call, term: _Sum) -> list[list[Term]]:
     """The term by unknowns: one list of terms for each relation that it makes."""
     assert term.support is not None
@@ -292,4 +269,23 @@ def sums(call: Call) -> Matrix:
     sense = 0
     while (word := call.keyword(tuple(_SENSE))) is not None:
         sense = _SENSE[word]
-    return _sums(call, sense)
+    terms = _read_terms(call)
+    warn_of_foreign(call, [t.unknown for t in terms])
+    ws = workspace(call.session)
+    lists = [_spelled(call, t) for t in terms]
+    count = max(len(rows) for rows in lists)
+    if any(len(rows) not in (1, count) for rows in lists):
+        raise call.error("operators.matrices.terms-do-not-add")
+    alone = [t.unknown for t, rows in zip(terms, lists, strict=True) if len(rows) < count]
+    if alone:
+        call.warn("operators.matrices.terms-of-other-counts", names=alone, count=count)
+    parts = []
+    for i in range(count):
+        row = [term for rows in lists for term in rows[i if len(rows) > 1 else 0]]
+        parts.append(made.relation_rows(ws.nodes, row, sense))
+    rows = made.joined(parts)
+    empty = made.saying_nothing(rows)
+    if empty.size:
+        told = ws.nodes.told(int(rows.nodes[rows.row_start[empty[0]]]))
+        call.warn("operators.matrices.terms-cancel", count=int(empty.size), node=told)
+    return as_matrix(rows)

@@ -60,35 +60,26 @@ def _held(*centre: Argument) -> tuple[Entry, ...]:
 _SUPPORT = arg("support", "MAILLAGE", "POINT", en="nodes")
 
 
+@dataclass
 class _Held:
     """Unknowns and directions that BLOQ and APPU have read."""
 
-    def __init__(
-        self,
-        call: Call,
-        sense: str | None,
-        groups: list[str],
-        direction: Point | NodeField | None,
-        polar: tuple[Any, ...] | None,
-        unknowns: tuple[str | ListMots, ...],
-    ) -> None:
-        self.call = call
-        self.ws: Workspace = workspace(call.session)
-        self.sense = 0 if sense is None else _SENSE[sense]
-        self.groups = set(groups)
-        self.direction = direction
-        self.polar = "" if polar is None else str(polar[0])
-        self.centre = [] if polar is None else [p.coordinates.copy() for p in polar[1:]]
-        self.unknowns: list[str] = []
-        for said in unknowns:
-            if isinstance(said, ListMots):
-                self.unknowns += [str(n).rstrip() for n in said.values]
-            else:
-                self.unknowns.append(said.upper().rstrip())
+    call: Call
+    sense: str | None
+    groups: list[str]
+    direction: Point | NodeField | None
+    polar: tuple[Any, ...] | None
+    unknowns: tuple[str | ListMots, ...]
+
+    @property
+    def ws(self) -> Workspace:
+        """What the session holds."""
+        return workspace(self.call.session)
 
     def names(self) -> tuple[str, ...]:
         """Unknowns named one by one, or by DEPL and ROTA."""
-        names = list(self.unknowns)
+        lists = (u.values if isinstance(u, ListMots) else [u.upper()] for u in self.unknowns)
+        names = [str(n).rstrip() for words in lists for n in words]
         warn_of_foreign(self.call, names)
         if "DEPL" in self.groups:
             names += made.translations(self.ws.mode)
@@ -100,20 +91,20 @@ class _Held:
 
     def directed(self) -> bool:
         """True if the condition is along a direction of its own at each node."""
-        return self.direction is not None or bool(self.polar)
+        return self.direction is not None or self.polar is not None
 
     def along(self, nodes: IntArray) -> list[tuple[tuple[str, ...], FloatArray]]:
         """Pairs (unknowns, directions (n, dim)) for DIRECTION, RADIAL, ORTHO."""
         mode = self.ws.mode
-        if self.polar:
-            axis = self.centre[1] - self.centre[0] if len(self.centre) == 2 else None
-            dim = self.ws.mode.dimension
-            away = made.radial_directions(self.ws.nodes, nodes, self.centre[0], axis)
-            if self.polar == "ORTHO":
+        if self.polar is not None:
+            word, centre, *other = (getattr(p, "coordinates", p) for p in self.polar)
+            axis = other[0] - centre if other else None
+            away = made.radial_directions(self.ws.nodes, nodes, centre, axis)
+            if word == "ORTHO":
                 away = made.orthoradial_directions(away, axis)
-            return [(made.in_space(mode), away[:, :dim])]
+            return [(made.in_space(mode), away[:, : mode.dimension])]
         pairs = []
-        for group in sorted(self.groups) or ["DEPL"]:
+        for group in sorted({*self.groups}) or ["DEPL"]:
             names = made.in_space(mode) if group == "DEPL" else made.rotations(mode)
             pairs.append((names, self._directions(names, nodes)))
         return pairs
@@ -133,14 +124,14 @@ class _Held:
 def bloq(call: Call, support: Mesh | Point, **said: Any) -> Matrix:
     """Conditions on single nodes."""
     held, nodes = _Held(call, **said), support.node_ids
+    side, table = _SENSE.get(held.sense or "", 0), held.ws.nodes
     _some(nodes)
     if held.directed():
-        rows = [
-            made.blocked_along(held.ws.nodes, nodes, names, d, held.sense)
-            for names, d in held.along(nodes)
-        ]
-        return as_matrix(made.joined(rows))
-    return as_matrix(made.blocked(held.ws.nodes, nodes, held.names(), held.sense))
+        pairs = held.along(nodes)
+        return as_matrix(
+            made.joined([made.blocked_along(table, nodes, names, d, side) for names, d in pairs])
+        )
+    return as_matrix(made.blocked(table, nodes, held.names(), side))
 
 
 bloq.form(*_held(_CENTRE, _ON_AXIS), _SUPPORT, when=IN_SPACE)(bloq.forms[0].function)

@@ -21,12 +21,14 @@ def surface_to_sweep(mesh: Mesh, side: int) -> Mesh:
 
 
 def _make(
-    base: Mesh, path: sweep.Path, end_size: float, cuts: Cuts, listed: ListReel | None
+    base: Mesh, path: sweep.Path, end_size: float, count: int | None, said: Mapping[str, Any]
 ) -> Mesh:
+    """What a surface sweeps, its layers as `_CUTS` has read them."""
     surface = surface_to_sweep(base, 1)
-    if listed is not None:
-        layers = sweep.listed_cuts(listed.values, path.length)
+    if said["places"] is not None:
+        layers = sweep.listed_cuts(said["places"].values, path.length)
     else:
+        cuts = cuts_of(count, said["sizes"])
         sizes = cuts.sizes((sweep.mean_density(surface), end_size))
         layers = subdivide(path.length, *sizes, cuts.count)
     made = sweep.sweep_surface(surface, path, layers)
@@ -47,9 +49,6 @@ def volu(
     call: Call,
     base: Mesh,
     count: int | None,
-    sizes: Sizes,
-    places: ListReel | None,
-    wordy: bool,
     goal: Mesh | None = Opt("MAILLAGE", en="surface to reach, or volume whose face 1 is reached"),
     thickness: float | NodeField | None = Opt(
         "FLOTTANT", "CHPOINT", range=POSITIVE, en="thickness to give to a shell", unit="m"
@@ -57,12 +56,13 @@ def volu(
     outwards: Point | None = Opt(
         "POINT", en="vector from the inner to the outer skin of the shell"
     ),
+    **said: Any,
 ) -> Mesh:
     """Fill a volume, span one between two surfaces, or thicken a shell."""
     if goal is not None:
         end = surface_to_sweep(goal, 0)
         path = sweep.ruling(surface_to_sweep(base, 1), end)
-        made = _make(base, path, sweep.mean_density(end), cuts_of(count, sizes), places)
+        made = _make(base, path, sweep.mean_density(end), count, said)
         return made if end is goal else side_by_side(made, goal)
     if thickness is None and count:
         thickness = float(count)
@@ -75,17 +75,14 @@ def volu(
 
 @volu.form(said("TRANSLATION"), _BASE, *_CUTS)
 def translated(
-    call: Call,
     base: Mesh,
     count: int | None,
-    sizes: Sizes,
-    places: ListReel | None,
-    wordy: bool,
     vector: Point = Arg("POINT", en="vector", unit="m", usual=NOT_ZERO),
+    **said: Any,
 ) -> Mesh:
     """Sweep a volume along a vector."""
     path = sweep.translation(vector.coordinates.copy())
-    return _make(base, path, vector.density, cuts_of(count, sizes), places)
+    return _make(base, path, vector.density, count, said)
 
 
 @volu.form(said("ROTATION"), _BASE, *_CUTS, ANGLE, AXIS)
@@ -93,17 +90,15 @@ def turned(
     call: Call,
     base: Mesh,
     count: int | None,
-    sizes: Sizes,
-    places: ListReel | None,
-    wordy: bool,
     angle: float | None,
     axis: Sequence[Point],
+    **said: Any,
 ) -> Mesh:
     """Sweep a volume about an axis."""
     count, degrees = count_and_angle(call, count, angle)
     turn, size = turning(call, degrees, axis)
     path = turn(surface_to_sweep(base, 1))
-    return _make(base, path, size, cuts_of(count, sizes), places)
+    return _make(base, path, size, count, said)
 
 
 @volu.form(
@@ -115,17 +110,9 @@ def turned(
     _BASE,
     *_CUTS,
 )
-def along_line(
-    call: Call,
-    along: Chosen,
-    base: Mesh,
-    count: int | None,
-    sizes: Sizes,
-    places: ListReel | None,
-    wordy: bool,
-) -> Mesh:
+def along_line(call: Call, along: Chosen, base: Mesh, count: int | None, **said: Any) -> Mesh:
     """Sweep a volume along a line, a layer for each of its cells."""
-    if count is not None or sizes or places is not None:
+    if count is not None or said["sizes"] or said["places"] is not None:
         call.warn("operators.mesh.line-gives-layers", count=along["line"].n_cells)
     path, layers = generator_path(along["line"])
     surface = surface_to_sweep(base, 1)

@@ -5,6 +5,7 @@ from ssilang.kernel.continuation.arc import Point as Solution
 from ssilang.kernel.continuation.expansion import FrequencyProblem, Names
 from ssilang.kernel.continuation.harmonics import basis_of, exponents, unstable
 from ssilang.kernel.matrices import assembly
+from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.stepping.problem.constraints import constraints_of
 from ssilang.kernel.stepping.problem.loading import loading_of
 from ssilang.operators.modal.hbm import asked_results, curve, joined, known_names, longer
@@ -87,7 +88,6 @@ def _either(field: NodeField, name: str) -> list[str]:
 
 
 STABILITY = ("DIAG", "FLOQ", "HILL")
-MOST_ORDER = 20
 BEND = np.radians(60.0)
 """Angle between two steps beyond which the second one is cut."""
 
@@ -97,17 +97,16 @@ def lengths_of(entries: Entries) -> Lengths:
     times = np.asarray(entries.needed("TEMPS_CALCULES").values)
     entries.times("TEMPS_CALCULES")  # refuses what does not increase
     work = _work(entries)
-    start = work.get("DS") or work.default("DS")
+    start = work.get("DS")
     least = work.get("DSMIN") or 1e-3 * start
     most = work.get("DSMAX") or max(start, 1.0)
-    unit = entries.needed("MAXI_DEPLACEMENT")
-    if unit <= 0.0 or not 0.0 < least <= start <= most:
+    if not least <= start <= most:
         raise entries.error("operators.modal.steps-of-continuation")
     return Lengths(
         start, least, most,
-        _positive(entries, "NB_ITERATION"), round(_positive(entries, "MAXITERATION")),
-        unit, float(np.mean(np.diff(times))),
-        _positive(entries, "PRECISION"),
+        entries.get("NB_ITERATION"), round(entries.get("MAXITERATION")),
+        entries.needed("MAXI_DEPLACEMENT"), float(np.mean(np.diff(times))),
+        entries.get("PRECISION"),
         BEND,
     )  # fmt: skip
 
@@ -116,14 +115,6 @@ def _work(entries: Entries) -> Entries:
     """The entries of WTABLE, of an empty one if there is none."""
     table = entries.get("WTABLE") or Table()
     return Entries(entries.call, table, "CONTINU", "TAB1.WTABLE")
-
-
-def _positive(entries: Entries, index: str) -> float:
-    """A number above zero; zero stands for the default, as if it were not given."""
-    value = float(entries.get(index) or entries.default(index))
-    if value <= 0.0:
-        raise entries.error("operators.modal.entry-not-positive", index=index, value=value)
-    return value
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,9 +141,8 @@ def continue_harmonics(entries: Entries) -> None:
         first = tracer.first(begin.u, begin.t)
     else:
         first = tracer.turned(tracer.first(begin.u, begin.t), *begin.way)
-    most = entries.get("MAXIPAS") or entries.default("MAXIPAS")
     low, high = float(times[0]), float(times[-1])
-    branch = tracer.follow(first, most, lambda t: low <= t <= high, land=True)
+    branch = tracer.follow(first, entries.get("MAXIPAS"), lambda t: low <= t <= high, land=True)
     if branch.ended == "no solution":
         entries.warn("operators.modal.branch-lost", t=branch.points[-1].t)
     _fill(entries, problem, tracer, branch, begin, names)
@@ -164,8 +154,7 @@ def continue_harmonics(entries: Entries) -> None:
 def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     words = ("RIGIDITE_HBM", "AMORTISSEMENT_HBM", "MASSE_HBM")
     K, C, M = (entries.needed(w) for w in words)
-    supports = entries.get("BLOCAGES_HBM") or Matrix(K.table)
-    whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
+    whole = together(K, entries.get("BLOCAGES_HBM") or Matrix(K.table))
     numbering = assembly.numbering_of(whole, C, M)
     rows = assembly.constraint_matrix(whole, numbering)
     load: Load | None = entries.get("CHARGEMENT")
@@ -176,10 +165,6 @@ def _problem(entries: Entries, names: Names) -> FrequencyProblem:
     law = entries.get("FREQUENCE")
     found, samples = nonlinear_unknowns(entries), None
     order = entries.get("N_PT_TFR")
-    if order is not None and not 0 <= order <= MOST_ORDER:
-        raise entries.error(
-            "operators.modal.instants-of-a-period", order=order, most_order=MOST_ORDER
-        )
     least = int(np.ceil(np.log2(4 * names.places)))
     count = 2 ** (order if order is not None else least)
     if count < 2 * names.harmonics + 1:
@@ -253,7 +238,7 @@ def _fill(
     if again and not points:
         return
     all_times = longer(table, "TEMPS_PROG", np.array([p.t for p in points]))
-    every = entries.get("PAS_SAUVES") or entries.default("PAS_SAUVES")
+    every = entries.get("PAS_SAUVES")
     times, fields = table.inner("TEMPS"), table.inner("DEPLACEMENTS")
     number = begin.number
     for i, point in enumerate(points):
@@ -349,9 +334,7 @@ def _floquet(
     for word, values in (("EXPOSANT_REEL", found.real), ("EXPOSANT_IMAG", found.imag)):
         lists = table.inner(word)
         for i, column in enumerate(values.T, start=1):
-            known = lists.get(i) if lists.has(i) else None
-            before = known.values if isinstance(known, ListReel) else np.zeros(0)
-            lists.set(i, ListReel(np.concatenate([before, column])))
+            longer(lists, i, column)
     states = [
         int(unstable(e, max(problem.frequency(p.t), 1e-12)))
         for e, p in zip(found, points, strict=True)
@@ -368,8 +351,7 @@ def _exponents(entries: Entries, problem: FrequencyProblem) -> Callable[[Solutio
     if K is None or M is None:
         raise entries.error("operators.modal.stability-wants-rigidite-constante")
     C = Matrix(K.table) if C is None else C
-    supports = entries.get("BLOCAGES_MECANIQUES") or Matrix(K.table)
-    whole = Matrix(K.table, (*K.blocks, *supports.blocks), (*K.relations, *supports.relations))
+    whole = together(K, entries.get("BLOCAGES_MECANIQUES") or Matrix(K.table))
     numbering = assembly.numbering_of(whole, C, M)
     rows = assembly.constraint_matrix(whole, numbering)
     T = constraints_of(rows, numbering.size <= 160).T.toarray()

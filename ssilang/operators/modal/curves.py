@@ -5,7 +5,7 @@ from ssilang.kernel.statics.linear import product
 from ssilang.operators.curves import evol
 from ssilang.operators.curves.instants import tell_zero, value_in_time
 from ssilang.operators.modal.basis import Shape, read_basis, shapes_of
-from ssilang.operators.modal.recombination import modal_history, pseudo_shapes
+from ssilang.operators.modal.recombination import contribution, modal_history, pseudo_shapes
 from ssilang.operators.prelude import *
 
 
@@ -19,12 +19,7 @@ def _basis(call: Call, shapes_wanted: int | None = None) -> list[Shape]:
 
 def contributions(fields: Sequence[Any], shapes: list[Shape]) -> FloatArray:
     """Values ALFA or BETA at the marks of the shapes, shape (n_fields, n_shapes)."""
-    return np.asarray(
-        [
-            [float(f.values_at(s.unknown, np.array([s.mark.node]))[0]) for s in shapes]
-            for f in fields
-        ]
-    )
+    return np.array([contribution(f, shapes) for f in fields])
 
 
 def _recombined(call: Call, colours: list[int]) -> Curve:
@@ -35,9 +30,7 @@ def _recombined(call: Call, colours: list[int]) -> Curve:
     steps = call.given(evol.STEPS)
     shapes = _basis(call)
     shapes = shapes[: call.given(evol.COUNT)]
-    if steps is not None:
-        places = _places(call, steps, len(fields))
-        fields, times = [fields[i] for i in places], times[places]
+    fields, times = _at_steps(call, steps, fields, times)
     known = [s.field for s in shapes]
     names = evol.names_in_time(call, known)
     support = call.needed("POINT", "MAILLAGE")
@@ -146,7 +139,6 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
         places = [(s.unknown, s.mark.node) for s in shapes if s.unknown == "ALFA"]
     else:
         places = _places_asked(call, list(fields[:1]))
-    names = [c for c, _ in places]
     at = call.given(evol.TIMES)
     fields, times = _about(call, at, fields, times)
     weights = np.stack([value_in_time(call, list(fields), c, n) for c, n in places], axis=1)
@@ -154,16 +146,21 @@ def _of_contributions(call: Call, colours: list[int]) -> Curve:
         weights, times = _at(at, times, weights), np.asarray(at.values)
     parts = [
         CurvePart(times, weights[:, i], "TEMP", c, c, colours[i % len(colours)])
-        for i, c in enumerate(names)
+        for i, (c, _) in enumerate(places)
     ]
     return Curve(tuple(parts), workspace(call.session).title)
 
 
-def _places(call: Call, steps: ListEnti, count: int) -> list[int]:
+def _at_steps(
+    call: Call, steps: ListEnti | None, fields: Sequence[Any], times: FloatArray
+) -> tuple[Sequence[Any], FloatArray]:
+    """Fields and times of some steps, by number; all where none is asked for."""
+    if steps is None:
+        return fields, times
     places = [int(i) - 1 for i in steps.values]
-    if any(not 0 <= i < count for i in places):
-        raise call.error("operators.modal.no-such-step", steps, count=count)
-    return places
+    if any(not 0 <= i < len(fields) for i in places):
+        raise call.error("operators.modal.no-such-step", steps, count=len(fields))
+    return [fields[i] for i in places], times[places]
 
 
 def _projected(call: Call, colours: list[int]) -> Curve:
@@ -172,9 +169,7 @@ def _projected(call: Call, colours: list[int]) -> Curve:
     shapes = _basis(call)
     chosen = call.given(evol.SHAPES)
     matrix = call.optional("RIGIDITE")
-    if steps is not None:
-        places = _places(call, steps, len(fields))
-        fields, times = [fields[i] for i in places], times[places]
+    fields, times = _at_steps(call, steps, fields, times)
     numbers = list(range(1, len(shapes) + 1))
     if chosen is not None:
         numbers = [int(i) for i in chosen.values] if isinstance(chosen, ListEnti) else [chosen]

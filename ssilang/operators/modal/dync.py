@@ -34,53 +34,26 @@ def _dync(
             raise call.error("operators.modal.table-wanted", name=name)
     if "start" not in tables:
         raise call.error("operators.modal.start-wanted")
-    if harmonics < 1 or samples < 2 * (2 * harmonics + 1):
+    if samples < 2 * (2 * harmonics + 1):
         told = {"harmonics": harmonics, "least": 2 * (2 * harmonics + 1), "samples": samples}
         raise call.error("operators.modal.instants-for-harmonics", **told)
     system = system_of(call, tables["system"])
-    numbers = Numbers(call, tables["numbers"], "TNUM")
-    kind = str(numbers.entries.get("TYPE"))
+    numbers = Entries(call, tables["numbers"], "DYNC", "TNUM")
+    kind = str(numbers.get("TYPE"))
     oscillators = _oscillators(call, tables, system, harmonics, samples, kind == "NNM")
-    lengths, most = _lengths(numbers), int(numbers.positive("NBPAS"))
-    start = Numbers(call, tables["start"], "TINI")
-    end = numbers.real("VAL_FIN")
+    lengths, most = _lengths(numbers), int(numbers.get("NBPAS"))
+    start = Entries(call, tables["start"], "DYNC", "TINI")
+    end = numbers.needed("VAL_FIN")
     if kind == "NNM":
-        mode = int(start.real("MODE")) - 1
-        if not 0 <= mode < len(system.M):
+        mode = start.get("MODE") - 1
+        if mode >= len(system.M):
             raise call.error("operators.modal.no-such-mode", tables["start"], n_M=len(system.M))
-        found = normal_mode(oscillators, mode, start.real("ENERGIE"), end, lengths, most)
+        found = normal_mode(oscillators, mode, start.needed("ENERGIE"), end, lengths, most)
     else:
-        first, sense = start.positive("FREQUENCE"), numbers.real("ISENS")
+        first, sense = start.needed("FREQUENCE"), numbers.get("ISENS")
         guess = _guess(call, tables["start"], system, oscillators, first)
         found = forced_response(oscillators, guess, first, end, sense, lengths, most)
     return _results(call, found, system, kind == "NNM")
-
-
-class Numbers:
-    """Numbers of a table of parameters."""
-
-    def __init__(self, call: Call, table: Table, argument: str) -> None:
-        self.call, self.table = call, table
-        self.entries = Entries(call, table, "DYNC", argument)
-
-    def real(self, name: str, default: float | None = None) -> float:
-        """A number, where it is not given the one declared, or else `default`."""
-        value = self.entries.get(name)
-        value = default if value is None else value
-        if value is None:
-            raise self.call.error(
-                "operators.modal.number-wanted", subtype=self.table.subtype, name=name
-            )
-        return float(value)
-
-    def positive(self, name: str) -> float:
-        """A number above zero."""
-        value = self.real(name)
-        if value <= 0.0:
-            raise self.call.error(
-                "operators.modal.number-not-positive", self.table, name=name, value=value
-            )
-        return value
 
 
 def _oscillators(
@@ -111,10 +84,7 @@ def _coefficients(
             raise call.error(
                 "operators.modal.no-such-harmonic", table, index=index, harmonics=harmonics
             )
-        if not isinstance(value, NodeField):
-            raise call.error(
-                "operators.modal.index-holds-a-field", table, index=index, subtype=table.subtype
-            )
+        assert isinstance(value, NodeField)  # the table is checked
         place = 0 if index == 0 else 2 * abs(index) - (1 if index > 0 else 0)
         out[place] = field_to_vector(value, system.numbering, dual=dual)
     return out
@@ -132,18 +102,15 @@ def _guess(
     return np.asarray(np.linalg.lstsq(Z, load.ravel(), rcond=None)[0].reshape(said.shape), float)
 
 
-def _lengths(numbers: Numbers) -> Lengths:
-    start = numbers.real("DS0")
-    lengths = Lengths(start, numbers.real("DSMIN", 1e-3 * start), numbers.real("DSMAX", 10 * start))
-    if not 0.0 < lengths.least <= lengths.start <= lengths.most:
+def _lengths(numbers: Entries) -> Lengths:
+    start = numbers.get("DS0")
+    least, most = numbers.get("DSMIN") or 1e-3 * start, numbers.get("DSMAX") or 10 * start
+    if not least <= start <= most:
         raise numbers.call.error("operators.modal.steps-of-dync", numbers.table)
-    return replace(
-        lengths,
-        ideal=numbers.positive("ITERMOY"),
-        turns=round(max(numbers.positive("ITERMAX"), 1.0)),
-        tolerance=numbers.positive("TOLERANCE"),
-        bend=float(np.radians(numbers.positive("ANGLE_MAX"))),
-    )
+    return Lengths(
+        start, least, most, numbers.get("ITERMOY"), round(numbers.get("ITERMAX")),
+        tolerance=numbers.get("TOLERANCE"), bend=float(np.radians(numbers.get("ANGLE_MAX"))),
+    )  # fmt: skip
 
 
 # --- results -----------------------------------------------------------------------------------

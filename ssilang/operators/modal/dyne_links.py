@@ -202,10 +202,6 @@ class LinkTable:
         (component,) = field.components
         return float(field.values_at(component, np.array([point.node]))[0])
 
-    def says(self, name: str) -> bool:
-        """A logical, or the word for it."""
-        return str(self.entries.get(name)).rstrip() in ("True", "VRAI")
-
     def law(self) -> FloatArray | None:
         """Points of 'LOI_DE_COMPORTEMENT', if there is one."""
         curve: Curve | None = self.entries.get("LOI_DE_COMPORTEMENT")
@@ -224,7 +220,7 @@ def _spring(t: LinkTable) -> tuple[dict[int, float], FloatArray | None]:
     numbers = {
         law.STIFF: 0.0 if points is not None else t.real("RAIDEUR"),
         law.DAMP: t.real("AMORTISSEMENT"),
-        law.PERMANENT: float(t.says("LIAISON_PERMANENTE")),
+        law.PERMANENT: float(t.entries.flag("LIAISON_PERMANENTE")),
     }
     limit = t.real("SEUIL_PLASTIQUE", 0.0)
     if limit > 0.0:
@@ -312,8 +308,6 @@ def _turning_circle(t: LinkTable, basis: Basis) -> ReadLink:
     support, normal = t.point("SUPPORT"), t.direction("NORMALE")
     centre, turns = basis.rows(t.call, support), basis.rows(t.call, support, TURNS)
     radius = t.real("RAYON_SUPPORT")
-    if radius <= 0.0:
-        raise t.call.error("operators.modal.rayon-support-link-must", t.table)
     numbers, points = _spring(t)
     numbers |= _friction(t) | _vector(law.NX, normal) | {law.RADIUS: radius}
     kind = law.PLANE
@@ -344,7 +338,7 @@ def _two_points(t: LinkTable, basis: Basis) -> ReadLink:
     shut = t.kind.endswith("_PLASTIQUE") and numbers[law.PERMANENT]
     numbers[law.GAP] = 0.0 if shut else t.real("JEU")
     plastic = t.kind.endswith("_PLASTIQUE") and not (
-        t.says("ELASTIQUE") or t.says("COMPORTEMENT_ELASTIQUE")
+        t.entries.flag("ELASTIQUE") or t.entries.flag("COMPORTEMENT_ELASTIQUE")
     )
     if plastic:
         if points is None:
@@ -371,7 +365,7 @@ def _two_points(t: LinkTable, basis: Basis) -> ReadLink:
 def _about_circle(t: LinkTable, away: FloatArray) -> dict[int, float]:
     """Numbers of the circle that is touched: its side, and its centre in its plane."""
     axis = t.direction("NORMALE")
-    side = {law.OUTSIDE: float(not t.says("CONTACT_INTERIEUR"))}
+    side = {law.OUTSIDE: float(not t.entries.flag("CONTACT_INTERIEUR"))}
     return _vector(law.EX, away - (away @ axis) * axis) | side
 
 
@@ -404,7 +398,7 @@ def _lines(t: LinkTable, basis: Basis) -> ReadLink:
     axis = np.array([0.0, 0.0, 1.0]) if flat else t.direction("NORMALE")
     numbers |= _vector(law.NX, axis) | {law.GAP: t.real("RAYON") if rings else t.real("JEU")}
     master, slave = t.need("LIGNE_MAITRE"), t.need("LIGNE_ESCLAVE")
-    if rings and t.says("INVERSION"):
+    if rings and t.entries.flag("INVERSION"):
         master, slave = slave, master
     pairs = [(slave, master, 0.0)]
     symmetry = t.entries.get("SYMETRIE")

@@ -36,10 +36,8 @@ def asked_results(entries: Entries, index: str) -> list[Asked]:
 def _numbered(entries: Entries, index: str) -> Iterator[tuple[Entries, str]]:
     inner = entries.get(index) or Table()
     for i, table in sorted((i, v) for i, v in inner.items() if type(i) is int):
-        place = f"{index} . {i}"
-        if not isinstance(table, Table):
-            raise entries.error("operators.modal.entry-is-a-table", place=place)
-        yield Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I"), place
+        assert isinstance(table, Table)  # the whole table is checked
+        yield Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I"), f"{index} . {i}"
 
 
 def _drawn(own: Entries, component: str) -> tuple[Table, str, int]:
@@ -68,11 +66,12 @@ def joined(curves: Sequence[Curve]) -> Curve:
     return Curve(tuple(p for c in curves for p in c.parts))
 
 
-def longer(table: Table, index: str, values: FloatArray) -> FloatArray:
+def longer(table: Table, index: str | int, values: FloatArray) -> FloatArray:
     """The list at an index with more values behind, also set there."""
     known = table.get(index)
     whole = np.concatenate([known.values, values]) if isinstance(known, ListReel) else values
-    table.set(Mot(index), ListReel(np.array(whole, dtype=float)))
+    index = Mot(index) if isinstance(index, str) else index
+    table.set(index, ListReel(np.array(whole, dtype=float)))
     return np.asarray(whole)
 
 

@@ -183,9 +183,7 @@ def _reco(
     shapes = basis_shapes(call, basis)
     if time is not None and load is None:  # a number of shapes to take
         shapes = shapes[: _count(call, time)]
-    return _combined(
-        call, weights, shapes, _pseudo(call, basis, quantity, load, time), quantity, time
-    )
+    return _combined(call, weights, shapes, basis, quantity, load, time)
 
 
 def _pseudo(
@@ -203,16 +201,18 @@ def _combined(
     call: Call,
     weights: NodeField,
     shapes: list[Shape],
-    pseudo: list[PseudoShape],
+    basis: Chosen,
     quantity: str,
+    load: Load | None,
     time: float | None,
 ) -> NodeField | CellField:
     """What contributions at an instant combine to."""
+    pseudo = _pseudo(call, basis, quantity, load, time)
     if quantity == "CONT":
         # Sum of the stresses of shapes (CONTRAINTE_MODALE, CONTRAINTE), as SIGS gives them.
         total: CellField | None = None
         for factor, entry in _weighted(weights, shapes, pseudo, time):
-            stress = entry.get(Mot("CONTRAINTE_MODALE"), entry.get(Mot("CONTRAINTE")))
+            stress = entry.get("CONTRAINTE_MODALE", entry.get("CONTRAINTE"))
             if not isinstance(stress, CellField):
                 raise call.error("operators.modal.shape-no-stresses", entry)
             first = total is None
@@ -250,7 +250,7 @@ def _reactions(
     entries = _weighted(weights, shapes, pseudo, time)
     fields = []
     for _, entry in entries:
-        field = entry.get(Mot("REACTION_MODALE"), entry.get(Mot("REACTION")))
+        field = entry.get("REACTION_MODALE", entry.get("REACTION"))
         if not isinstance(field, NodeField):
             raise call.error("operators.modal.shape-no-reactions", entry)
         fields.append(field)
@@ -269,9 +269,7 @@ def reco_of_results(
     """What results in time combine to at an instant."""
     shapes = basis_shapes(call, basis)
     weights = at_time(call, *modal_history(call, results, quantity), time)
-    return _combined(
-        call, weights, shapes, _pseudo(call, basis, quantity, load, time), quantity, time
-    )
+    return _combined(call, weights, shapes, basis, quantity, load, time)
 
 
 @_reco.form(

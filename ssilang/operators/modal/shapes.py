@@ -103,19 +103,16 @@ def by_euclidean_norm(
 
 
 @rule("*", "TABLE", "RIGIDITE")
-def _inertia(_sign: str, table: Table, mass: Matrix) -> Table:
+@rule("*", "RIGIDITE", "TABLE")
+def _inertia(_sign: str, left: Any, right: Any) -> Table:
     """MASSE_DEFORMEE of each shape of a table of modes or static links, which is completed."""
+    table, mass = (left, right) if isinstance(left, Table) else (right, left)
     found = shapes_in(table)
     if not found:
         raise KernelError("operators.modal.nothing-to-multiply")
     for shape in found:
         shape.entry.set(Mot("MASSE_DEFORMEE"), product(mass, shape.field))
     return table
-
-
-@rule("*", "RIGIDITE", "TABLE")
-def _inertia_left(sign: str, mass: Matrix, table: Table) -> Table:
-    return _inertia(sign, table, mass)
 
 
 # --- gaps ------------------------------------------------------------------------------------

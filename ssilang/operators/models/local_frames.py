@@ -71,21 +71,15 @@ def rten(
     second: Point | None = _SECOND,
 ) -> CellField:
     """Stresses or strains in another frame."""
-    turning = material is not None and any("UX,X" in b.components for b in material.blocks)
-    surface: Surface | None = None
     if frame is not None:
         frames = _round(call, frame)
         surface = _round_surface(frame, frames)
     elif first is not None:
-        frames = _fixed_frames(first, second)
-        surface = _fixed_surface(first, second)
+        frames, surface = _fixed_axes(first, second)
     elif material is None:
         raise call.missing(("POINT",))
-    elif turning:
-        frames = _of_rotations(material, product)
     else:
-        frames = _of_material(material)
-        surface = _surface_of_material(material)
+        frames, surface = _of_material(material, product)
 
     def make(zone: Zone) -> CellFieldBlock:
         thick = ELEMENTS[zone.element].family == "thick" and material is not None
@@ -114,18 +108,22 @@ def _fixed(first: Point, second: Point | None) -> FloatArray:
     return fixed_frame(first.coordinates, None if second is None else second.coordinates)
 
 
-def _fixed_frames(first: Point, second: Point | None) -> Frames:
-    return lambda zone, support: _fixed(first, second)
-
-
-def _fixed_surface(first: Point, second: Point | None) -> Surface:
-    along = first.coordinates
+def _fixed_axes(first: Point, second: Point | None) -> tuple[Frames, Surface]:
+    along, rotation = first.coordinates, _fixed(first, second)
     normal = None if second is None else np.cross(along, second.coordinates)
-    return lambda zone, support: SurfaceAxes(along, normal=normal)
+    return lambda zone, at: rotation, lambda zone, at: SurfaceAxes(along, normal=normal)
 
 
-def _surface_of_material(material: CellField) -> Surface:
-    return lambda zone, support: SurfaceAxes(material_frames(zone, material, support)[..., 0, :])
+def _of_material(material: CellField, product: str) -> tuple[Frames, Surface | None]:
+    """The frames that parameters hold: axes of orthotropy, or rotations, which no shell has."""
+    if any("UX,X" in b.components for b in material.blocks):
+        turned = product == "RTAR"
+        return lambda zone, at: given_rotations(zone, material, at, turned), None
+
+    def frames(zone: Zone, support: Support) -> FloatArray:
+        return material_frames(zone, material, support)
+
+    return frames, lambda zone, at: SurfaceAxes(frames(zone, at)[..., 0, :])
 
 
 def _round_surface(frame: Chosen, frames: Frames) -> Surface | None:
@@ -141,14 +139,6 @@ def _round_surface(frame: Chosen, frames: Frames) -> Surface | None:
         return SurfaceAxes(rows[..., around, :], axis, inwards)
 
     return axes
-
-
-def _of_material(material: CellField) -> Frames:
-    return lambda zone, support: material_frames(zone, material, support)
-
-
-def _of_rotations(field: CellField, product: str) -> Frames:
-    return lambda zone, support: given_rotations(zone, field, support, product == "RTAR")
 
 
 def _round(call: Call, frame: Chosen) -> Frames:

@@ -140,7 +140,6 @@ def _parameters(
     for zone, values in zip(model.zones, given, strict=True):
         if of_laws and is_joint(zone):
             check_joint(zone, {name: value for name, (value, _) in values.items()})
-    for zone, values in zip(model.zones, given, strict=True):
         refuse_outside(call, zone, values, said)
         _warn_of_nothing(call, zone, values, said)
         told = any(a.size and isinstance(a.flat[0], str) for a, _ in values.values())

@@ -1,6 +1,7 @@
 """MOCU: moments and curvatures of sections of fibres."""
 
 from ssilang.kernel.elements.beams.fibre_section import fibre_section
+from ssilang.operators.matrices.supports import IN_PLANE, IN_SPACE
 from ssilang.operators.prelude import *
 
 if TYPE_CHECKING:
@@ -14,14 +15,12 @@ _ENTRIES = (
     arg("material", "MCHAML", en="its parameters"),
     arg("tolerance", "FLOTTANT", range=POSITIVE, en="error allowed on the normal force, relative"),
 )
-_IN_SPACE = When(lambda s: workspace(s).mode.dimension == 3, "in space")
-_IN_PLANE = When(lambda s: workspace(s).mode.dimension != 3, "in the plane")
 
 
 @operator(
     "MOCU",
     *_ENTRIES,
-    when=_IN_SPACE,
+    when=IN_SPACE,
     gives=by("checked", {True: ("LISTREEL",) * 3 + ("TABLE",)}, ("LISTREEL",) * 3),
     family="model",
 )
@@ -34,19 +33,21 @@ def mocu(
     tolerance: float,
 ) -> tuple[object, ...]:
     """Bend a section."""
+    from ssilang.kernel.plasticity.moment_curvature import bend
+
     space = workspace(call.session).mode.dimension == 3
     _check(call, lists, model, space)
     curvatures = np.stack([v.values for v in lists[:-1]], axis=1)
     if not space:
         curvatures = np.column_stack([np.zeros(len(curvatures)), curvatures])
-    found = _bent(model, material, curvatures, lists[-1], tolerance)
+    found = bend(fibre_section(model, material), curvatures, lists[-1].values, tolerance)
     moments = [ListReel.of(found.moments[:, i].copy()) for i in ((0, 1) if space else (1,))]
     return _results(found, moments, checked)
 
 
 mocu.form(
     *_ENTRIES,
-    when=_IN_PLANE,
+    when=IN_PLANE,
     gives=by("checked", {True: ("LISTREEL",) * 2 + ("TABLE",)}, ("LISTREEL",) * 2),
 )(mocu.forms[0].function)
 
@@ -58,14 +59,6 @@ def _check(call: Call, lists: tuple[ListReel, ...], model: Model, space: bool) -
         )
     if len({len(v.values) for v in lists}) > 1:
         raise call.error("operators.models.lists-different-lengths", lists[-1])
-
-
-def _bent(
-    model: Model, material: CellField, curvatures: FloatArray, force: ListReel, tolerance: float
-) -> "BentSection":
-    from ssilang.kernel.plasticity.moment_curvature import bend
-
-    return bend(fibre_section(model, material), curvatures, force.values, tolerance)
 
 
 def _results(found: "BentSection", moments: list[ListReel], checked: bool) -> tuple[object, ...]:

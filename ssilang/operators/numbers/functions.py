@@ -153,11 +153,9 @@ for _name, _function in _FUNCTIONS.items():
 
 @operator("IFRE", family="functions")
 def ifre(
-    limit: float = Arg("FLOTTANT", en="upper limit, in radians", range=ANY_NUMBER),
+    limit: float = Arg("FLOTTANT", en="upper limit, in radians", range=NOT_NEGATIVE),
 ) -> tuple[float, float]:
     """Fresnel's integrals by those of `pi u^2 / 2`, `t = pi u^2 / 2`."""
-    if not limit >= 0.0:
-        raise _outside("IFRE", limit, 0.0, np.inf, False)
     sine, cosine = special.fresnel(np.sqrt(2.0 * limit / np.pi))
     return float(cosine), float(sine)
 

@@ -2,6 +2,7 @@
 
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.fields import cell_algebra, node_algebra
+from ssilang.operators.curves.extraction import numbered
 from ssilang.operators.numbers.functions import mapped
 from ssilang.operators.prelude import *
 
@@ -132,13 +133,19 @@ def _clipped_list(value: ListEnti | ListReel, bound: Chosen) -> Any:
     ),
 )
 def _clipped_curves(call: Call, value: Curve, bounds: list[tuple[int | None, Chosen]]) -> Curve:
-    return _clipped_curve(call, value, [(who, *_ends(bound)) for who, bound in bounds])
+    parts: list[CurvePart] = []
+    for who, bound in bounds:
+        if who is None and len(value.parts) > 1:
+            raise call.error("operators.numbers.which-curve", n_parts=len(value.parts))
+        part = numbered(call, value, who)
+        parts.append(replace(part, ordinates=np.clip(part.ordinates, *_ends(bound))))
+    return Curve(tuple(parts), value.title, value.kind)
 
 
 @BORN.form(gives=Like("value"))
 def _clipped_fields(
     call: Call,
-    value: NodeField | CellField = Main("CHPOINT", "MCHAML", en="field"),
+    value: Any = Main("CHPOINT", "MCHAML", en="field"),
     bounds: list[Chosen] = Each(
         either(
             "one",
@@ -152,42 +159,17 @@ def _clipped_fields(
         at_least=1,
     ),
 ) -> Any:
-    wanted = []
-    for one in bounds:
-        name = one.values.get("component")
-        who = None if name is None else str(name).rstrip()
-        wanted.append((who, *_ends(one["bound"])))
-    return _clipped_field(call, value, wanted)
-
-
-def _clipped_curve(call: Call, value: Curve, wanted: list[tuple[Any, float, float]]) -> Curve:
-    parts: list[CurvePart] = []
-    for who, low, high in wanted:
-        if who is None and len(value.parts) > 1:
-            raise call.error("operators.numbers.which-curve", n_parts=len(value.parts))
-        place = who or 1
-        if not 1 <= place <= len(value.parts):
-            raise call.error(
-                "operators.numbers.no-such-curve", n_parts=len(value.parts), place=place
-            )
-        part = value.parts[place - 1]
-        parts.append(replace(part, ordinates=np.clip(part.ordinates, low, high)))
-    return Curve(tuple(parts), value.title, value.kind)
-
-
-def _clipped_field(call: Call, value: Any, wanted: list[tuple[Any, float, float]]) -> Any:
     node = isinstance(value, NodeField)
     names = list(value.components) if node else cell_algebra.component_names(value)
     united: Callable[..., Any] = node_algebra.united if node else cell_algebra.united
     made: Any = None
-    for who, low, high in wanted:
+    for one in bounds:
+        who = one.values.get("component")
         if who is None and len(names) != 1:
             raise call.error("operators.numbers.which-component", names=names)
-        name = names[0] if who is None else who
-
-        def clip(x: Any, low: float = low, high: float = high) -> Any:
-            return np.clip(x, low, high)
-
+        name = names[0] if who is None else str(who).rstrip()
+        low, high = _ends(one["bound"])
+        clip = partial(np.clip, a_min=low, a_max=high)
         if node:
             only = node_algebra.rebuilt(value, {name: node_algebra.component(value, name)})
             part: Any = node_algebra.applied(only, clip)

@@ -16,7 +16,7 @@ from ssilang.kernel.statics.yielding import criterion, tangent_modulus
 from ssilang.operators.dispatch import COMP
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *
-from ssilang.operators.statics.stresses import MODEL
+from ssilang.operators.statics.stresses import MODEL, on_zones
 
 
 def _stresses_of(zone: Zone, field: CellField) -> FloatArray:
@@ -124,9 +124,7 @@ def _flow(
     strain: CellField,
     material: tuple[CellField, ...],
     extra: Table | None,
-    accuracy: float | None,
-    alone: bool,
-    count: int | None,
+    **accepted: Any,
 ) -> tuple[CellField, CellField, CellField]:
     parameters = joined(material)
     found: dict[str, list[CellFieldBlock]] = {
@@ -203,19 +201,11 @@ _STATE = (
 _SYMMETRIC = flag("symmetric", "SYME", en="symmetric part")
 
 
-def _state_read(
-    call: Call,
-    model: Model,
-    stress: CellField,
-    variables: CellField,
-    material: tuple[CellField, ...],
-    precision: float,
-    step: float | None,
-    number: float | None,
-) -> _StateRead:
-    """What `_STATE` reads."""
-    precision = precision if number is None else number
-    return _StateRead(present(call, model), stress, variables, joined(material), precision, step)
+def _state_read(call: Call, said: Mapping[str, Any]) -> _StateRead:
+    """What `_STATE` has read."""
+    model, material = present(call, said["model"]), joined(said["material"])
+    precision = said["precision"] if said["number"] is None else said["number"]
+    return _StateRead(model, said["stress"], said["variables"], material, precision, said["step"])
 
 
 def _tangent_matrix(
@@ -241,7 +231,7 @@ def _tangent_matrix(
 @operator("KTAN", *_STATE, _SYMMETRIC, family="matrix")
 def ktan(call: Call, symmetric: bool, **state: Any) -> Matrix:
     """Tangent stiffness."""
-    read = _state_read(call, **state)
+    read = _state_read(call, state)
     tangents = [(a.tangent, a.symmetric) for a in map(read.tangent, read.model.zones)]
     return _tangent_matrix(read.model, tangents, read.material, symmetric)
 
@@ -289,7 +279,7 @@ def _by_differences(zone: Zone, step: _Step, share: float, least: float) -> Floa
 @operator("HOTA", *_STATE, family="stress", full_name="HOTANGE")
 def hota(call: Call, **state: Any) -> CellField:
     """Tangent Hooke matrices."""
-    read = _state_read(call, **state)
+    read = _state_read(call, state)
     blocks = [hooke_block(z, read.tangent(z).tangent, "STRESSES") for z in read.model.zones]
     return CellField(tuple(blocks), "MATRICE DE HOOKE")
 
@@ -297,22 +287,21 @@ def hota(call: Call, **state: Any) -> CellField:
 @operator("CRIT", *_STATE, family="stress", full_name="CRITERE")
 def crit(call: Call, **state: Any) -> CellField:
     """Yield criterion."""
-    read = _state_read(call, **state)
-    blocks = []
-    for zone in read.model.zones:
-        there = _stresses_of(zone, read.stress)
-        values = criterion(zone, read.material, there, zone_field(zone, read.variables))
-        blocks.append(zone.block({"SCAL": values}))
-    return CellField(tuple(blocks), "SCALAIRE")
+    return _scalar(_state_read(call, state), criterion)
 
 
 @operator("MOTA", *_STATE, family="stress")
 def mota(call: Call, **state: Any) -> CellField:
     """Tangent moduli."""
-    read = _state_read(call, **state)
-    blocks = []
-    for zone in read.model.zones:
+    read = _state_read(call, state)
+    return _scalar(read, partial(tangent_modulus, precision=read.precision))
+
+
+def _scalar(read: _StateRead, of: Callable[..., FloatArray]) -> CellField:
+    """What a law says of a state, a number a point."""
+
+    def make(zone: Zone) -> CellFieldBlock:
         there, held = _stresses_of(zone, read.stress), zone_field(zone, read.variables)
-        modulus = tangent_modulus(zone, read.material, there, held, read.precision)
-        blocks.append(zone.block({"SCAL": modulus}))
-    return CellField(tuple(blocks), "SCALAIRE")
+        return zone.block({"SCAL": of(zone, read.material, there, held)})
+
+    return on_zones(read.model, "SCALAIRE", make)

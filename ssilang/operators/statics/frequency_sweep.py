@@ -3,6 +3,7 @@
 from ssilang.kernel.elements.families import mass, stiffness
 from ssilang.kernel.elements.springs import counts_damping, dynamic_stiffness, is_impedance
 from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields import node_algebra
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.modal.shape_models import is_shape, shape_matrix
@@ -12,6 +13,7 @@ from ssilang.kernel.statics.thermal_load import loaded_sides, with_pressures
 from ssilang.operators.prelude import *
 from ssilang.operators.session.progress import ProgressLine
 from ssilang.operators.statics.pasapas_contact import joined_matrix
+from ssilang.operators.statics.pasapas_results import put_results
 from ssilang.operators.statics.pasapas_stages import loads_taken
 from ssilang.operators.tables.entries import Entries
 
@@ -26,33 +28,25 @@ def zfre(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
         entries.refuse({"REPRISE": "operators.dynamics.not-kept-frequencies"})
     inputs = _inputs(loads_taken(entries))
     frequencies = _frequencies(entries, inputs)
-    tables = {word: Table() for word in _RESULTS}
-    for word, results in tables.items():
-        entries.table.set(Mot(word), results)
+    for word in _RESULTS:
+        entries.table.set(Mot(word), Table())
     entries.table.set(Mot("CONV"), False)
     line = ProgressLine("PASAPAS", entries.call.session.told)
+    at_rest = partial(node_algebra.applied, function=np.zeros_like)
     try:
         for number, found in enumerate(sweep(inputs, frequencies), 1):
+            fields = found.displacement, found.reactions
             if number == 1:
-                for word, value in zip(
-                    _RESULTS, (0.0, _at_rest(found.displacement), _at_rest(found.reactions)),
-                    strict=True,
-                ):  # fmt: skip
-                    tables[word].set(0, value)
-            values: tuple[Any, ...] = (found.frequency, found.displacement, found.reactions)
-            for word, value in zip(_RESULTS, values, strict=True):
-                tables[word].set(number, value)
+                _put(entries, 0, 0.0, *map(at_rest, fields))
+            _put(entries, number, found.frequency, *fields)
     finally:
         line.close()
     entries.table.set(Mot("CONV"), True)
     entries.table.set(Mot("ERREUR"), False)
 
 
-def _at_rest(field: NodeField) -> NodeField:
-    parts = {
-        name: NodeValues(p.nodes, np.zeros_like(p.values)) for name, p in field.components.items()
-    }
-    return NodeField(field.table, parts, field.nature)
+def _put(entries: Entries, number: int, *values: Any) -> None:
+    put_results(entries.table, number, dict(zip(_RESULTS, values, strict=True)), keep=False)
 
 
 def _frequencies(entries: Entries, inputs: HarmonicInputs) -> FloatArray:

@@ -74,24 +74,6 @@ def _moved(field: NodeField, moves: bool) -> Iterator[None]:
         nodes.coordinates[: len(kept)] = kept
 
 
-class FollowingPressure:
-    """Pressures of a loading on sides that stand where the bodies have taken them."""
-
-    def __init__(self, load: Load, sides: tuple[Zone, ...], problem: Problem) -> None:
-        self.parts, self.sides = pressures(load), sides
-        self.numbering = problem.numbering
-
-    def __call__(self, time: float, u: FloatArray) -> Added:
-        """The load at a time, for a displacement."""
-        total = np.zeros(self.numbering.size)
-        with _moved(vector_to_field(u, self.numbering), True):
-            for part in self.parts:
-                total += field_to_vector(
-                    along_normals(part_at(part, time), self.sides), self.numbering
-                )
-        return Added(total)
-
-
 def procedure_law(entries: Entries) -> Callable[[Problem], LoadLaw]:
     """The load of CHARMECA, once the problem is numbered."""
     moves = entries.flag("GRANDS_DEPLACEMENTS")
@@ -99,8 +81,21 @@ def procedure_law(entries: Entries) -> Callable[[Problem], LoadLaw]:
 
 
 def pressure_law(load: Load, sides: tuple[Zone, ...]) -> Callable[[Problem], LoadLaw]:
-    """Pressures that follow their sides, once the problem is numbered."""
-    return lambda problem: FollowingPressure(load, sides, problem)
+    """Pressures on sides that stand where the bodies have taken them, once it is numbered."""
+    parts = pressures(load)
+
+    def of_problem(problem: Problem) -> LoadLaw:
+        def law(time: float, u: FloatArray) -> Added:
+            total = np.zeros(problem.numbering.size)
+            with _moved(vector_to_field(u, problem.numbering), True):
+                for part in parts:
+                    pushed = along_normals(part_at(part, time), sides)
+                    total += field_to_vector(pushed, problem.numbering)
+            return Added(total)
+
+        return law
+
+    return of_problem
 
 
 def loaded_bodies(law_of: Callable[[Problem], LoadLaw], said: str, bodies: Bodies | None) -> Bodies:

@@ -125,7 +125,8 @@ def stress_offsets(
         names = family_of(zone).stress_names(zone)
         if not any(n in seen for n in names):
             continue
-        field = displacement if isinstance(displacement, NodeField) else _nothing(zone)
+        still = NodeField(zone.cells.nodes, {})
+        field = displacement if isinstance(displacement, NodeField) else still
         now = Stresses([(zone, material)], stresses.thermal).at(field, time)[0]
         rest = {
             n: np.broadcast_to(seen.at(n, "STRESSES", 0.0), now.components[n].shape)
@@ -137,10 +138,6 @@ def stress_offsets(
         if left > NEGLIGIBLE * max(size, left):
             found[id(zone)] = replace(now, components=rest)
     return found
-
-
-def _nothing(zone: Zone) -> NodeField:
-    return NodeField(zone.cells.nodes, {})
 
 
 def offset_load(offsets: dict[int, CellFieldBlock], zones: Zones) -> list[NodeField]:

@@ -13,7 +13,8 @@ from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.statics.thermal_load import split_strains
 from ssilang.operators.fields.cell_extraction import depended_on
-from ssilang.operators.fields.variation import beyond_laws, evaluated, placed
+from ssilang.operators.fields.cell_supports import placed
+from ssilang.operators.fields.variation import beyond_laws, evaluated
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import tire_by_names
 from ssilang.operators.statics.pasapas_contact import Zones, stress_offsets

@@ -8,7 +8,9 @@ from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.zone_fields import cell_rows, n_points
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.kinematics import element_sides
+from ssilang.kernel.matrices.submatrices import together
 from ssilang.kernel.stepping.snapshot import Receiver, Snapshot
+from ssilang.operators.matrices.element import joined
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.loads_in_time import part_at
 from ssilang.operators.statics.pasapas_materials import Varying, same_fields
@@ -113,14 +115,9 @@ def _joined(work: Entries, word: str, values: list[Any]) -> Any:
     if word == "MODE":
         return values[0] if len(values) == 1 else Model(tuple(z for m in values for z in m.zones))
     if word == "MATE":
-        if len(values) == 1:
-            return values[0]
-        return CellField(tuple(b for f in values for b in f.blocks), values[0].title)
+        return joined(tuple(values))
     always = work.get("BLOCAGES_MECANIQUES")
-    all_ = values if always is None else [always, *values]
-    blocks = tuple(b for m in all_ for b in m.blocks)
-    relations = tuple(r for m in all_ for r in m.relations)
-    return Matrix(all_[0].table, blocks, relations, all_[0].kind)
+    return together(*(values if always is None else [always, *values]))
 
 
 @dataclass

@@ -226,12 +226,11 @@ def _state(model: Model, field: CellField) -> str:
 @operator("EPTH", family="stress")
 def epth(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal strains."""
-    material, field = _thermal(call, model, fields)
-    zones = present(call, model)
-    return on_zones(zones, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
+    return _thermal(call, model, fields)[1]
 
 
-def _thermal(call: Call, model: Model, fields: Fields) -> tuple[CellField, NodeField | CellField]:
+def _thermal(call: Call, model: Model, fields: Fields) -> tuple[CellField, CellField]:
+    """The parameters, and the strains that the temperature gives."""
     nodal, cells = nodal_of(fields), cells_of(fields)
     if not nodal and len(cells) < 2:
         raise call.missing(("CHPOINT", "MCHAML"))
@@ -241,18 +240,18 @@ def _thermal(call: Call, model: Model, fields: Fields) -> tuple[CellField, NodeF
     if nodal and len(lost := without(model, material, nodal[0].node_ids)):
         told = {"count": len(lost), "node": nodal[0].table.told(int(lost[0]))}
         call.warn("operators.statics.temperature-missing", nodal[0], **told)
-    return material, nodal[0] if nodal else cells[-1]
+    field = nodal[0] if nodal else cells[-1]
 
+    def make(zone: Zone) -> CellFieldBlock:
+        values = thermal_strain(zone, material, field)
+        return cell_block(zone, families.family_of(zone).strain_names(zone), values)
 
-def _thermal_block(zone: Zone, material: CellField, field: NodeField | CellField) -> CellFieldBlock:
-    values = thermal_strain(zone, material, field)
-    return cell_block(zone, families.family_of(zone).strain_names(zone), values)
+    return material, on_zones(present(call, model), "DEFORMATIONS", make)
 
 
 @operator("THET", family="stress", full_name="THETA")
 def thet(call: Call, model: Model = MODEL, fields: Fields = _THERMAL) -> CellField:
     """Thermal stresses."""
-    material, field = _thermal(call, model, fields)
+    material, strains = _thermal(call, model, fields)
     zones = present(call, model)
-    strains = on_zones(zones, "DEFORMATIONS", lambda z: _thermal_block(z, material, field))
     return on_zones(zones, "CONTRAINTES", lambda z: families.elastic_stress(z, material, strains))

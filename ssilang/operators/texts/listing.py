@@ -19,12 +19,9 @@ def real(x: float) -> str:
     return formatted("(1PE12.5)", x)
 
 
-def _rows(cells: list[str], per_line: int) -> list[str]:
-    return ["".join(cells[i : i + per_line]) for i in range(0, len(cells), per_line)]
-
-
 def _headed(head: str, short: bool, cells: list[str], per_line: int) -> str:
-    return head if short else "\n".join([head, *_rows(cells, per_line)])
+    rows = ["".join(cells[i : i + per_line]) for i in range(0, len(cells), per_line)]
+    return head if short else "\n".join([head, *rows])
 
 
 @listing("ENTIER")
@@ -52,26 +49,20 @@ def _text(value: Texte, short: bool, say: Teller) -> str:
     return say("operators.texts.text", text=print_items(value.items))
 
 
-@listing("LISTREEL")
-def _reals(value: ListReel, short: bool, say: Teller) -> str:
-    return say_reals(value, short, say, 10)
-
-
-def say_reals(value: ListReel, short: bool, say: Teller, per_line: int) -> str:
-    """The numbers of a list, so many in a line."""
+def _reals(value: ListReel, short: bool, say: Teller, per_line: int = 10) -> str:
     head = say("operators.texts.reals", count=len(value), full=not short)
     return _headed(head, short, [f" {real(v)}" for v in value.values.tolist()], per_line)
 
 
-@listing("LISTENTI")
-def _integers(value: ListEnti, short: bool, say: Teller) -> str:
-    return say_integers(value, short, say, 20)
+listing("LISTREEL")(_reals)
 
 
-def say_integers(value: ListEnti, short: bool, say: Teller, per_line: int) -> str:
-    """The numbers of a list, so many in a line."""
+def _integers(value: ListEnti, short: bool, say: Teller, per_line: int = 20) -> str:
     head = say("operators.texts.integers", count=len(value), full=not short)
     return _headed(head, short, [f" {v:7d}" for v in value.values.tolist()], per_line)
+
+
+listing("LISTENTI")(_integers)
 
 
 @listing("LISTMOTS")
@@ -246,8 +237,8 @@ def _nested(value: Table, depth: int, above: tuple[int, ...], say: Teller) -> li
 _DEEPEST = 10
 _NUMBERED: dict[str, Callable[[Any, int, int, Teller], str]] = {
     "PROCEDUR": _procedure_lines,
-    "LISTREEL": lambda value, per_line, _, say: say_reals(value, False, say, per_line),
-    "LISTENTI": lambda value, per_line, _, say: say_integers(value, False, say, per_line),
+    "LISTREEL": lambda value, per_line, _, say: _reals(value, False, say, per_line),
+    "LISTENTI": lambda value, per_line, _, say: _integers(value, False, say, per_line),
     "TABLE": _table_within,
 }
 

@@ -43,13 +43,11 @@ class Copier:
 
     def node_field(self, field: NodeField) -> NodeField:
         """The field on the copied nodes, vectors turned by the rotation if there is one."""
-        components = {
-            name: NodeField.of(field.table, self.nodes.of_nodes(part.nodes), {name: part.values})
-            for name, part in field.components.items()
-        }
-        made = NodeField(
-            field.table, {k: f.components[k] for k, f in components.items()}, field.nature
-        )
+        parts: dict[str, NodeValues] = {}
+        for name, part in field.components.items():
+            nodes = self.nodes.of_nodes(part.nodes)
+            parts |= NodeField.of(field.table, nodes, {name: part.values}).components
+        made = NodeField(field.table, parts, field.nature)
         return made if self.rotation is None else turned_node_field(made, self.rotation)
 
     def cell_field(self, field: CellField) -> CellField:

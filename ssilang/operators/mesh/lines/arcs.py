@@ -26,8 +26,8 @@ def cerc(
 ) -> Mesh:
     """Draw a circular arc about a centre or through three points."""
     curve = curves.arc_through if through == "PASS" else partial(_about_centre, call)
-    cuts = cuts_of(count, sizes)
-    return drawn_by_middle(call, curve, (start, middle, end), cuts)
+    at, cuts = middle.coordinates.copy(), cuts_of(count, sizes)
+    return drawn_between(call, start, end, lambda a, b: curve(a, at, b), cuts)
 
 
 def _about_centre(
@@ -75,7 +75,8 @@ def cer3(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the arc through three points."""
-    return drawn_by_middle(call, curves.arc_through, (start, middle, end), cuts_of(count, sizes))
+    at, cuts = middle.coordinates.copy(), cuts_of(count, sizes)
+    return drawn_between(call, start, end, lambda a, b: curves.arc_through(a, at, b), cuts)
 
 
 @operator("PARC", family="mesh")

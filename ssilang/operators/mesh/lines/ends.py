@@ -11,7 +11,7 @@ from ssilang.operators.prelude import *
 
 __all__ = [
     "ANGLE", "AXIS", "COUNT", "END", "SIZES", "START", "Cuts", "Ends", "Sizes", "axis_of",
-    "chosen_family", "count_and_angle", "cuts_of", "drawn", "drawn_by_middle", "drawn_from",
+    "chosen_family", "count_and_angle", "cuts_of", "drawn", "drawn_between", "drawn_from",
     "ends_of", "positions", "warn_of_flat_cells",
 ]  # fmt: skip
 
@@ -171,18 +171,17 @@ def drawn(call: Call, ends: Ends, curve: lines.CurveMap, length: float, cuts: Cu
     return union(*pieces, as_given=True)
 
 
-def drawn_by_middle(
+def drawn_between(
     call: Call,
-    curve: Callable[[FloatArray, FloatArray, FloatArray], Arc | Polynomial],
-    points: tuple[Point | Mesh, Point, Point | Mesh | None],
+    start: Point | Mesh,
+    end: Point | Mesh | None,
+    shape: Callable[[FloatArray, FloatArray], Arc | Polynomial],
     cuts: Cuts,
 ) -> Mesh:
-    """The line that a start, a point and an end say."""
-    start, middle, end = points
+    """The line between two ends along the curve that their positions say."""
     ends = ends_of(call, start, end)
-    a, b = positions(workspace(call.session), ends.start, ends.end)
-    shape = curve(a, middle.coordinates.copy(), b)
-    return drawn(call, ends, shape, shape.length, cuts)
+    curve = shape(*positions(workspace(call.session), ends.start, ends.end))
+    return drawn(call, ends, curve, curve.length, cuts)
 
 
 def drawn_from(

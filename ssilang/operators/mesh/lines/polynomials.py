@@ -16,8 +16,8 @@ def para(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw an arc of parabola."""
-    cuts = cuts_of(count, sizes)
-    return drawn_by_middle(call, parabola, (start, middle, end), cuts)
+    at, cuts = middle.coordinates.copy(), cuts_of(count, sizes)
+    return drawn_between(call, start, end, lambda a, b: parabola(a, at, b), cuts)
 
 
 @operator("CUBP", family="mesh")
@@ -32,11 +32,8 @@ def cubp(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the cubic through four points."""
-    ends = ends_of(call, start, end)
-    inner = first.coordinates.copy(), second.coordinates.copy()
-    a, b = positions(workspace(call.session), ends.start, ends.end)
-    shape = cubic_through(a, *inner, b, uniform)
-    return drawn(call, ends, shape, shape.length, cuts_of(count, sizes))
+    inner, cuts = (first.coordinates.copy(), second.coordinates.copy()), cuts_of(count, sizes)
+    return drawn_between(call, start, end, lambda a, b: cubic_through(a, *inner, b, uniform), cuts)
 
 
 @operator("CUBT", family="mesh")
@@ -50,11 +47,8 @@ def cubt(
     sizes: Sizes = SIZES,
 ) -> Mesh:
     """Draw the cubic between two tangents."""
-    ends = ends_of(call, start, end)
-    tangents = first.coordinates.copy(), second.coordinates.copy()
-    a, b = positions(workspace(call.session), ends.start, ends.end)
-    shape = cubic_tangents(a, *tangents, b)
-    return drawn(call, ends, shape, shape.length, cuts_of(count, sizes))
+    tangents, cuts = (first.coordinates.copy(), second.coordinates.copy()), cuts_of(count, sizes)
+    return drawn_between(call, start, end, lambda a, b: cubic_tangents(a, *tangents, b), cuts)
 
 
 @operator("COUR", family="mesh", full_name="COURBE")

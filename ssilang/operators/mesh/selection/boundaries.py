@@ -19,9 +19,13 @@ def cont(
         parts.append(boundary.contour(mesh))
     if which in ("INTE", "TOUT"):
         parts.append(boundary.inner_contour(mesh))
-    found = gathered(parts)
+    return not_empty(gathered(parts), allowed, "operators.mesh.no-contour")
+
+
+def not_empty(found: Mesh, allowed: bool, code: str) -> Mesh:
+    """The cells that were found; none are refused, unless that is allowed."""
     if not found.blocks and not allowed:
-        raise MeshError("operators.mesh.no-contour")
+        raise MeshError(code)
     return found
 
 
@@ -40,9 +44,7 @@ def enve(
     else:
         faces = boundary.envelope(orientation.orient(mesh, 3) if inwards else mesh)
         skin = Mesh(faces.nodes, tuple(orientation.flip(b) for b in faces.blocks))
-    if not skin.blocks and not allowed:
-        raise MeshError("operators.mesh.no-envelope")
-    return skin
+    return not_empty(skin, allowed, "operators.mesh.no-envelope")
 
 
 @operator("ARET", family="mesh", full_name="ARETE")

@@ -9,6 +9,7 @@ from ssilang.kernel.mesh.queries.select import containing, resting_on, stretch
 from ssilang.language.registry import find_operator
 from ssilang.operators.dispatch import COMP
 from ssilang.operators.mesh.points import picking
+from ssilang.operators.mesh.selection.boundaries import not_empty
 from ssilang.operators.prelude import *
 
 _MESH = main("mesh", "MAILLAGE", en="cells to pick from")
@@ -94,9 +95,7 @@ def holding_point(
 ) -> Mesh:
     """Pick the cells that hold a point."""
     made = containing(mesh, holding["point"].coordinates, every)
-    if not made.blocks and not allowed:
-        raise MeshError("operators.mesh.point-outside")
-    return made
+    return not_empty(made, allowed, "operators.mesh.point-outside")
 
 
 @elem.form(gives="MAILLAGE")
@@ -123,17 +122,14 @@ def resting_on_points(
 ) -> Mesh:
     """Pick the cells that rest on points; the mesh stands first, or last behind the word."""
     support = [*resting["support"], *more]
-    last = support.pop() if mesh is None and support else mesh
-    if not isinstance(last, Mesh):
+    mesh = support.pop() if mesh is None and support else mesh  # type: ignore[assignment]
+    if not isinstance(mesh, Mesh):
         raise call.missing(("MAILLAGE",))
-    mesh = last
     if not support:
         raise call.missing(("MAILLAGE", "POINT"))
     ids = np.concatenate([s.node_ids for s in support])
     made = resting_on(mesh, ids, resting["how"] != "LARGEMENT")
-    if not made.blocks and not resting["allowed"]:
-        raise MeshError("operators.mesh.no-cell-rests")
-    return made
+    return not_empty(made, resting["allowed"], "operators.mesh.no-cell-rests")
 
 
 def _filtered(mesh: Mesh, filters: Sequence[str]) -> Mesh:

@@ -5,6 +5,7 @@ from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.queries.select import inside_contour, inside_volume
 from ssilang.kernel.mesh.queries.signed_distance import before_triangles
 from ssilang.kernel.mesh.volumes.tetrahedralize import ray_inside
+from ssilang.operators.mesh.selection.boundaries import not_empty
 from ssilang.operators.prelude import *
 
 
@@ -63,7 +64,4 @@ def incl(
         good = inside(block.coordinates.reshape(-1, 3)).reshape(len(block), -1)
         return np.asarray((np.any if volume and how == "LARG" else np.all)(good, axis=1))
 
-    made = take(mesh, chosen)
-    if not made.blocks and not allowed:
-        raise MeshError("operators.mesh.no-cell-inside")
-    return made
+    return not_empty(take(mesh, chosen), allowed, "operators.mesh.no-cell-inside")

@@ -4,6 +4,7 @@ from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh import combine
 from ssilang.kernel.mesh.surfaces.surface_crossing import crossed
 from ssilang.operators.dispatch import DIFF, INTE, worded_union
+from ssilang.operators.mesh.selection.boundaries import not_empty
 from ssilang.operators.mesh.tolerance import DISTANCE
 from ssilang.operators.prelude import *
 
@@ -48,9 +49,7 @@ def intersection_of_meshes(
 ) -> Mesh:
     """Common cells of two meshes."""
     made = combine.intersection(first, as_mesh(second))
-    if not made.blocks and not allowed:
-        raise MeshError("operators.mesh.no-common-cell")
-    return made
+    return not_empty(made, allowed, "operators.mesh.no-common-cell")
 
 
 @INTE.form(said("GEOM"))
@@ -61,8 +60,7 @@ def surfaces_that_cross(
 ) -> tuple[Mesh, Mesh, Mesh, Mesh]:
     """Surfaces cut along their common lines, and these lines."""
     cut = crossed(first, second)
-    if not cut[2].blocks and not allowed:
-        raise MeshError("operators.mesh.no-crossing")
+    not_empty(cut[2], allowed, "operators.mesh.no-crossing")
     return cut
 
 

@@ -128,42 +128,30 @@ def voro(
     )
     fresh = nodes.add(found.points[len(corners) :], ws.density)
     edges = np.concatenate([corners, fresh])[found.edges]
-    return _Told(germs, places, sizes, found, edges, ws.colour).table()
+    return _told(germs, places, sizes, found, edges, ws.colour)
 
 
-class _Told:
+def _told(
+    germs: Mesh, places: IntArray, weights: FloatArray, found: VoronoiPartition, edges: IntArray,
+    colour: int,
+) -> Table:  # fmt: skip
     """The partition in the language's objects."""
+    nodes, owners = germs.nodes, found.owners
 
-    def __init__(
-        self,
-        germs: Mesh,
-        places: IntArray,
-        weights: FloatArray,
-        found: VoronoiPartition,
-        edges: IntArray,
-        colour: int,
-    ) -> None:
-        self.nodes, self.colour = germs.nodes, colour
-        self.places, self.weights = places, weights
-        self.owners, self.edges = found.owners, edges
+    def lines(table: IntArray) -> Mesh:
+        return Mesh.of(nodes, "SEG2", table, colour)
 
-    def table(self) -> Table:
-        arcs, cells = Table.numbered(self._lines(edge[None]) for edge in self.edges), Table()
-        for germ, place in enumerate(self.places):
-            # Edges with the germ's cell on their left, their numbers, and the cells beside it.
-            left, right = self.owners[:, 0] == germ, self.owners[:, 1] == germ
-            rows = np.flatnonzero(left | right)
-            lines = np.where(left[rows, None], self.edges[rows], self.edges[rows][:, ::-1])
-            beside = np.where(left[rows], self.owners[rows, 1], self.owners[rows, 0])
-            beside = np.unique(beside[beside != OUTSIDE])
-            around = poi1(self.nodes, self.places[beside], self.colour)
-            cell = {"VISU": self._lines(lines), "ARTS": ListEnti(rows + 1), "VOIS": around}
-            cells.set(Point(self.nodes, int(place)), Table.of(cell))
-        order = np.argsort(self.places)
-        values = NodeValues(self.places[order], self.weights[order])
-        weights = NodeField(self.nodes, {"SCAL": values}, "DIFFUS")
-        drawn = self._lines(self.edges)
-        return Table.of({"VISU": drawn, "POND": weights, "CELL": cells, "ARTS": arcs})
-
-    def _lines(self, table: IntArray) -> Mesh:
-        return Mesh.of(self.nodes, "SEG2", table, self.colour)
+    arcs, cells = Table.numbered(lines(edge[None]) for edge in edges), Table()
+    for germ, place in enumerate(places):
+        # Edges with the germ's cell on their left, their numbers, and the cells beside it.
+        left, right = owners[:, 0] == germ, owners[:, 1] == germ
+        rows = np.flatnonzero(left | right)
+        around = np.where(left[rows, None], edges[rows], edges[rows][:, ::-1])
+        beside = np.where(left[rows], owners[rows, 1], owners[rows, 0])
+        near = poi1(nodes, places[np.unique(beside[beside != OUTSIDE])], colour)
+        cell = {"VISU": lines(around), "ARTS": ListEnti(rows + 1), "VOIS": near}
+        cells.set(Point(nodes, int(place)), Table.of(cell))
+    order = np.argsort(places)
+    values = NodeValues(places[order], weights[order])
+    field = NodeField(nodes, {"SCAL": values}, "DIFFUS")
+    return Table.of({"VISU": lines(edges), "POND": field, "CELL": cells, "ARTS": arcs})
