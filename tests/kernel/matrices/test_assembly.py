@@ -16,7 +16,6 @@ from ssilang.kernel.matrices.assembly import (
     assemble,
     constraint_matrix,
     field_to_vector,
-    imposed_values,
     is_symmetric,
     may_be_positive,
     numbering_of,
@@ -91,29 +90,6 @@ def test_vector_and_field_are_inverse_of_each_other(table):
     back = vector_to_field(f, numbering)
     assert back.nature == "DIFFUS"
     np.testing.assert_allclose(field_to_vector(back, numbering, dual=False), f)
-
-
-def test_relations_become_rows_and_repeated_ones_count_once(table):
-    matrix = chain(table, np.array([0, 1, 2]), 1.0)
-    rows = Relations(
-        table,
-        np.array([0, 2, 3]),
-        np.array([0, 2, 1]),
-        ("UX", "UX", "UZ"),
-        np.array([1.0, -2.0, 4.0]),
-        np.array([4, 5]),
-        np.array([0, 1], dtype=np.int8),
-    )
-    whole = Matrix(table, matrix.blocks, (rows, rows))
-    numbering = numbering_of(whole)
-    assert numbering.size == 4  # UZ stands in a relation alone
-    C, multipliers, sense, D = constraint_matrix(whole)
-    np.testing.assert_allclose(C.toarray(), [[1, 0, 0, -2], [0, 0, 4, 0]])
-    assert list(multipliers) == [4, 5]
-    assert list(sense) == [0, 1]
-    assert D is C
-    given = NodeField.of(table, np.array([5]), {"FLX": np.array([0.25])})
-    np.testing.assert_allclose(imposed_values(given, multipliers), [0.0, 0.25])
 
 
 @pytest.mark.parametrize("copies", [1, 2])
