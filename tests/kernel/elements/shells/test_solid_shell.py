@@ -16,7 +16,7 @@ from ssilang.kernel.matrices.assembly import assemble, field_to_vector, numberin
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from tests.kernel.elements.samples import ELASTIC, field, material
+from tests.kernel.elements.samples import ELASTIC, cell_zone, field, material
 
 E, NU = 2.0e6, 0.3
 
@@ -68,6 +68,23 @@ def solve(zone, mat, load, fixed):
     u = np.zeros(numbering.size)
     u[free] = spsolve(A, field_to_vector(load, numbering)[free])
     return u, numbering
+
+
+def test_constant_strain_passes_through_any_brick_and_is_held_by_nothing():
+    zone = cell_zone("SHB8", Mode.THREE_DIMENSIONAL)
+    u = field(
+        zone,
+        UX=lambda x: 1e-3 * x[:, 0] + 4e-4 * x[:, 1],
+        UY=lambda x: -2e-4 * x[:, 1] + 5e-4 * x[:, 2],
+        UZ=lambda x: 7e-4 * x[:, 2] + 2e-4 * x[:, 0],
+    )
+    strain = families.strain(zone, u).components
+    exact = {"EPXX": 1e-3, "EPYY": -2e-4, "EPZZ": 7e-4, "GAXY": 4e-4, "GAXZ": 2e-4, "GAYZ": 5e-4}
+    for name, value in exact.items():
+        np.testing.assert_allclose(strain[name], value, atol=1e-15)
+    held = np.concatenate([v for n, v in strain.items() if n.startswith("GH")])
+    assert len(held) == 7
+    assert np.abs(held).max() < 1e-15
 
 
 @together("h", [0.2, 0.002])
