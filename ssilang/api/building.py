@@ -38,7 +38,7 @@ from ssilang.kernel.stepping.node_histories import NodeHistories
 from ssilang.kernel.stepping.problem.problem import Inputs, make_problem
 from ssilang.kernel.stepping.run import History, integrate
 from ssilang.language.say.errors import SsiError
-from ssilang.language.search import SHORT_LIKE, nearest
+from ssilang.language.search import nearest_told
 
 FIELDS = {"DEPL": "u", "VITE": "v", "ACCE": "a"}
 _MODES = {2: Mode.PLANE_STRAIN, 3: Mode.THREE_DIMENSIONAL}
@@ -80,8 +80,7 @@ class Part:
     def _side(self, side: str) -> IntArray:
         ends = {2: ("left", "right", "bottom", "top"), 3: _SIDES}[max(self.ids.ndim, 2)]
         if side not in ends:
-            near = nearest(side, ends, SHORT_LIKE)
-            told = {"side": side, "near": near, "known": list(ends)}
+            told = {"side": side, **nearest_told(side, ends)}
             raise refused("api.no-such-side", self.language, MissingKey, **told)
         axis, last = divmod(ends.index(side), 2)
         return np.take(self.ids, -1 if last else 0, axis=self.ids.ndim - 1 - axis)
@@ -242,11 +241,8 @@ class Builder:
             names = material_names(zone)
         for name in given:
             if name not in names.all:
-                near = nearest(name, names.all, SHORT_LIKE)
-                known = list(names.all)
-                raise refused(
-                    "api.no-such-material", self.language, name=name, near=near, known=known
-                )
+                told = {"name": name, **nearest_told(name, names.all)}
+                raise refused("api.no-such-material", self.language, **told)
         lost = [n for n in names.required if n not in given]
         if lost:
             raise refused("api.material-missing", self.language, names=lost)

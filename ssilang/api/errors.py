@@ -60,8 +60,8 @@ class Error(Exception):
     ----------
     notices : tuple of Notice
         All errors: a script that cannot be read may have several.
-    code, line, column, file, hint
-        Of the first of them.
+    code, hint, file, line, column
+        Of the first of them, as `Notice` has them.
     result : Result or None
         What the run had when it ended: what it printed, the objects it made.
 
@@ -80,38 +80,12 @@ class Error(Exception):
     def __init__(self, notices: Sequence[Notice], result: Any = None) -> None:
         super().__init__("\n\n".join(n.message for n in notices))
         self.notices, self.result = tuple(notices), result
+        first = self.notices[0]
+        self.code, self.hint = first.code, first.hint
+        self.file, self.line, self.column = first.file, first.line, first.column
 
     def __str__(self) -> str:
         return str(self.args[0])
-
-    @property
-    def _first(self) -> Notice:
-        return self.notices[0]
-
-    @property
-    def code(self) -> str:
-        """Which error it is."""
-        return self._first.code
-
-    @property
-    def hint(self) -> str:
-        """What to change, '' if nothing is known."""
-        return self._first.hint
-
-    @property
-    def file(self) -> str:
-        """The script, '' if the error is in none."""
-        return self._first.file
-
-    @property
-    def line(self) -> int:
-        """Line in it from 1, 0 if the error has no place."""
-        return self._first.line
-
-    @property
-    def column(self) -> int:
-        """Column in it from 1, 0 if the error has no place."""
-        return self._first.column
 
 
 class MissingKey(Error, KeyError):

@@ -13,7 +13,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh, Point
-from ssilang.language.search import SHORT_LIKE, nearest
+from ssilang.language.search import nearest_told
 
 if TYPE_CHECKING:
     import pandas
@@ -245,7 +245,5 @@ def node_axes(points: FloatArray) -> dict[str, tuple[str, FloatArray]]:
 
 
 def _no_component(name: str, known: Sequence[str], language: str) -> Exception:
-    near = nearest(name, known, SHORT_LIKE)
-    return refused(
-        "api.no-such-component", language, MissingKey, name=name, near=near, known=list(known)
-    )
+    told = {"name": name, **nearest_told(name, known)}
+    return refused("api.no-such-component", language, MissingKey, **told)

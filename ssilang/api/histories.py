@@ -11,7 +11,7 @@ from ssilang.api.view import library
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import MULTIPLIER, Numbering, field_to_vector
-from ssilang.language.search import SHORT_LIKE, nearest
+from ssilang.language.search import nearest_told
 from ssilang.language.values import LazyRows, Table
 from ssilang.operators.curves.evol import results_in_time
 from ssilang.operators.curves.instants import InstantField, RecordedFields
@@ -58,8 +58,8 @@ def full_word(table: Table, word: str, language: str) -> str:
     for index in (word, *known):
         if index in known and index.startswith(word):
             return index
-    near = nearest(word, known, SHORT_LIKE)
-    raise refused("api.no-such-result", language, MissingKey, word=word, near=near, known=known)
+    told = {"word": word, **nearest_told(word, known)}
+    raise refused("api.no-such-result", language, MissingKey, **told)
 
 
 def over_time(table: Table, word: str, language: str) -> "xarray.DataArray":

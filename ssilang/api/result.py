@@ -16,13 +16,13 @@ from ssilang.api.html import rows_html
 from ssilang.api.objects import CurveView, held, seen
 from ssilang.api.view import library
 from ssilang.cli.run import phrase_values
-from ssilang.cli.summary import is_within, pictures_among
+from ssilang.cli.summary import pictures_among
 from ssilang.kernel.mesh.mesh import Mesh, Point
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.run.scopes import PREDEFINED, Frame
-from ssilang.language.run.session import Session
+from ssilang.language.run.session import Check, Session
 from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.search import SHORT_LIKE, nearest
+from ssilang.language.search import nearest_told
 from ssilang.language.text.source import Source
 from ssilang.language.values import Table, type_of
 from ssilang.operators.files.outputs import run_output
@@ -75,25 +75,6 @@ def pictures_of(session: Session) -> list[Picture]:
     return [Picture(first, tuple(others)) for first, *others in ordered]
 
 
-@dataclass(frozen=True)
-class Check:
-    """A figure that a script reports (SORT 'BILA', @VERIFIE).
-
-    Attributes
-    ----------
-    expected, tolerance : float or None
-        None where nothing was expected.
-    ok : bool or None
-        Whether it is within its tolerance.
-    """
-
-    name: str
-    value: float
-    expected: float | None
-    tolerance: float | None
-    ok: bool | None
-
-
 class Checks(Sequence[Check]):
     """Figures in order, by place or by name."""
 
@@ -106,11 +87,8 @@ class Checks(Sequence[Check]):
         for check in self._found:
             if check.name == key:
                 return check
-        known = [c.name for c in self._found]
-        near = nearest(key, known, SHORT_LIKE)
-        raise refused(
-            "api.no-such-figure", self._language, MissingKey, name=key, near=near, known=known
-        )
+        told = {"name": key, **nearest_told(key, (c.name for c in self._found))}
+        raise refused("api.no-such-figure", self._language, MissingKey, **told)
 
     def __len__(self) -> int:
         return len(self._found)
@@ -175,11 +153,8 @@ class Result(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         value = self.session.root.find(name.upper())
         if value is None or type(value) is NotBuilt:
-            known = list(self._names)
-            raise refused(
-                "api.no-such-name", self.language, MissingKey,
-                name=name, near=nearest(name, known, SHORT_LIKE), known=known,
-            )  # fmt: skip
+            told = {"name": name, **nearest_told(name, self._names)}
+            raise refused("api.no-such-name", self.language, MissingKey, **told)
         return seen(value, self.language)
 
     def __iter__(self) -> Iterator[str]:
@@ -350,11 +325,7 @@ class Result(Mapping[str, Any]):
     @property
     def checks(self) -> Checks:
         """Figures that the script reports, with what was expected: by place or by name."""
-        found = [
-            Check(c.name, c.value, c.expected, c.tolerance, is_within(c))
-            for c in self.session.checks
-        ]
-        return Checks(found, self.language)
+        return Checks(self.session.checks, self.language)
 
     @property
     def files(self) -> list[Path]:

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import takewhile
+from typing import Any
 
 LIKE, VERY_LIKE = 0.7, 0.8
 """Part of the letters of two words that agree."""
@@ -66,6 +67,12 @@ def nearest_names(
 def nearest(word: str, known: Iterable[str], least: float = LIKE) -> str:
     """The known name that looks most like `word`, '' if none is as like as `least`."""
     return next(iter(nearest_names(word, known, least, 1)), "")
+
+
+def nearest_told(word: str, known: Iterable[str]) -> dict[str, Any]:
+    """What tells of a short name that is not among those known: which of them is near, and all."""
+    several = list(known)
+    return {"near": nearest(word, several, SHORT_LIKE), "known": several}
 
 
 _BEGINNING = 4

@@ -17,11 +17,11 @@ from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.records.fragility import LEAST_RECORDS, Fragility, of_cloud, of_exceedances
-from ssilang.language.search import SHORT_LIKE, nearest
+from ssilang.language.search import nearest_told
 from ssilang.messages.message import Refusal, Teller
 from ssilang.report.charts import Chart, Line, charts_html
 from ssilang.report.html import table, text
-from ssilang.report.records import FRAGILITY, read_record
+from ssilang.report.records import read_record
 from ssilang.report.sweep_table import (
     MOTION,
     Sweep,
@@ -189,7 +189,7 @@ def asked_of(folder: Path) -> Asked | None:
     if inside(folder, ASKED) is None:
         return None
     try:
-        said = read_record(folder / ASKED, FRAGILITY)
+        said = read_record(folder / ASKED, "fragility")
     except (OSError, ValueError) as problem:
         raise InputError("report.damaged", path=folder / ASKED, problem=problem) from None
     limits = [limit for each in said["limits"] for limit in read_limits(each)]
@@ -203,8 +203,7 @@ def unknown(asked: Asked, known: Sequence[str]) -> list[Refusal]:
 
 
 def _unknown(name: str, known: Sequence[str]) -> Refusal:
-    near = nearest(name, known, SHORT_LIKE)
-    return Refusal("report.fragility-unknown", name=name, near=near, known=list(known))
+    return Refusal("report.fragility-unknown", name=name, **nearest_told(name, known))
 
 
 def fits_of(sweep: Sweep, asked: Asked) -> list[Fit]:

@@ -17,7 +17,6 @@ from ssilang.io.recording import CONTENTS, FOLDER
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.language.say.errors import SsiError
 from ssilang.language.text.source import Source
-from ssilang.report import records
 from ssilang.report.records import RecordError, read_record
 
 SUMMARY = "summary.json"
@@ -112,7 +111,7 @@ def _summary(folder: Path) -> dict[str, Any]:
     if inside(folder, SUMMARY) is None:
         return {}
     try:
-        return read_record(path, records.SUMMARY)
+        return read_record(path, "summary")
     except RecordError as problem:
         raise InputError("report.not-a-summary", path=path, problem=problem) from None
     except (OSError, ValueError) as problem:
@@ -126,7 +125,7 @@ def _contents(folder: Path, own: set[str], ended: bool, unread: list[str]) -> di
     if path is None or (ended and name not in own):
         return {}
     try:
-        return read_record(path, records.CONTENTS)
+        return read_record(path, "contents")
     except RecordError as problem:
         unread.append(f"{name} ({problem})")
     except (OSError, ValueError):

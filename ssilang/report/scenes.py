@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -187,8 +186,8 @@ class _Shape:
             rows = np.asarray(surface.point_data["_row"], np.int64)
             faces = surface.triangulate()
             self.triangles = faces.faces.reshape(-1, 4)[:, 1:].ravel()
-            self.lines = _pairs(surface.lines)
-            self.vertices = _singles(surface.verts)
+            self.lines = _pairs(surface.GetLines())
+            self.vertices = _cells_of(surface.GetVerts())[1]
             self.edges = _edges_of(surface)
         corners = list(_corners(grid, self.joints))
         flat = np.array([p for c in corners for p in c], np.int64)
@@ -233,7 +232,7 @@ class _Shape:
 
     def _at_points(self, grid: Any, values: FloatArray) -> FloatArray:
         """Means of the cells around each point of the surface; nan where none has a value."""
-        offset, nodes = _cells_of(grid)
+        offset, nodes = _cells_of(grid.GetCells())
         cell = np.repeat(np.arange(grid.n_cells), np.diff(offset))
         whole = np.asarray(np.isfinite(values).all(axis=1))
         there = whole[cell]
@@ -253,16 +252,15 @@ def _mises(s: FloatArray) -> FloatArray:
     )
 
 
-def _cells_of(grid: Any) -> tuple[IntArray, IntArray]:
+def _cells_of(cells: Any) -> tuple[IntArray, IntArray]:
     """Where the points of each cell begin in the list of all, and that list."""
-    cells = grid.GetCells()
     offset = pyvista.convert_array(cells.GetOffsetsArray())
     return np.asarray(offset), np.asarray(pyvista.convert_array(cells.GetConnectivityArray()))
 
 
 def _corners(grid: Any, joints: BoolArray) -> Iterator[tuple[int, ...]]:
     """Points of the upper side of each joint."""
-    offset, nodes = _cells_of(grid)
+    offset, nodes = _cells_of(grid.GetCells())
     for cell in np.flatnonzero(joints).tolist():
         local = nodes[offset[cell] : offset[cell + 1]]
         yield tuple(int(local[k]) for k in _UPPER[int(grid.celltypes[cell])])
@@ -274,22 +272,11 @@ def _edges_of(surface: Any) -> IntArray:
     return faces.extract_all_edges().lines.reshape(-1, 3)[:, 1:].ravel()
 
 
-def _pairs(lines: IntArray) -> IntArray:
-    """Segments of polylines, as VTK lists these."""
-    return np.array([n for run in _runs(lines) for p in pairwise(run) for n in p], np.int64)
-
-
-def _singles(verts: IntArray) -> IntArray:
-    return np.array([n for run in _runs(verts) for n in run], np.int64)
-
-
-def _runs(cells: IntArray) -> Iterator[list[int]]:
-    """Points of each cell of a list as VTK has them: their number, then they."""
-    at = 0
-    while at < len(cells):
-        end = at + 1 + int(cells[at])
-        yield cells[at + 1 : end].tolist()
-        at = end
+def _pairs(lines: Any) -> IntArray:
+    """Segments of VTK's polylines."""
+    offset, nodes = _cells_of(lines)
+    first = np.setdiff1d(np.arange(len(nodes)), offset[1:] - 1)
+    return np.stack([nodes[first], nodes[first + 1]], axis=1).ravel()
 
 
 # ---- reading -------------------------------------------------------------------------------------

@@ -16,7 +16,6 @@ import numpy as np
 from ssilang.io.atomic import inside
 from ssilang.io.errors import InputError
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.report import records
 from ssilang.report.html import text
 from ssilang.report.records import MOST_BYTES, read_json, read_record
 
@@ -96,7 +95,7 @@ def summary_of(folder: Path, run: object) -> dict[str, Any]:
     """The summary of a run by its folder's name; empty if there is none, or a damaged one."""
     path = inside(folder / RUNS, f"{run}/summary.json")
     try:
-        return read_record(path, records.SUMMARY) if path else {}
+        return read_record(path, "summary") if path else {}
     except (OSError, ValueError):
         return {}
 

@@ -251,21 +251,30 @@ def test_reduction_agrees_with_the_whole_model(tmp_path):
     assert np.abs(last[0] - last[1]).max() <= 1e-5 * np.abs(last[0]).max()
 
 
-def test_three_records_train_a_basis_that_runs_of_a_sweep_share(tmp_path):
-    """The first two run whole, and train; the same one again teaches nothing."""
-    asked = "T1 . 'REDUCTION' = 1.E-2 ; T1 . 'APPRENTISSAGE' = 'basis' ; T1 . 'CHAR' = {} ;"
-    loads = [f"CHAR 'MECA' ({1 + i / 10} * F)" for i in (0, 0, 1, 2)]
-    text = SHAKEN + "".join((asked + "T2 = DYNAMIC T1 ;").format(load) for load in loads)
+def test_motions_share_the_memory_of_their_ground(tmp_path):
+    """Made in the first, found by the second; the whole model moves the block alike."""
+    still = "T1 . 'DEPL' = RESO ((T1 . 'RIGI') ET (RIGI MI AI)) F ; T1 . 'MAILLAGE_SAUVE' = J ;"
+    joint = """
+MI = MODE (T . 'JOINT') 'MECANIQUE' 'ELASTIQUE' 'JOI2' ; AI = MATE MI 'KN' 2.E8 'KS' 1.E8 ;
+J = (T . 'JOINT') ET (T . 'SEMELLE') ;
+LT = T1 . 'TEMPS_CALCULES' ;
+EV = EVOL 'MANU' LT (3. * (SIN (720. * LT))) ;
+T1 . 'CHAR' = (T1 . 'CHAR') ET (CHAR 'MECA' (M1 * (MANU 'CHPO' V 1 'UX' 1.)) EV) ;
+"""
+    runs = "".join(
+        f"T1 . 'REDUCTION' = 1.E-3 ; T1 . 'MEMOIRE' = 'ground' ; T{i} = DYNAMIC T1 ;"
+        for i in (3, 4)
+    )
+    text = SHAKEN + joint + still + "T2 = DYNAMIC T1 ;" + runs
     options = RunOptions(output_directory=tmp_path / "runs" / "a", shared=tmp_path)
     result = ran(text, options=options)
     lines = result.session.statistics["calculations"]
-    assert [line["reduced"] for line in lines] == [False, False, False, True]
-    assert [line["not_reduced_because"][30:39] for line in lines] == [
-        "0 records",
-        *2 * ["1 record,"],
-        "",
-    ]
-    assert (tmp_path / "basis.npz").is_file()
+    assert [line["loop"] for line in lines] == ["condensed", "memory", "memory"]
+    assert max(line["estimated_error"] for line in lines[1:]) <= 1e-3
+    assert (tmp_path / "ground.npz").is_file()
+    found = [table(result, n).get(26).get("DEPL").components["UX"] for n in ("T2", "T3", "T4")]
+    for other in found[1:]:
+        assert np.abs(other.values - found[0].values).max() <= 1e-3 * np.abs(found[0].values).max()
 
 
 def test_reduction_of_a_small_problem_runs_it_whole(tmp_path):

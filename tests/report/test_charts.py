@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from together import together
 
 from ssilang.report.charts import Chart, Line, charts_html, charts_of
-from ssilang.report.scenes import _edges_of, _pairs, _singles
+from ssilang.report.scenes import _cells_of, _edges_of, _pairs
 
 TIME = np.array([0.0, 0.5, 2.0])
 
@@ -148,7 +148,7 @@ def test_no_faces_have_no_edges():
 
 
 def test_lines_and_points_of_several_sizes_stand_one_behind_the_other():
-    lines = pyvista.PolyData(np.eye(3), lines=[3, 0, 2, 1, 2, 1, 0]).lines
+    lines = pyvista.PolyData(np.eye(3), lines=[3, 0, 2, 1, 2, 1, 0]).GetLines()
     assert _pairs(lines).reshape(-1, 2).tolist() == [[0, 2], [2, 1], [1, 0]]
-    points = pyvista.PolyData(np.eye(3), verts=[2, 2, 0, 1, 1]).verts
-    assert _singles(points).tolist() == [2, 0, 1]
+    points = pyvista.PolyData(np.eye(3), verts=[2, 2, 0, 1, 1]).GetVerts()
+    assert _cells_of(points)[1].tolist() == [2, 0, 1]

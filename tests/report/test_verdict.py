@@ -13,8 +13,7 @@ from together import together
 
 from ssilang.cli.run import RunOptions, RunResult, run_text
 from ssilang.operators.dynamics.checkpoints import KeptCalculation
-from ssilang.report import records
-from ssilang.report.records import Kind, Maybe, Named, RecordError, read_record
+from ssilang.report.records import RecordError, kinds, read_record
 from ssilang.report.verdict import is_endless, verdict_html
 from tests.operators.test_checkpoints import EVERY, ROCKING
 
@@ -156,19 +155,20 @@ def test_going_on_without_the_report_is_refused(ended: Path) -> None:
     assert "--resume --report" in result.message
 
 
-VALUES = ("t", 2, 0.5, True, [False, True], "DEPL")
+VALUES = {"text": "t", "a number": 0.5, "a count": 2, "true or false": True}
+VALUES["two of true or false"] = [False, True]
 
 
 def whole(kind, wrong, place=""):
     """A value of a kind with two of everything; `wrong` gets places of what it holds."""
-    if isinstance(kind, Maybe):
-        return whole(kind.kind, wrong, place)
-    if isinstance(kind, Kind):
+    if isinstance(kind, str) and kind[0] == "@":
+        return whole(kinds()[kind[1:]], wrong, place)
+    if isinstance(kind, str):
         wrong.append(place)
-        return next(v for v in VALUES if kind.holds(v))
+        return VALUES.get(kind.removesuffix("?"), "DEPL")
     if isinstance(kind, list):
         return [whole(kind[0], wrong, f"{place}[{i}]") for i in range(2)]
-    inner = dict.fromkeys(sorted(kind.names), kind.kind) if isinstance(kind, Named) else kind
+    inner = dict.fromkeys(sorted(kind["only"]), kind["each"]) if "only" in kind else kind
     names = [(n.removesuffix("?"), k) for n, k in inner.items()]
     return {n: whole(k, wrong, f"{place}.{n}".lstrip(".")) for n, k in names}
 
@@ -183,12 +183,12 @@ def at(record, place):
     return record, steps[-1]
 
 
-@pytest.mark.parametrize("name", ["SUMMARY", "FRAGILITY", "CONTENTS"])
+@pytest.mark.parametrize("name", ["summary", "fragility", "contents"])
 def test_a_wrong_value_is_told_by_its_place(name, tmp_path):
-    kind, places = getattr(records, name), []
+    kind, places = kinds()[name], []
     record, path = whole(kind, places), tmp_path / "r.json"
     path.write_text(json.dumps(record | {"more": 1}))
-    assert read_record(path, kind) == record | {"more": 1}
+    assert read_record(path, name) == record | {"more": 1}
     for place in places:
         for bad, held in (({"odd": 1}, "dict"), (None, "None")):
             changed = copy.deepcopy(record)
@@ -196,7 +196,7 @@ def test_a_wrong_value_is_told_by_its_place(name, tmp_path):
             holder[last] = bad
             path.write_text(json.dumps(changed))
             try:
-                found = read_record(path, kind)
+                found = read_record(path, name)
             except RecordError as refused:
                 told = str(refused)
                 assert told.startswith(f"{place}: {held} != "), (told, place)
@@ -208,4 +208,4 @@ def test_a_wrong_value_is_told_by_its_place(name, tmp_path):
     for one in needed:
         path.write_text(json.dumps({n: v for n, v in record.items() if n != one}))
         with pytest.raises(RecordError, match=f"^{one} = "):
-            read_record(path, kind)
+            read_record(path, name)

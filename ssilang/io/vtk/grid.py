@@ -210,10 +210,20 @@ def matching_cells(block: CellBlock, other: CellBlock) -> IntArray:
         return np.arange(len(block), dtype=np.int64)
     if block.cell_type != other.cell_type or len(other) == 0:
         return np.full(len(block), -1, dtype=np.int64)
-    both = np.sort(np.concatenate([other.connectivity, block.connectivity]), axis=1)
-    _, first, inverse = np.unique(both, axis=0, return_index=True, return_inverse=True)
-    rows: IntArray = first[inverse.ravel()[len(other) :]]
-    return np.where(rows < len(other), rows, -1)
+    return matching_rows(block.connectivity, other.connectivity)
+
+
+def matching_rows(wanted: IntArray, held: IntArray) -> IntArray:
+    """Row of `held` (m, k) on the same nodes, in any order, for each of `wanted` (n, k); or -1."""
+    wanted, held = np.sort(wanted, axis=1), np.sort(held, axis=1)
+    factors = np.random.default_rng(0).integers(1, 1 << 63, held.shape[1], dtype=np.uint64)
+    # a number for each row: equal rows have equal ones
+    own, keys = (
+        (t.astype(np.uint64) * (factors | np.uint64(1))).sum(axis=1) for t in (wanted, held)
+    )
+    order = np.argsort(keys, kind="stable")
+    rows = order[np.minimum(np.searchsorted(keys[order], own), len(keys) - 1)]
+    return np.where((held[rows] == wanted).all(axis=1), rows, -1)
 
 
 def _arrays(

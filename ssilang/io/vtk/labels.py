@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ssilang.io.vtk.grid import matching_rows
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
@@ -45,9 +45,9 @@ def labels_of(mesh: Mesh, told: Mapping[str, Named], part: tuple[int, str] | Non
     """
     numbers: dict[str, IntArray] = {}
     names: dict[str, float] = {}
-    keys = [_Keys(block) for block in mesh.blocks]
     for what, sets in told.items():
-        found = _numbers(keys, list(sets.values()))
+        by_block = [_numbers(block, list(sets.values())) for block in mesh.blocks]
+        found = np.concatenate([np.zeros(0, dtype=np.int64), *by_block])
         used = [(i, name) for i, name in enumerate(sets, start=1) if (found == i).any()]
         if used:
             numbers[what] = found
@@ -58,47 +58,15 @@ def labels_of(mesh: Mesh, told: Mapping[str, Named], part: tuple[int, str] | Non
     return Labels(numbers, names)
 
 
-def _numbers(keys: "Sequence[_Keys]", sets: Sequence[Sequence[CellBlock]]) -> IntArray:
-    """Number from 1 of the smallest set that has a cell, 0 where none has (n_cells,)."""
-    sizes = [sum(len(block) for block in blocks) for blocks in sets]
-    found = [np.zeros(len(k.block), dtype=np.int64) for k in keys]
+def _numbers(block: CellBlock, sets: Sequence[Sequence[CellBlock]]) -> IntArray:
+    """Number from 1 of the smallest set that has a cell, 0 where none has (n,)."""
+    sizes = [sum(len(part) for part in parts) for parts in sets]
     # smaller ones overwrite, and earlier ones of the same size
-    for i in sorted(range(len(sets)), key=lambda i: (-sizes[i], -i)):
-        for key, numbers in zip(keys, found, strict=True):
-            for block in sets[i]:
-                numbers[key.rows(block)] = i + 1
-    return np.concatenate([np.zeros(0, dtype=np.int64), *found])
-
-
-class _Keys:
-    """Finds cells of a block among others, by one number for a cell's nodes."""
-
-    def __init__(self, block: CellBlock) -> None:
-        self.block = block
-        self._sorted: tuple[NDArray[np.uint64], IntArray, IntArray] | None = None
-
-    def rows(self, other: CellBlock) -> IntArray | slice:
-        """Rows of this block that `other` has too."""
-        if other is self.block or other.raw is self.block.raw:
-            return slice(None)
-        if other.cell_type != self.block.cell_type or not len(other) or not len(self.block):
-            return slice(0, 0)
-        keys, order, nodes = self._index()
-        wanted = np.sort(other.connectivity, axis=1)
-        at = np.minimum(np.searchsorted(keys, _hashed(wanted)), len(keys) - 1)
-        rows = order[at]
-        return rows[(nodes[rows] == wanted).all(axis=1)]
-
-    def _index(self) -> tuple[NDArray[np.uint64], IntArray, IntArray]:
-        if self._sorted is None:
-            nodes = np.sort(self.block.connectivity, axis=1)
-            keys = _hashed(nodes)
-            order = np.argsort(keys, kind="stable")
-            self._sorted = keys[order], order, nodes
-        return self._sorted
-
-
-def _hashed(nodes: IntArray) -> NDArray[np.uint64]:
-    """A number for each row of nodes (n,): equal rows have equal ones."""
-    factors = np.random.default_rng(0).integers(1, 1 << 63, nodes.shape[1], dtype=np.uint64)
-    return (nodes.astype(np.uint64) * (factors | np.uint64(1))).sum(axis=1)
+    order = sorted(range(len(sets)), key=lambda i: (-sizes[i], -i))
+    named = [(part, i + 1) for i in order for part in sets[i] if part.cell_type == block.cell_type]
+    numbers = np.zeros(len(block), dtype=np.int64)
+    if named and len(block):
+        rows = matching_rows(np.concatenate([p.connectivity for p, _ in named]), block.connectivity)
+        values = np.repeat([i for _, i in named], [len(p) for p, _ in named])
+        numbers[rows[rows >= 0]] = values[rows >= 0]
+    return numbers

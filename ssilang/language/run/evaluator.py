@@ -9,7 +9,7 @@ from ssilang.language.cast3m import find_cast3m_word
 from ssilang.language.run import phrases
 from ssilang.language.run.call import Call, Operand
 from ssilang.language.run.fast import Slow, Value, compile_phrase
-from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn
+from ssilang.language.run.jumps import Jump, LeaveLoop, NextTurn
 from ssilang.language.run.leftovers import is_call, leftover_error
 from ssilang.language.run.not_built import put_off
 from ssilang.language.run.session import LoopObserver, Session
@@ -273,7 +273,7 @@ class Evaluator(phrases.PhraseRunner):
         try:
             with np.errstate(over="call", call=self._note_overflow):
                 self.guarded(lambda: self._run_all(nodes), self.current_span, "")
-        except (LeaveLoop, NextTurn, LeaveProcedure) as jump:
+        except Jump as jump:
             raise SsiError("no-such-loop", self.current_span, name=jump.name) from None
 
     def _note_overflow(self, kind: str, flags: int) -> None:

@@ -5,25 +5,21 @@ class StopRun(Exception):
     """FIN: the run ends."""
 
 
-class LeaveLoop(Exception):
+class Jump(Exception):
+    """Out of what is called so."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.name = name
+
+
+class LeaveLoop(Jump):
     """QUIT name."""
 
-    def __init__(self, name: str) -> None:
-        super().__init__(name)
-        self.name = name
 
-
-class NextTurn(Exception):
+class NextTurn(Jump):
     """ITER name."""
 
-    def __init__(self, name: str) -> None:
-        super().__init__(name)
-        self.name = name
 
-
-class LeaveProcedure(Exception):
+class LeaveProcedure(Jump):
     """QUIT procedure: control goes to FINP, whose results are returned."""
-
-    def __init__(self, name: str) -> None:
-        super().__init__(name)
-        self.name = name

@@ -9,7 +9,7 @@ from numpy.linalg import LinAlgError
 from ssilang.language.registry import OF_MODELS, Operator, find_operator, keywords_of
 from ssilang.language.run.binding import run_operator
 from ssilang.language.run.call import Call, Operand
-from ssilang.language.run.jumps import LeaveLoop, LeaveProcedure, NextTurn, StopRun
+from ssilang.language.run.jumps import Jump, StopRun
 from ssilang.language.run.operands import OperandReader
 from ssilang.language.run.procedures import call_procedure
 from ssilang.language.run.scopes import PREDEFINED
@@ -122,7 +122,7 @@ MADE_LISTS = {
 }  # fmt: skip
 """Types whose first four letters are an operator's, with the operators that make them."""
 _SIGNS = frozenset({"+", "-", "*", "/", "ET", "OU"})
-_PASSED = (SsiError, SeveralErrors, StopRun, LeaveLoop, NextTurn, LeaveProcedure, ReaderLeft)
+_PASSED = (SsiError, SeveralErrors, StopRun, Jump, ReaderLeft)
 """What errors and jumps of scripts are."""
 # how numpy begins to refuse an array that no memory holds
 _BEYOND_MEMORY = ("array is too big", "Maximum allowed")

@@ -78,12 +78,26 @@ class Runner(Protocol):
 
 @dataclass
 class Check:
-    """A value that a script reports, compared with a reference or not (shown in the summary)."""
+    """A figure that a script reports (SORT 'BILA', @VERIFIE).
+
+    Attributes
+    ----------
+    expected, tolerance : float or None
+        None where nothing was expected.
+    ok : bool or None
+        Whether it is within its tolerance.
+    """
 
     name: str
     value: float
     expected: float | None = None
     tolerance: float | None = None
+    ok: bool | None = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.ok = None
+        if self.expected is not None and self.tolerance is not None:
+            self.ok = abs(self.value - self.expected) <= self.tolerance
 
 
 @dataclass

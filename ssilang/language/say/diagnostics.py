@@ -143,7 +143,7 @@ def _derived(error: SsiError, language: str, names: Iterable[str]) -> dict[str, 
     """Parts of sentences computed from the data of the error."""
     data = error.data
     made: dict[str, object] = {}
-    join = _or(language)
+    join = or_(language)
     if "expected" in data and isinstance(data["expected"], list):
         made["types"] = _types_text(data["expected"], language)
     if "words" in data and isinstance(data["words"], list):
@@ -204,7 +204,7 @@ def _types_text(types: list[str], language: str) -> str:
     if types == [ANY]:
         return message.sentence("any-object", {}, language)
     if len(types) <= 2:
-        return _or(language).join(_article(t, language) for t in types)
+        return or_(language).join(_article(t, language) for t in types)
     return message.sentence("one-of-types", {"types": types}, language)
 
 
@@ -217,7 +217,8 @@ def _article(kind: str, language: str) -> str:
     return message.sentence(code, {"kind": kind, "feminine": kind in _FEMININE}, language)
 
 
-def _or(language: str) -> str:
+def or_(language: str) -> str:
+    """What stands between words of which one is meant."""
     return f" {message.teller(language)('help.or')} "
 
 

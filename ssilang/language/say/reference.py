@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ssilang.language import registry
+from ssilang.language.say.diagnostics import or_
 from ssilang.language.text.source_files import read_source
 from ssilang.language.vocabulary.entries import read_declaration
 from ssilang.language.vocabulary.entries_table import bounds_told, entries_text, tables_text
@@ -102,10 +103,6 @@ def _sort_line(line: str, current: str, parts: dict[str, list[str]]) -> str:
 # ---- text ------------------------------------------------------------------------------------
 
 
-def _or(language: str) -> str:
-    return f" {teller(language)('help.or')} "
-
-
 def find_page(word: str, procedures: Mapping[str, Path]) -> Page | None:
     """The page that a user means: a procedure in full, else an operator by four letters."""
     word = word.upper().strip()
@@ -172,31 +169,27 @@ def _arguments(page: Page, language: str) -> list[str]:
 
 def describe(entry: registry.Entry, language: str = "en") -> list[str]:
     """Lines about an entry of a form: name or words, types, meaning, unit, default, inner ones."""
+    note = _note(entry, language)
     match entry:
         case registry.Argument():
-            note = _note(entry.optional and not entry.repeated, entry.repeated, language)
             return [f"{entry.name:<14} {_types(entry, language)}{_said(entry, language)}{note}"]
         case registry.Keyword():
-            words = _or(language).join(f"'{w.strip()}'" for w in entry.words)
+            words = or_(language).join(f"'{w.strip()}'" for w in entry.words)
             values = "".join(
                 f" {a.name}: {_types(a, language)}{_said(a, language)}" for a in entry.arguments
             )
-            note = _note(entry.optional, entry.repeated, language)
             return [f"{words}{values}{_meaning(entry, language)}{note}"]
         case registry.Select():
             lines = [_meaning(entry, language).lstrip(": ")] if entry.en else []
             for word, inner in entry.cases.items():
-                lines.append(f"'{word.strip()}'{_note(entry.optional, entry.repeated, language)}")
+                lines.append(f"'{word.strip()}'{note}")
                 lines += _indented(inner, language)
             return lines
         case registry.Group():
-            note = _note(entry.optional and not entry.repeated, entry.repeated, language)
             head = f"{entry.name}{_meaning(entry, language)}{note}"
             return [head, *_indented(entry.entries, language)]
         case registry.Either():
-            lines = [
-                f"{entry.name}{_meaning(entry, language)}{_note(entry.optional, False, language)}"
-            ]
+            lines = [f"{entry.name}{_meaning(entry, language)}{note}"]
             for n, one in enumerate(entry.groups):
                 lines += [f"  {teller(language)('help.or')}"] if n else []
                 lines += _indented(one.entries, language)
@@ -228,16 +221,16 @@ def _said(a: registry.Argument, language: str) -> str:
 def _types(a: registry.Argument, language: str) -> str:
     if a.types == (registry.ANY,):
         return teller(language)("help.any-object")
-    return _or(language).join(a.types)
+    return or_(language).join(a.types)
 
 
-def _note(optional: bool, repeated: bool, language: str) -> str:
-    words = []
-    if optional:
-        words.append(teller(language)("help.optional"))
-    if repeated:
-        words.append(teller(language)("help.several"))
-    return f"  ({', '.join(words)})" if words else ""
+def _note(entry: registry.Entry, language: str) -> str:
+    """Whether an entry may miss or stand several times; of operands the one goes without saying."""
+    repeated = not isinstance(entry, registry.Either) and entry.repeated
+    several = repeated and isinstance(entry, registry.Argument | registry.Group)
+    optional = entry.optional and not several
+    codes = ["help.optional"] * optional + ["help.several"] * repeated
+    return f"  ({', '.join(map(teller(language), codes))})" if codes else ""
 
 
 def first_sentence(text: str) -> str:

@@ -1,121 +1,55 @@
-"""Text to statements by the Lark grammar: all that is wrong in it, and sound texts slowly."""
+"""What is wrong in a text, by the Lark grammar."""
 
 import re
 from functools import lru_cache
-from typing import Any
 
-from lark import Lark, Token, Transformer, UnexpectedInput
+from lark import Lark, UnexpectedInput
 
-from ssilang.language.say.errors import SeveralErrors, SsiError
-from ssilang.language.text import reader, tree
+from ssilang.language.say.errors import SsiError
+from ssilang.language.text.reader import Reader, Unsound
 from ssilang.language.text.source import STATEMENT_END, STRING, Source, Span
 from ssilang.resources import resource
 
 MAX_ERRORS = 20
 
 
-class _Builder(Transformer[Token, Any]):
-    """Turns grammar rules into tree nodes; `source` is set before each parse."""
-
-    source: Source
-
-    def _span(self, first: Any, last: Any) -> Span:
-        start = first.start_pos if isinstance(first, Token) else first.span.start
-        end = last.end_pos if isinstance(last, Token) else last.span.end
-        return Span(self.source, start or 0, end or 0)
-
-    def word(self, c: list[Token]) -> tree.Name:
-        return reader.name_of(str(c[0]), self._span(c[0], c[0]))
-
-    def string(self, c: list[Token]) -> tree.Quoted:
-        return reader.quoted_of(str(c[0]), self._span(c[0], c[0]))
-
-    def integer(self, c: list[Token]) -> tree.Number:
-        return reader.integer_of(str(c[0]), self._span(c[0], c[0]))
-
-    def real(self, c: list[Token]) -> tree.Number:
-        return reader.real_of(str(c[0]), self._span(c[0], c[0]))
-
-    def symbol(self, c: list[Token]) -> tree.Symbol:
-        return reader.symbol_of(str(c[0]), self._span(c[0], c[0]))
-
-    def items(self, c: list[Any]) -> tuple[tree.Item, ...]:
-        return tuple(c)
-
-    def paren(self, c: list[Any]) -> tree.Paren:
-        items = c[0]
-        span = self._span(items[0], items[-1])
-        text = self.source.code
-        start = text.rfind("(", 0, span.start)
-        end = text.find(")", span.end)
-        return tree.Paren(items, Span(self.source, start, end + 1))
-
-    def empty_paren(self, c: list[Token]) -> tree.Paren:
-        return tree.Paren((), self._span(c[0], c[1]))
-
-    def path(self, c: list[Any]) -> tree.Path:
-        return tree.Path(c[0], tuple(c[1:]), self._span(c[0], c[-1]))
-
-    def attribute(self, c: list[Any]) -> tree.Attribute:
-        return tree.Attribute(c[0], reader.attribute_name(c[2]), self._span(c[0], c[2]))
-
-    def own_attribute(self, c: list[Any]) -> tree.Attribute:
-        return tree.Attribute(None, reader.attribute_name(c[1]), self._span(c[0], c[1]))
-
-    def empty(self, c: list[Any]) -> None:
-        return None
-
-    def plain(self, c: list[Any]) -> tree.Statement:
-        return reader.statement_of(None, c[0])
-
-    def assignment(self, c: list[Any]) -> tree.Statement:
-        return reader.statement_of(c[0], c[1])
-
-    def empty_assignment(self, c: list[Any]) -> tree.Statement:
-        return reader.statement_of(c[0], [])
-
-    def start(self, c: list[Any]) -> list[tree.Statement]:
-        return [s for s in c if s is not None]
-
-
 @lru_cache(maxsize=1)
-def _parser() -> tuple[Lark, _Builder]:
-    builder = _Builder()
+def _parser() -> Lark:
     text = resource("grammar", "ssi.lark").read_text(encoding="utf-8")
-    lark = Lark(text, parser="lalr", lexer="basic", transformer=builder, cache=False)
-    return lark, builder
+    return Lark(text, parser="lalr", lexer="basic", cache=False)
 
 
 def words_of_grammar() -> list[tuple[str, str]]:
     """Names and regular expressions of the terminals, in the order in which they are tried."""
     ordered = sorted(
-        _parser()[0].terminals,
+        _parser().terminals,
         key=lambda t: (-t.priority, -t.pattern.max_width, -len(t.pattern.value), t.name),
     )
     return [(t.name, t.pattern.to_regexp()) for t in ordered]
 
 
-def parse_by_grammar(source: Source, text: str) -> list[tree.Statement]:
-    """The statements of a text by the grammar alone; errors as in `parse_statements`."""
-    lark, builder = _parser()
-    builder.source = source
+def errors_of(source: Source, text: str, reader: Reader) -> list[SsiError]:
+    """What is wrong in a text that the reader refuses, by the grammar; at most `MAX_ERRORS`."""
     errors: list[SsiError] = []
-    while True:
+    while len(errors) < MAX_ERRORS:
         try:
-            statements: list[tree.Statement] = lark.parse(text)  # type: ignore[assignment]
-        except (UnexpectedInput, SsiError) as problem:
-            if isinstance(problem, SsiError):
-                error, text = problem, _with_zero(text, problem.span)
-            else:
-                error, text = _explain(source, text, problem)
-            errors.append(error)
-            if len(errors) >= MAX_ERRORS:
-                break
-            continue
-        break
-    if errors:
-        raise SeveralErrors(errors)
-    return statements
+            reader.read(source, text)
+            break
+        except SsiError as problem:
+            error, text = problem, _with_zero(text, problem.span)
+        except Unsound:
+            error, text = _explain(source, text, _refusal(text))
+        errors.append(error)
+    return errors
+
+
+def _refusal(text: str) -> UnexpectedInput:
+    """Where the grammar refuses a text."""
+    try:
+        _parser().parse(text)
+    except UnexpectedInput as problem:
+        return problem
+    raise AssertionError("the reader refuses what the grammar takes")
 
 
 def _with_zero(text: str, span: Span | None) -> str:

@@ -1,9 +1,9 @@
-"""Text to statements: sound scripts by the quick reader, all others by the grammar."""
+"""Text to statements by the quick reader; what is wrong in others is found by the grammar."""
 
 import re
 from functools import lru_cache
 
-from ssilang.language.say.errors import SsiError
+from ssilang.language.say.errors import SeveralErrors, SsiError
 from ssilang.language.text import tree
 from ssilang.language.text.reader import Reader, Unsound
 from ssilang.language.text.source import STATEMENT_END, STRING, Source, Span
@@ -52,9 +52,9 @@ def parse_statements(source: Source, end: int | None = None) -> list[tree.Statem
     try:
         return reader.read(source, text)
     except (Unsound, SsiError):
-        from ssilang.language.text.by_grammar import parse_by_grammar  # Lark takes time to start
+        from ssilang.language.text.by_grammar import errors_of  # Lark takes time to start
 
-        return parse_by_grammar(source, text)
+        raise SeveralErrors(errors_of(source, text, reader)) from None
 
 
 _COMMA = re.compile(STRING + r"|(?<![\w.,+-])([+-]?\d+),(\d+(?:[ED][+-]?\d+)?)(?![\w.,])", re.I)

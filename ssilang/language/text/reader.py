@@ -1,9 +1,8 @@
 """The quick way from text to statements: one regular expression and a table of small steps.
 
 The words are those of the grammar file, whose terminals make the expression; the steps know how
-they join. Sound scripts are read about three times as fast as by the general parser; at all others
-the reader gives up, and the general parser says what is wrong. A test holds the two together: the
-same tree for every deck.
+they join. Sound scripts are read about three times as fast as by Lark; at all others the reader
+gives up, and Lark says what is wrong. A test holds it to the tree of the grammar, for every deck.
 """
 
 import math
@@ -210,8 +209,8 @@ class Reader:
         words = [w for w in ordered if w[0] != ignored]
         self._kinds = [name for name, _ in words]
         tokens = "|".join(f"({pattern})" for _, pattern in words)
-        self._token = re.compile(f"(?:{blank})?(?:{tokens})")
-        self._blank = re.compile(f"(?:{blank})?")
+        self._token = re.compile(f"(?:{blank})*+(?:{tokens})")
+        self._blank = re.compile(f"(?:{blank})*+")
 
     def read(self, source: Source, text: str) -> list[tree.Statement]:
         """The statements of `text`, the code of `source` or its beginning.

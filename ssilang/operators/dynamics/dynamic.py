@@ -35,7 +35,7 @@ from ssilang.operators.tables.entries import Entries
 from ssilang.operators.workspace import solver_of
 
 if TYPE_CHECKING:
-    from ssilang.io.training import TrainingFile
+    from ssilang.io.memory_file import MemoryFile
     from ssilang.kernel.plasticity.bulk import Bulk, State
 
 MOST_STEPS = 1e9
@@ -96,7 +96,7 @@ def zdyn(call: Call, table: Table = Arg("TABLE", en="table of DYNAMIC")) -> Tabl
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_table(extremes))
     elif not whole:
         reduced = history.reduction is not None and history.reduction.vectors
-        tolerance, shelf = entries.get("REDUCTION") if reduced else None, training_file(entries)
+        tolerance, shelf = entries.get("REDUCTION") if reduced else None, memory_file(entries)
         again = partial(_step_again, tolerance, shelf, problem, steps_of_reprise(entries))
         entries.table.set(Mot("RESULTATS_EXTREMES"), extremes_later(problem, again))
     plausibility.warn_of_motion(entries, start, results.track)
@@ -115,7 +115,7 @@ def _integrated(
     bodies: "tuple[Bulk, State] | None" = None,
 ) -> History:
     """The history, on a reduced basis if REDUCTION gives a tolerance."""
-    tolerance, shelf = entries.get("REDUCTION"), training_file(entries)
+    tolerance, shelf = entries.get("REDUCTION"), memory_file(entries)
     full = entries.flag("NEWTON_COMPLET")
     driver = AddedByProcedure(entries) if entries.flag("CHARMECA") else None
     in_force = {"REDUCTION": tolerance is not None, "CHARMECA": driver is not None}
@@ -140,23 +140,23 @@ def _integrated(
     return integrate_reduced(problem, float(tolerance), observers, line, shelf)
 
 
-def training_file(entries: Entries) -> "TrainingFile | None":
-    """The basis that APPRENTISSAGE names: all runs of a sweep share it."""
-    name, session = entries.get("APPRENTISSAGE"), entries.call.session
+def memory_file(entries: Entries) -> "MemoryFile | None":
+    """The ground's memory that MEMOIRE names: all runs of a sweep share it."""
+    name, session = entries.get("MEMOIRE"), entries.call.session
     if name is None:
         return None
     if entries.get("REDUCTION") is None:
-        raise entries.error("operators.dynamics.training-without-reduction")
+        raise entries.error("operators.dynamics.memory-without-tolerance")
     path, own = output_path(entries.call, f"{name}.npz"), run_output(session).directory
     if session.shared is not None and path.is_relative_to(own):
         path = session.shared / path.relative_to(own)
-    from ssilang.io.training import TrainingFile
+    from ssilang.io.memory_file import MemoryFile
 
-    return TrainingFile(path)
+    return MemoryFile(path)
 
 
 def _step_again(
-    tolerance: float | None, shelf: "TrainingFile | None", problem: Problem, every: int | None,
+    tolerance: float | None, shelf: "MemoryFile | None", problem: Problem, every: int | None,
     extremes: Extremes,
 ) -> None:  # fmt: skip
     """The same motion for its largest values, which its loop does not give without cost.

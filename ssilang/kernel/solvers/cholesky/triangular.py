@@ -1,5 +1,8 @@
 """Solves with the panels of `multifrontal`: forward and backward over a range of supernodes."""
 
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
@@ -102,41 +105,90 @@ def solve_column(L: Panels, b: FloatArray, local: FloatArray) -> None:
 def solve_columns(L: Panels, b: FloatArray, begin: int, end: int, missing: int = 0) -> None:
     """b = (L L^T)^-1 b for many columns b, on the supernodes begin to end, by BLAS.
 
-    `b` (n - missing, k) lacks its first rows, those before the supernode `begin`.
+    `b` (n - missing, k) lacks its first rows, those before the supernode `begin`. Rows below a
+    supernode are gathered once for all its panels.
     """
     for s in range(begin, end):
-        for block, P, k0, k1, rows in _blocks(L, s, missing):
-            b[k0:k1] = block @ b[k0:k1]
-            if P.shape[1]:
-                b[rows] -= P.T @ b[k0:k1]
+        own, below, panels = _panels(L, s, b, missing)
+        under = b[below]
+        for k0, k1, block, inside, P in panels:
+            x = own[k0:k1] = block @ own[k0:k1]
+            if k1 < len(own):
+                own[k1:] -= inside.T @ x
+            if len(below):
+                under -= P.T @ x
+        b[below] = under
     for s in range(end - 1, begin - 1, -1):
-        for block, P, k0, k1, rows in reversed(_blocks(L, s, missing)):
-            if P.shape[1]:
-                b[k0:k1] -= P @ b[rows]
-            b[k0:k1] = block.T @ b[k0:k1]
+        own, below, panels = _panels(L, s, b, missing)
+        under = b[below]
+        for k0, k1, block, inside, P in reversed(panels):
+            x = own[k0:k1]
+            if k1 < len(own):
+                x -= inside @ own[k1:]
+            if len(below):
+                x -= P @ under
+            own[k0:k1] = block.T @ x
 
 
-def _blocks(
-    L: Panels, s: int, missing: int
-) -> list[tuple[FloatArray, FloatArray, int, int, IntArray | slice]]:
-    """Of each panel: inverse of its block (w, w), rows (w, m), its columns, its rows' places.
+Panel = tuple[int, int, FloatArray, FloatArray, FloatArray]
 
-    Places count from `missing`; a slice, that no copy is made of, where they follow one another.
+
+def _panels(
+    L: Panels, s: int, b: FloatArray, missing: int
+) -> tuple[FloatArray, IntArray, list[Panel]]:
+    """Rows of b that are a supernode's own, places of those below, and its panels.
+
+    Of each: its first and last column, the inverse of its block (w, w), its rows (w, m) in the
+    supernode and below.
     """
     c0, c1, pos = int(L.first[s]), int(L.first[s + 1]), int(L.at[s])
-    below = L.rows[L.ptr[s] : L.ptr[s + 1]]
-    found: list[tuple[FloatArray, FloatArray, int, int, IntArray | slice]] = []
-    for k0 in range(c0, c1, WIDTH):
-        k1 = min(k0 + WIDTH, c1)
-        w, m = k1 - k0, c1 - k1 + len(below)
+    below = L.rows[L.ptr[s] : L.ptr[s + 1]] - missing
+    found = list[Panel]()
+    for k0 in range(0, c1 - c0, WIDTH):
+        k1 = min(k0 + WIDTH, c1 - c0)
+        w, m = k1 - k0, c1 - c0 - k1 + len(below)
         block = L.values[pos : pos + w * w].reshape(w, w)
         P = L.values[pos + w * w : pos + w * (w + m)].reshape(w, m)
-        places: IntArray | slice = slice(k1 - missing, c1 - missing)
-        if len(below):
-            places = np.concatenate([np.arange(k1, c1), below]) - missing
-        found.append((block, P, k0 - missing, k1 - missing, places))
+        inside = c1 - c0 - k1
+        found.append((k0, k1, block, P[:, :inside], P[:, inside:]))
         pos += w * (w + m)
-    return found
+    return b[c0 - missing : c1 - missing], below, found
+
+
+class Supernode(NamedTuple):
+    """Columns of a factor with the same rows, for solves of very many columns."""
+
+    begin: int
+    end: int
+    inverse: FloatArray  # (w, w) of their own block
+    below: IntArray  # (m,) other rows
+    P: FloatArray  # (w, m)
+
+    def forward(self, b: FloatArray) -> None:
+        """Forward solve of its rows of b (n, k), and what they take off those below."""
+        x = b[self.begin : self.end] = self.inverse @ b[self.begin : self.end]
+        if len(self.below):
+            b[self.below] -= self.P.T @ x
+
+    def backward(self, b: FloatArray) -> None:
+        """Backward solve of its rows of b (n, k)."""
+        x = b[self.begin : self.end]
+        if len(self.below):
+            x -= self.P @ b[self.below]
+        b[self.begin : self.end] = self.inverse.T @ x
+
+
+def supernodes(L: Panels, kind: Any) -> Iterator[Supernode]:
+    """The supernodes of a factor in another precision: panels together, a third more memory."""
+    for s in range(len(L.first) - 1):
+        begin, end = int(L.first[s]), int(L.first[s + 1])
+        inverse = np.eye(end - begin)
+        _, below, panels = _panels(L, s, np.zeros(0), 0)
+        for k0, k1, block, inside, _ in panels:
+            inverse[k0:k1] = block @ inverse[k0:k1]
+            inverse[k1:] -= inside.T @ inverse[k0:k1]
+        P = np.concatenate([P for *_, P in panels])
+        yield Supernode(begin, end, inverse.astype(kind), below, P.astype(kind))
 
 
 def longest(L: Panels) -> int:

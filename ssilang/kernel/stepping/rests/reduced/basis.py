@@ -93,7 +93,6 @@ class ReducedModel:
     B: FloatArray  # (d, r) dashpots: what of the damping is not in c is `B^T sense B`
     sense: FloatArray  # (d,)
     supports: ReducedSupports
-    trained: bool  # whether whole runs gave the basis: it may have fewer vectors than J has rows
 
     @property
     def size(self) -> int:
@@ -103,10 +102,6 @@ class ReducedModel:
     def expand(self, q: FloatArray) -> FloatArray:
         """Whole fields (n, k) of coordinates (r, k)."""
         return self.whole(self.X @ q)
-
-    def taken(self, poorer: "ReducedModel", q: FloatArray) -> FloatArray:
-        """Coordinates (..., r) of those (..., s) on the first s vectors."""
-        return (q @ poorer.X.T) @ self.X[: poorer.size]
 
     def whole(self, z: FloatArray) -> FloatArray:
         """Whole fields (n, k) of combinations (r, k) of the basis."""
@@ -175,7 +170,6 @@ class Basis:
     Vectors are orthonormal in `N = M + K / s**2`, which is regular also where M alone is not.
     """
 
-    trained = False
     _states: States | None = None
 
     def __init__(self, problem: Problem, dt: float, largest: int) -> None:
@@ -329,7 +323,7 @@ class Basis:
         B, sense = d.on(V, self._RV[:r, :r])
         return ReducedModel(
             self.T, V, X, m, d.alpha * m + d.beta * k, k, np.ascontiguousarray(J @ X),
-            X.T @ F, X.T @ start, B @ X, sense, self.supports, self.trained,
+            X.T @ F, X.T @ start, B @ X, sense, self.supports,
         )  # fmt: skip
 
 

@@ -12,7 +12,8 @@ import math
 import time
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,18 +30,13 @@ from ssilang.kernel.stepping.rests.reduced.basis import (
     refuse_reduction,
 )
 from ssilang.kernel.stepping.rests.reduced.trace import Chunk, Difference, Trace, comparing
-from ssilang.kernel.stepping.rests.reduced.trained import (
-    ANSWERS,
-    Learner,
-    Shelf,
-    TrainedBasis,
-    trained_basis,
-)
 from ssilang.kernel.stepping.run import History, Integration, Progress, integrate
 from ssilang.kernel.stepping.snapshot import Observer, Snapshot
-from ssilang.kernel.stepping.state import Motion, closed_tap
-from ssilang.kernel.stepping.times import runs_of
+from ssilang.kernel.stepping.state import closed_tap
 from ssilang.kernel.stepping.track import Rows, View
+
+if TYPE_CHECKING:
+    from ssilang.kernel.stepping.rests.memory.run import Shelf
 
 INSTANTS = 64  # at which whole fields are compared
 GROWTH = 1.2  # a basis is compared with one that is this much smaller, or more
@@ -48,9 +44,6 @@ MOST_VECTORS = 0.5  # of the unknowns: more do not pay
 MOST = 4000  # vectors, for memory
 MOST_VALUES = 30_000_000  # reduced states kept until the estimate is known
 LIFTED = 0.5  # share of the joints' points that opens at once: from there on motions may amplify
-TOGETHER = 16  # of these instants: the steps between are made again where the basis grows
-TURNS = 3  # of growth for the same steps
-SHARE = 0.25  # of the tolerance: how far an answer may move the joints, of the largest jump
 BATCH = 64  # instants expanded together
 PAIRS_KEPT = 2  # models whose bases stay in memory
 
@@ -62,8 +55,6 @@ class Pair:
     basis: Basis
     poor: ReducedModel
     rich: ReducedModel
-    ahead: list[Chunk] = field(default_factory=list)
-    """Steps of the poorer one that are done."""
 
     def grow(self) -> None:
         """The richer model becomes the poorer of the next pair.
@@ -91,13 +82,6 @@ def _grown(basis: Basis, wanted: float) -> ReducedModel:
         if basis.size == before:
             raise NoReduction("kernel.stepping.krylov-exhausted")
     return basis.model()
-
-
-def _on(richer: ReducedModel, chunk: Chunk, poorer: ReducedModel) -> Chunk:
-    """Steps of a model on more vectors."""
-    rows = chunk.rows
-    u, v, a = (richer.taken(poorer, x) for x in (rows.u, rows.v, rows.a))
-    return replace(chunk, rows=rows._replace(u=u, v=v, a=a))
 
 
 _PAIRS: OrderedDict[str, Pair] = OrderedDict()
@@ -130,23 +114,11 @@ def _name_of(problem: Problem) -> str:
     if p.loading.imposed.any():
         sparse.append(p.constraints.C)
         dense += [p.loading.imposed, p.loading.at(p.times[:2])]
-    return f"{_model_of(p)} {digest(sparse, dense)} {_step_of(p):.9g}"
-
-
-def _model_of(problem: Problem) -> str:
-    """A digest of matrices and joints."""
-    p = problem
-    sparse, dense = [p.K, p.M, p.C, p.constraints.T], list[FloatArray]()
+    sparse += [p.K, p.M, p.C, p.constraints.T]
     if p.interface is not None:
         sparse.append(p.interface.J)
         dense += [p.interface.parameters, p.interface.weights, p.interface.B]
-    return digest(sparse, dense)
-
-
-def _imposed(problem: Problem) -> bool:
-    """Whether conditions hold the motion elsewhere than at zero."""
-    away = np.abs(problem.constraints.C @ problem.u).max(initial=0.0)
-    return bool(problem.loading.imposed.any() or away > 1e-9 * np.abs(problem.u).max(initial=0.0))
+    return f"{digest(sparse, dense)} {_step_of(p):.9g}"
 
 
 @dataclass(eq=False)
@@ -157,7 +129,6 @@ class ReducedIntegration:
     observers: Sequence[Observer]
     progress: Progress | None
     tolerance: float
-    shelf: Shelf | None = None
     lifted: float = 0.0
 
     def run(self) -> History:
@@ -173,9 +144,7 @@ class ReducedIntegration:
         given = Integration(p, self.observers)
         given.prepare(inside=False)
         wanted = given.wanted | given.taps.wanted
-        basis = self._basis()
-        begun = basis.size if basis else 0
-        pair = self._answered(basis) if basis else _pair_of(p, self.tolerance)
+        pair = _pair_of(p, self.tolerance)
         while True:
             built = time.perf_counter()
             rich, difference, chunks = self._both(pair, wanted)
@@ -183,19 +152,13 @@ class ReducedIntegration:
             if difference is not None and estimate <= self.tolerance:
                 break
             try:
-                if basis is None:
-                    pair.grow()
-                else:
-                    pair = self._answered(basis)
+                pair.grow()
             except NoReduction as reason:
                 raise NoReduction(
                     "kernel.stepping.reduction-inexact", reason=reason, estimate=estimate
                 ) from None
-        if self.shelf is not None and basis is not None and pair.poor.size > begun:
-            basis.learn(_model_of(p), self.shelf)
         given.begin()
-        nested = basis is None and self.lifted > LIFTED
-        swing = self._swing(pair.poor) if nested else 0.0
+        swing = self._swing(pair.poor) if self.lifted > LIFTED else 0.0
         self._hand_over(pair.rich, given, wanted, chunks)
         return History(
             p.times, rich.energies, rich.iterations, "none", "reduced",
@@ -205,43 +168,6 @@ class ReducedIntegration:
                 *[*difference.relative[3:].tolist(), swing],
             ),
         )  # fmt: skip
-
-    def _basis(self) -> TrainedBasis | None:
-        """That which stands on the shelf, if there is one."""
-        if self.shelf is None:
-            return None
-        if _imposed(self.problem):
-            raise NoReduction("kernel.stepping.trained-supports-move")
-        return trained_basis(self.problem, _model_of(self.problem), self.shelf)
-
-    def _answered(self, basis: TrainedBasis) -> Pair:
-        """The model of a basis that grew in the run, and that with all answers of the step.
-
-        The answers are to what is out of balance at some instants. Where they move the joints, the
-        steps since the last of them are made again with their help.
-        """
-        p, trace, largest = self.problem, Trace(self.problem, basis.model(), self._sampled), 0.0
-        done, few = list[tuple[Chunk, ReducedModel]](), list[FloatArray]()
-        for run in runs_of(p.times, math.ceil((len(p.times) - 1) * TOGETHER / INSTANTS)):
-            for turn in range(TURNS + 1):
-                before = Motion(*(x.copy() for x in trace.motion))
-                if (chunk := trace.advance(run)) is None:
-                    raise basis.inexact()
-                at = expanded(p, trace.model, chunk, np.arange(len(chunk.steps)))
-                left = [snapshot.reaction for snapshot in at]
-                answers = basis.answers(np.array(left).T)
-                largest = max(largest, float(np.abs(chunk.rows.jumps).max(initial=0.0)))
-                moved = np.abs(basis.J @ answers).max(initial=0.0)
-                enough = moved <= SHARE * self.tolerance * largest
-                if enough or turn == TURNS or basis.room < len(left) + ANSWERS:
-                    few.append(answers)
-                    done.append((chunk, trace.model))
-                    break
-                basis.take(answers)
-                trace.again(before, basis.model())
-        poor = trace.model
-        basis.take(np.hstack(few))
-        return Pair(basis, poor, basis.model(), [_on(poor, *parts) for parts in done])
 
     @property
     def _sampled(self) -> np.ndarray:
@@ -261,8 +187,8 @@ class ReducedIntegration:
         poor = Trace(p, pair.poor, sampled)
         rich = Trace(p, pair.rich, sampled | wanted if fits else sampled)
         difference, chunks = Difference(p), []
-        for run in [chunk.run for chunk in pair.ahead] or comparing(p.times):
-            a = pair.ahead.pop(0) if pair.ahead else poor.advance(run)
+        for run in comparing(p.times):
+            a = poor.advance(run)
             b = rich.advance(run) if a is not None else None
             if a is None or b is None:
                 return rich, None, None
@@ -384,7 +310,7 @@ def integrate_reduced(
     tolerance: float,
     observers: Sequence[Observer] = (),
     progress: Progress | None = None,
-    shelf: Shelf | None = None,
+    shelf: "Shelf | None" = None,
 ) -> History:
     """Integrate a problem on a reduced basis, or as it is where that does not serve.
 
@@ -394,7 +320,8 @@ def integrate_reduced(
         Largest estimated error of displacements and jumps, relative to the largest of the
         motion, between 0 and 1.
     shelf : Shelf, optional
-        Where a basis stands that whole runs train: this one too, if it is run whole.
+        Where the memory of the ground stands: the largest body is stepped by that, nothing else
+        is reduced.
 
     Returns
     -------
@@ -415,13 +342,15 @@ def integrate_reduced(
     refuse_reduction(problem)
     started = time.perf_counter()
     try:
-        history = ReducedIntegration(problem, observers, progress, tolerance, shelf).run()
+        if shelf is None:
+            history = ReducedIntegration(problem, observers, progress, tolerance).run()
+        else:
+            from ssilang.kernel.stepping.rests.memory.run import integrate_with_memory
+
+            return integrate_with_memory(problem, tolerance, shelf, observers, progress)
     except NoReduction as reason:
-        spent, learner = time.perf_counter() - started, Learner(problem)
-        taught = [] if shelf is None else [learner]
-        history = integrate(problem, [*observers, *taught], progress)
-        if shelf is not None and not _imposed(problem):
-            learner.teach(_model_of(problem), shelf)
+        spent = time.perf_counter() - started
+        history = integrate(problem, observers, progress)
         history.reduction = Reduction(refused=reason, prepared=spent)
         return history
     except BaseException:

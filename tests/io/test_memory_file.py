@@ -1,4 +1,4 @@
-"""Files of trained bases that a stranger made: no pickles, no more than they hold."""
+"""Files of a ground's memory that a stranger made: no pickles, no more than they hold."""
 
 import io
 import os
@@ -13,10 +13,14 @@ import pytest
 from together import together
 
 from ssilang.io.errors import InputError
-from ssilang.io.training import TrainingFile
-from ssilang.kernel.stepping.rests.reduced.trained import Training
+from ssilang.io.memory_file import MemoryFile
+from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 
-SOUND = Training("a model", 5e-3, ("one", "two"), np.eye(6, 2), np.zeros((6, 0)))
+F = np.float32
+WHOLE, P, CORES = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
+SOUND = Kernels(
+    "a ground", 5e-3, 1e-2, np.eye(6), WHOLE, (Stage(16, P, CORES),), 0, np.ones((3, 6, 2), F), "b"
+)
 
 
 def npy(values: Any) -> bytes:
@@ -43,27 +47,37 @@ class Program:
         return os.mkdir, (self.path,)
 
 
-def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> TrainingFile:
-    """A sound training with other arrays in place of its own."""
-    TrainingFile(path).write(SOUND)
+def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> MemoryFile:
+    """A sound memory with other arrays in place of its own."""
+    MemoryFile(path).write(SOUND)
     with zipfile.ZipFile(path) as file:
         whole = {n: file.read(n) for n in file.namelist()}
     with zipfile.ZipFile(path, "w", packing) as file:
         for name, raw in (whole | {f"{n}.npy": raw for n, raw in arrays.items()}).items():
             file.writestr(name, raw)
-    return TrainingFile(path)
+    return MemoryFile(path)
 
 
 @together(
     "arrays, told",
     [
-        ({"vectors": npy(np.eye(6, 2) + 1j)}, "complex128"),
-        ({"vectors": npy(np.full((6, 2), "1"))}, "<U1"),
-        ({"answers": npy(np.zeros((6, 0), "M8[s]"))}, "datetime64"),
-        ({"vectors": declaring((10**11, 2))}, ""),
-        ({"vectors": declaring((10**7, 2))}, ""),
-        ({"model": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
-        ({"vectors": pickle.dumps(Program(Path("ran")))}, ""),
+        ({"S": npy(np.eye(6) + 1j)}, "complex128"),
+        ({"whole": npy(np.full((16, 6, 6), "1"))}, "<U1"),
+        ({"whole": npy(WHOLE[:, :5])}, ""),
+        ({"whole": npy(WHOLE[:15])}, "15 kernels"),
+        ({"whole": npy(np.concatenate([WHOLE, WHOLE]))}, "32 kernels"),
+        ({"loads": npy(np.full((3, 6, 2), np.nan, F))}, ""),
+        ({"loads": npy(np.ones((3, 7, 2), F))}, ""),
+        ({"P0": npy(np.eye(6, 3, dtype=F))}, ""),
+        ({"cores0": npy(CORES[:5])}, ""),
+        ({"firsts": npy(np.zeros(0, int))}, ""),
+        ({"firsts": npy(np.array([16, 32]))}, ""),
+        ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),
+        ({"other": npy(WHOLE)}, ""),
+        ({"S": declaring((10**11, 2))}, ""),
+        ({"S": declaring((10**7, 2))}, ""),
+        ({"name": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
+        ({"S": pickle.dumps(Program(Path("ran")))}, ""),
     ],
 )
 def test_arrays_that_no_run_wrote_are_damage(
@@ -72,7 +86,7 @@ def test_arrays_that_no_run_wrote_are_damage(
     monkeypatch.chdir(tmp_path)
     found = made(tmp_path / "sound.npz").read()
     assert found is not None
-    assert np.array_equal(found.vectors, SOUND.vectors)
+    assert np.array_equal(found.stages[0].cores, SOUND.stages[0].cores)
     with pytest.raises(InputError, match=f"other.npz is damaged.*{told}"):
         made(tmp_path / "other.npz", **arrays).read()
     assert not (tmp_path / "ran").exists()
@@ -80,7 +94,7 @@ def test_arrays_that_no_run_wrote_are_damage(
 
 def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="is damaged: packed"):
-        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, vectors=npy(np.zeros((10**6, 2)))).read()
+        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, S=npy(np.zeros((10**6, 2)))).read()
     locked = made(tmp_path / "b.npz")
     raw = bytearray(locked.path.read_bytes())
     raw[raw.find(b"PK\x01\x02") + 8] |= 1  # the first array, by a password
@@ -100,7 +114,7 @@ def test_a_file_in_a_folder_that_became_a_link_is_held_all_the_same(
     done = threading.Event()
 
     def hold() -> None:
-        with TrainingFile(tmp_path / "folder" / name).held():
+        with MemoryFile(tmp_path / "folder" / name).held():
             done.set()
 
     threading.Thread(target=hold, daemon=True).start()

@@ -1,0 +1,124 @@
+"""The file of a ground's memory: a zip of arrays (NPY), whole or not at all."""
+
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ssilang.io.archive.container import DAMAGES
+from ssilang.io.atomic import replacing
+from ssilang.io.errors import InputError
+from ssilang.io.run_output import RunLock
+from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
+from ssilang.kernel.stepping.rests.memory.parts import SINGLE
+from ssilang.system import GUARDED, lock
+
+_LOOK = 0.05  # s between two tries of a file that another process writes
+
+
+@dataclass(frozen=True)
+class MemoryFile:
+    """A memory on disk; runs of several processes may share it."""
+
+    path: Path
+
+    @property
+    def name(self) -> str:
+        """As messages call it."""
+        return self.path.name
+
+    @property
+    def there(self) -> bool:
+        """Whether there is one."""
+        return self.path.is_file()
+
+    def read(self) -> Kernels | None:
+        """What the file holds, None if there is none.
+
+        Raises
+        ------
+        InputError
+            If it is no memory.
+        """
+        if not self.there:
+            return None
+        try:
+            with np.load(self.path, allow_pickle=False) as f:
+                if sum(i.file_size for i in f.zip.infolist()) > self.path.stat().st_size:
+                    raise ValueError("packed")
+                given = {name: f[name] for name in f.files}
+                stages = tuple(
+                    Stage(int(first), given.pop(f"P{i}"), given.pop(f"cores{i}"))
+                    for i, first in enumerate(given.pop("firsts").tolist())
+                )
+                for name, kind in _NUMBERS.items():
+                    given[name] = kind(given[name][()])
+                kernels = Kernels(**given, stages=stages)
+                _check(kernels)
+                return kernels
+        except (*DAMAGES, TypeError) as error:
+            raise InputError("io.damaged", name=self.name, error=str(error)) from error
+
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Keep other processes from writing it meanwhile, where files can be locked."""
+        held = _hold(self.path.with_name(f".{self.path.name}.lock"))
+        try:
+            yield
+        finally:
+            if held is not None:
+                held.release()
+
+    def write(self, kernels: Kernels) -> None:
+        """Put a memory there."""
+        k = kernels
+        parts = {f.name: getattr(k, f.name) for f in fields(k) if f.name != "stages"}
+        for i, stage in enumerate(k.stages):
+            parts |= {f"P{i}": stage.P, f"cores{i}": stage.cores}
+        with replacing(self.path) as stream:
+            np.savez(stream, firsts=[s.first for s in k.stages], **parts)
+
+
+_NUMBERS: dict[str, Callable[[Any], Any]] = {
+    "name": str, "loads_name": str, "dt": float, "tolerance": float, "estimate": float,
+    "reach": int,
+}  # fmt: skip
+
+
+def _check(k: Kernels) -> None:
+    """Refuse arrays of kinds and shapes that no run wrote."""
+    q = len(k.S)
+    shapes = [(k.S, float, (q, q)), (k.whole, SINGLE, (len(k.whole), q, q))]
+    shapes += [(k.loads, SINGLE, (len(k.loads), q, *k.loads.shape[2:3]))]
+    for stage in k.stages:
+        r = stage.P.shape[-1]
+        shapes += [(stage.P, SINGLE, (q, r)), (stage.cores, SINGLE, (stage.first, r, r))]
+    for part, kind, shape in shapes:
+        if part.dtype != kind or part.shape != shape or not np.isfinite(part).all():
+            raise ValueError(f"{part.shape} {part.dtype}")
+    if len(k.whole) < WHOLE or any(s.first < len(k.whole) for s in k.stages):
+        raise ValueError(f"{len(k.whole)} kernels")
+
+
+def _hold(path: Path) -> RunLock | None:
+    """Wait for a lock; None where there are none."""
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        while True:
+            found = RunLock(path, os.open(path, os.O_RDWR | os.O_CREAT | GUARDED, 0o666))
+            try:
+                lock(found.handle)
+                if found.is_held():  # else the one before removed it just now
+                    return found
+            except BlockingIOError:
+                time.sleep(_LOOK)
+            except OSError:
+                os.close(found.handle)
+                return None
+            os.close(found.handle)
+    return None

@@ -1,0 +1,70 @@
+"""Jumps that past forces and loads bring: the convolution of a ground's kernels, on the way."""
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.stepping.rests.memory.kernels import Kernels
+from ssilang.kernel.stepping.rests.memory.parts import SINGLE
+
+BLOCK = 8
+"""Steps whose far past is summed together: each kernel is read once for all of them."""
+
+
+class History:
+    """Forces of a motion so far, and what they and the loads bring.
+
+    Parameters
+    ----------
+    loads : array (n_steps + 1, k)
+        Factors of the loads, less those of the start.
+    """
+
+    def __init__(self, kernels: Kernels, loads: FloatArray, steps: int) -> None:
+        self.kernels, self.loads, q = kernels, loads, kernels.S.shape[0]
+        k = kernels
+        self.pad = max([len(k.whole), *(s.first + len(s.cores) for s in k.stages)])
+        self.forces = np.zeros((self.pad + steps + 1, q), SINGLE)
+        self.parts = [np.zeros((len(self.forces), s.P.shape[1]), SINGLE) for s in k.stages]
+        self.near = np.concatenate([k.whole[:1] + k.whole[1:2], k.whole[2 : BLOCK + 1]])
+        self.incoming = self._incoming(loads.astype(SINGLE), steps)
+        self.ahead = np.zeros((0, q), SINGLE)
+        self.done = self.begun = 0
+
+    def _incoming(self, loads: FloatArray, steps: int) -> FloatArray:
+        found = np.zeros((steps, self.kernels.S.shape[0]), SINGLE)
+        for k, rows in enumerate(self.kernels.loads[:steps]):
+            found[k:] += loads[1 : steps + 1 - k] @ rows.T
+        return found
+
+    def next(self, forces: FloatArray) -> FloatArray:
+        """Increment (q,) of the jumps in the next step, under unchanged forces (less the start's).
+
+        Those of the whole past are there, and stay.
+        """
+        if self.done == self.begun + len(self.ahead):
+            self._look_ahead()
+        now, row = self.pad + self.done, self.done - self.begun
+        self.forces[now] = forces
+        total = self.ahead[row].copy()
+        for j in range(row + 1):
+            total -= self.near[j] @ self.forces[now - j]
+        self.done += 1
+        return total
+
+    def _look_ahead(self) -> None:
+        """What forces before the next steps bring in each of them."""
+        k, first = self.kernels, self.done
+        rows = np.arange(self.begun, first) + self.pad
+        for stage, part in zip(k.stages, self.parts, strict=True):
+            part[rows] = self.forces[rows] @ stage.P
+        self.begun, steps = first, min(BLOCK, len(self.incoming) - first)
+        self.ahead = self.incoming[first : first + steps].copy()
+        at = self.pad + first + 1
+        for j in range(2, len(k.whole)):
+            n = min(steps, j - 1)
+            self.ahead[:n] -= self.forces[at - j : at - j + n] @ k.whole[j]
+        for stage, part in zip(k.stages, self.parts, strict=True):
+            found = np.zeros((steps, part.shape[1]), SINGLE)
+            for j, core in enumerate(stage.cores, stage.first):
+                found += part[at - j : at - j + steps] @ core
+            self.ahead -= found @ stage.P.T

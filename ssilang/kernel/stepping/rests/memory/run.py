@@ -1,0 +1,273 @@
+"""Time integration of what stands on a ground whose memory is known.
+
+The ground's part of a step is its compliance and the motion that past forces and loads bring: both
+act on the jumps. All else is stepped as it is, by the loop of large problems, a step at a time.
+"""
+
+import time
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.stepping.choose import RULES, Case, Choice
+from ssilang.kernel.stepping.effective import Effective
+from ssilang.kernel.stepping.extremes import Extremes
+from ssilang.kernel.stepping.newmark import advanced
+from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
+from ssilang.kernel.stepping.rests.memory.history import History as Past
+from ssilang.kernel.stepping.rests.memory.kernels import (
+    Kernels,
+    increments,
+    kernels_of,
+    loads_name,
+    loads_of,
+)
+from ssilang.kernel.stepping.rests.memory.parts import Ground, Parts, parts_of
+from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
+from ssilang.kernel.stepping.rests.sparse.interleaved import InterleavedLoop, PreparedBlock, Seen
+from ssilang.kernel.stepping.rests.sparse.interleaved_loop import run_interleaved, sweep_of
+from ssilang.kernel.stepping.run import History, Integration, Progress
+from ssilang.kernel.stepping.snapshot import Observer
+from ssilang.kernel.stepping.state import ELASTIC, EXTERNAL, Motion, Outcome, Recorder
+from ssilang.kernel.stepping.times import SAME
+from ssilang.kernel.stepping.track import Track
+
+BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
+SHARE = 0.1  # of the tolerance: what stages of kernels leave out
+TRIES = 3  # of smaller and smaller shares
+LOOKED_AT = 160  # steps over which kernels are compared with the ground itself
+
+
+class MemoryLoop(InterleavedLoop):
+    """Steps of a problem on a ground that is remembered."""
+
+    def __init__(
+        self, parts: Parts, motion: Motion, effective: Effective, kernels: Kernels
+    ) -> None:
+        p = parts.near
+        whole = replace(effective, S=effective.S + kernels.S)
+        super().__init__(p, motion, whole)
+        self.parts, self.start = parts, motion.f.copy()
+        factors = parts.ground.problem.loading.at(p.times)[:, parts.ground.loads]
+        self.past = Past(kernels, factors - factors[0], len(p.times) - 1)
+        self.at = motion.delta - self.J @ self._folded(motion.u)
+        """The ground's part (q,) of the jumps."""
+        self.moved = np.zeros((3, len(self.at)))
+        """How far that is from the start, its velocity and acceleration."""
+        self.largest = 0.0
+        """Jump so far."""
+
+    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
+        """Steps on the whole problem's arrays, some at a time."""
+        worst, r, steps = 0, recorder, len(recorder.row)
+        seen = self.seen(r.tap.at)
+        for first in range(0, steps, BLOCK):
+            part = slice(first, min(first + BLOCK, steps))
+            given = np.ascontiguousarray(factors[part.start : part.stop + 1])
+            block = self.block(given)
+            kept = self.room(block, r, part, seen)
+            done, turns, residual = self._steps(block, kept)
+            self.finish(block, given, kept, done)
+            self.put(block, kept, r, first, done, seen)
+            if first + done == steps or turns <= 0:
+                react(self.problem, self.motion, given[done])
+                keep_reactions(self.problem, factors, r)
+            if turns <= 0:
+                return first + done, turns, residual
+            worst = max(worst, turns)
+        return steps, worst, 0.0
+
+    def _steps(self, block: PreparedBlock, kept: Recorder) -> Outcome:
+        """Each step of a block: the ground's motion under old forces, then all together."""
+        x, n, worst = block.motion, block.plan.newmark, 0
+        sweep = sweep_of(block.plan, len(x.u), block.factors.shape[1])
+        self._ground = np.zeros((len(kept.row), *self.moved.shape))
+        for k in range(len(kept.row)):
+            one = slice(k, k + 1)
+            tap = kept.tap._replace(row=kept.tap.row[one])
+            to = kept._replace(
+                row=kept.row[one], energies=kept.energies[one], work=kept.work[:, one], tap=tap
+            )
+            before = x.f.copy()
+            brought = self.past.next(before - self.start).astype(float)
+            np.add(x.delta, brought, out=x.delta)
+            _, turns, residual = run_interleaved(
+                block.plan, self.joints, x, block.products, sweep, self.newton,
+                block.factors[k : k + 2], to,
+            )  # fmt: skip
+            if turns <= 0:
+                return k, turns, residual
+            worst = max(worst, turns)
+            step = brought - self.past.kernels.S @ (n.end * (x.f - before))
+            self.at += step
+            self.moved[0] += step
+            self.moved[1], self.moved[2] = advanced(n, step, self.moved[1], self.moved[2])
+            self._ground[k] = self.moved
+            self.largest = max(self.largest, float(np.abs(x.delta).max()))
+            x.energies[ELASTIC] += 0.5 * self.at @ x.f
+            x.energies[EXTERNAL] += 0.5 * (before + x.f) @ step
+            kept.energies[k] = x.energies
+        return len(kept.row), worst, 0.0
+
+    def put(
+        self, block: PreparedBlock, kept: Recorder, to: Recorder, first: int, done: int, seen: Seen
+    ) -> None:
+        """Kept instants, the ground's side of the joints with them."""
+        super().put(block, kept, to, first, done, seen)
+        p, rows, back, ground = self.problem, self.parts.rows, self.parts.back, self._ground
+        for name, i in (("u", 0), ("v", 1), ("a", 2)):
+            start = p.u[rows] if i == 0 else 0.0
+            for k in np.flatnonzero(kept.row[:done] >= 0).tolist():
+                getattr(to, name)[to.row[first + k], rows] = start + back @ ground[k, i]
+            steps = np.flatnonzero(kept.tap.row[:done] >= 0)
+            mine = np.isin(seen.unknowns, rows)
+            if len(steps) and mine.any():
+                at = np.searchsorted(rows, seen.unknowns[mine])
+                found = (back[at] @ ground[steps, i].T).T + (start if i else p.u[rows[at]])
+                getattr(to.tap, name)[np.ix_(to.tap.row[first + steps], mine)] = found
+
+
+class Shelf(Protocol):
+    """Where a memory stands."""
+
+    @property
+    def name(self) -> str:
+        """As messages call it."""
+
+    @property
+    def there(self) -> bool:
+        """Whether anything stands there."""
+
+    def read(self) -> Kernels | None:
+        """What stands there, None for nothing."""
+
+    def held(self) -> AbstractContextManager[None]:
+        """Nobody else writes meanwhile."""
+
+    def write(self, kernels: Kernels) -> None:
+        """Put it in the place of what stands there."""
+
+
+@dataclass(eq=False)
+class MemoryIntegration(Integration):
+    """An integration whose loop is that of a ground's memory."""
+
+    parts: Parts = field(kw_only=True)
+    kernels: Kernels = field(kw_only=True)
+
+    def _choice(self, dt: float) -> Choice:
+        """One loop for all steps, that has the past."""
+        if not self._choices:
+            case = Case(self.problem, self.motion, self.kernels.dt)
+            self.loop = MemoryLoop(self.parts, self.motion, case.rooted, self.kernels)
+            rule = next(r for r in RULES if r.name == "dissection")
+            self._choices[dt] = Choice(rule, self.loop, case.rooted.inverse.factor.name)
+        return next(iter(self._choices.values()))
+
+
+_KEPT: dict[str, Kernels] = {}
+"""The memory of the last ground, by its digest: runs that are forks of this one have it."""
+
+
+def integrate_with_memory(
+    problem: Problem, tolerance: float, shelf: Shelf, observers: Sequence[Observer] = (),
+    progress: Progress | None = None,
+) -> History:  # fmt: skip
+    """Integrate a problem on a ground whose memory stands on a shelf, made where it is not there.
+
+    Raises
+    ------
+    NoReduction
+        If there is no such ground, or the tolerance is not reached.
+    KernelError
+        If what stands on the shelf is the memory of another ground, or of another step.
+    ConvergenceError, SingularMatrixError
+        See `integrate`.
+    """
+    refuse_reduction(problem)
+    started, share = time.perf_counter(), SHARE
+    parts = parts_of(problem, _asked(problem, observers))
+    for _ in range(TRIES):
+        kernels = _memory(parts.ground, share * tolerance, shelf, len(problem.times) - 1)
+        if np.isnan(kernels.estimate):
+            first = MemoryIntegration(parts.near, (), progress, parts=parts, kernels=kernels)
+            first.run()
+            kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
+            with shelf.held():
+                shelf.write(kernels)
+            _KEPT[kernels.name] = kernels
+        if kernels.estimate <= tolerance:
+            break
+        share *= 0.5 * tolerance / kernels.estimate
+    else:
+        raise NoReduction("kernel.stepping.memory-inexact", estimate=kernels.estimate)
+    prepared = time.perf_counter() - started
+    run = MemoryIntegration(parts.near, observers, progress, parts=parts, kernels=kernels)
+    history = run.run()
+    history.loop = "memory"
+    history.reduction = Reduction(kernels.vectors, kernels.estimate, None, prepared)
+    return history
+
+
+def _asked(problem: Problem, observers: Sequence[Observer]) -> BoolArray:
+    """Unknowns (n,) of which some observer wants results."""
+    asked = np.zeros(problem.numbering.size, bool)
+    for observer in observers:
+        if isinstance(observer, Track) and not (isinstance(observer, Extremes) and observer.asked):
+            asked[observer.unknowns] = True
+        else:
+            asked |= bool(observer.wanted.any()) or isinstance(observer, Extremes)
+    return asked
+
+
+def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kernels:
+    """The memory of a ground for so many steps, as it is known or made."""
+    dt, lengths = ground.dt, np.diff(ground.problem.times)
+    if np.abs(lengths - dt).max() > SAME * dt * len(lengths):
+        raise NoReduction("kernel.stepping.memory-steps-differ")
+    with shelf.held():
+        known = _KEPT.get(ground.name)
+        found = shelf.read() if known is None or not shelf.there else known
+        if found is not None and abs(found.dt - dt) > SAME * dt * len(lengths):
+            code = "kernel.stepping.memory-of-another-step"
+            raise KernelError(code, name=shelf.name, dt=found.dt, step=dt)
+        if found is not None and found.name != ground.name:
+            raise KernelError("kernel.stepping.memory-of-another-ground", name=shelf.name)
+        if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
+            found = kernels_of(ground, tolerance, steps)
+            shelf.write(found)
+        elif found.loads_name != (name := loads_name(ground, steps)):
+            loads = loads_of(ground, tolerance, steps)
+            found = replace(found, loads=loads, loads_name=name)
+            shelf.write(found)
+    _KEPT.clear()
+    _KEPT[ground.name] = found
+    return found
+
+
+def _looked_at(ground: Ground, loop: "MemoryLoop") -> float:
+    """What kernels miss of the ground's motion, of the largest jump of a run.
+
+    The ground itself is stepped under the forces of the run, over the steps in which these changed
+    most, from rest.
+    """
+    past, own = loop.past, ground.steps
+    forces = past.forces[past.pad : past.pad + past.done]
+    changes = np.abs(np.diff(forces, axis=0)).sum(axis=1)
+    length = min(LOOKED_AT, len(changes))
+    first = int(np.argmax(np.convolve(changes, np.ones(length), "valid")))
+    part = slice(first, first + length + 1)
+    f, c = forces[part] - forces[first], past.loads[part] - past.loads[first]
+    pushed = own.forces @ np.diff(c, axis=0).T - own.J.T @ np.diff(f, axis=0).T
+    exact = increments(own, (np.ascontiguousarray(x[:, None]) for x in pushed.T))
+    known, away, largest = Past(past.kernels, c, length), np.zeros(f.shape[1]), 0.0
+    for k, moved in enumerate(exact):
+        step = known.next(f[k]) - past.kernels.S @ (own.newmark.end * (f[k + 1] - f[k]))
+        away += step - moved[:, 0]
+        largest = max(largest, float(np.abs(away).max()))
+    return largest / max(loop.largest, 1e-300)

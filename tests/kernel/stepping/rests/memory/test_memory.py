@@ -1,0 +1,246 @@
+"""A ground by its memory against the whole model: without truncation steps are the same ones."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from references.recorder import Recorder
+from references.soil_block import soil_block
+from references.whole_and_reduced import relative
+
+from ssilang.io.memory_file import MemoryFile
+from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.base.scientific import spla
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping.newmark import Scheme, hht
+from ssilang.kernel.stepping.problem.problem import closed_stiffness
+from ssilang.kernel.stepping.rests.memory import run
+from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
+from ssilang.kernel.stepping.run import integrate
+from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC
+from ssilang.kernel.stepping.track import Track
+
+STEPS, SIZE = 150, (16, 6, 4)
+
+
+def record(seed=1, strength=1.0, edges=5e5, **given):
+    """The block at rest on its soil between edges that absorb, under six sines of a seed."""
+    problem = soil_block(**{"steps": STEPS, "size": SIZE, **given})
+    numbering, T = problem.numbering, problem.constraints.T
+    x = numbering.table.coordinates[numbering.nodes, 0]
+    edge = np.where(np.abs(np.abs(x) - SIZE[0] / 2) < 1e-9, edges, 0.0)
+    random, t = np.random.default_rng(seed), problem.times
+    waves = [
+        random.uniform(1, 3) * np.sin(2 * np.pi * f * t + random.uniform(0, 6))
+        for f in random.uniform(0.8, 4, 6)
+    ]
+    curve = (t, strength * sum(waves) * np.minimum(1.0, t / 0.2))
+    loading = replace(problem.loading, curves=(problem.loading.curves[0], curve))
+    u = T @ spla.spsolve(sp.csc_array(closed_stiffness(problem)), T.T @ loading.forces[:, 0])
+    C = sp.csr_array(problem.C + sp.diags_array(edge))
+    return replace(problem, loading=loading, C=C, u=u)
+
+
+def building(problem):
+    """Unknowns of the block, and of the soil's side of the joints."""
+    y = problem.numbering.table.coordinates[problem.numbering.nodes, 1]
+    return np.flatnonzero(y >= -1e-9)[np.abs(x_of(problem)[y >= -1e-9]) <= SIZE[2] / 2]
+
+
+def x_of(problem):
+    return problem.numbering.table.coordinates[problem.numbering.nodes, 0]
+
+
+def track(problem, unknowns=None):
+    wanted = np.arange(len(problem.times)) % 2 == 0
+    return Track(wanted, building(problem) if unknowns is None else unknowns)
+
+
+def beside_the_whole(problem, tolerance, file):
+    """What was kept of the whole run and of that on the memory, the history of each."""
+    whole, found = track(problem), track(problem)
+    exact = integrate(problem, [whole])
+    return whole, found, exact, integrate_reduced(problem, tolerance, [found], shelf=file)
+
+
+def errors(whole, found):
+    """Of jumps, tractions, displacements, velocities and accelerations."""
+    at = whole.unknowns
+    pairs = [
+        (x.joints("w"), x.joints("t"), *(x.values(n, at) for n in "uva")) for x in (found, whole)
+    ]
+    return [relative(a, b) for a, b in zip(*pairs, strict=True)]
+
+
+@pytest.fixture
+def file(tmp_path):
+    run._KEPT.clear()
+    return MemoryFile(tmp_path / "ground.npz")
+
+
+@pytest.mark.parametrize(
+    ("scheme", "given"),
+    [
+        (Scheme(), {}),
+        (hht(0.2), {"damping": None}),
+        (Scheme(), {"edges": 0.0, "extra_damping": 0.02}),
+    ],
+    ids=["dashpots", "no Rayleigh damping, HHT", "a damping of its own"],
+)
+def test_memory_without_truncation_is_the_whole_model(file, scheme, given):
+    problem = record(scheme=scheme, strength=1.5, **given)
+    whole, found, exact, history = beside_the_whole(problem, 1e-4, file)
+    assert (history.loop, history.reduction.refused) == ("memory", None)
+    assert whole.joints("w")[..., 1].max() > 1e-2  # it lifts off
+    assert max(errors(whole, found)[:4]) < 2e-5
+    assert 0.5 < history.reduction.estimate / errors(whole, found)[0] < 2.0
+    assert relative(history.energies[:, 2:4], exact.energies[:, 2:4]) < 1e-4
+
+
+def test_energies_are_those_of_what_stands_on_the_ground(file):
+    """Masses and springs of the block alone, and what loads and the ground give it."""
+    problem = record(strength=1.5)
+    whole, _, exact, history = beside_the_whole(problem, 1e-4, file)
+    y = problem.numbering.table.coordinates[problem.numbering.nodes, 1]
+    block = np.setdiff1d(building(problem), np.flatnonzero(problem.constraints.T.sum(axis=1) == 0))
+    block = block[(y[block] > 0.0) | np.isin(block, _upper(problem))]
+    for name, A, kind in (("v", problem.M, KINETIC), ("u", problem.K, ELASTIC)):
+        x, own = whole.values(name, block), A[block][:, block]
+        energy = 0.5 * np.einsum("ki,ki->k", x, (own @ x.T).T)
+        assert relative(history.energies[::2, kind], energy) < 1e-4
+    lost = np.abs(history.imbalance - exact.imbalance).max()
+    assert lost < 1e-4 * history.largest_energy
+    assert np.ptp(history.energies[:, EXTERNAL]) > 0.1 * history.largest_energy
+    assert history.energies[-1, DAMPED] > 0.0
+
+
+def _upper(problem):
+    """Unknowns on the block's side of the joints."""
+    return np.flatnonzero(np.asarray(problem.interface.J.sum(axis=0)).ravel() > 0.0)
+
+
+WIDE = {"size": (28, 10, 16), "dt": 2.5e-3}
+
+
+@pytest.fixture(scope="module")
+def truncated(tmp_path_factory):
+    """The memory of a ground whose later kernels are few vectors, and runs on it."""
+    run._KEPT.clear()
+    file = MemoryFile(tmp_path_factory.mktemp("suite") / "ground.npz")
+    return file, beside_the_whole(record(**WIDE), 5e-2, file)
+
+
+def test_truncated_kernels_are_as_good_as_they_say(truncated):
+    file, (whole, found, _, history) = truncated
+    kept = file.read()
+    assert kept.stages
+    assert all(s.P.shape[1] < len(kept.S) for s in kept.stages)
+    assert 1e-5 < history.reduction.estimate <= 5e-2
+    assert max(errors(whole, found)[:3]) <= 5e-2
+    assert history.reduction.vectors == len(kept.S) + sum(s.P.shape[1] for s in kept.stages)
+
+
+@pytest.mark.parametrize("elsewhere", [True, False], ids=["another process", "the same"])
+def test_a_memory_serves_other_motions(truncated, elsewhere):
+    file, stamp = truncated[0], truncated[0].path.stat().st_mtime_ns
+    run._KEPT.clear()
+    if not elsewhere:
+        run._KEPT[file.read().name] = file.read()
+    whole, found, _, history = beside_the_whole(record(2, **WIDE), 5e-2, file)
+    assert history.loop == "memory"
+    assert file.path.stat().st_mtime_ns == stamp
+    assert max(errors(whole, found)[:3]) <= 5e-2
+
+
+def test_a_finer_tolerance_makes_it_anew(truncated, file):
+    file.path.write_bytes(truncated[0].path.read_bytes())
+    whole, found, _, history = beside_the_whole(record(2, **WIDE), 2e-3, file)
+    assert history.reduction.estimate <= 2e-3
+    assert max(errors(whole, found)[:3]) <= 2e-3
+    assert file.read().tolerance < truncated[0].read().tolerance
+
+
+def test_other_loads_on_the_ground_are_answered_anew(file):
+    integrate_reduced(record(), 1e-4, [], shelf=file)
+    problem = record(2)
+    turned = problem.loading.forces.copy()
+    turned[:, 1] = np.roll(turned[:, 1], 2)
+    problem = replace(problem, loading=replace(problem.loading, forces=turned))
+    whole, found, _, _ = beside_the_whole(problem, 1e-4, file)
+    assert max(errors(whole, found)[:3]) < 2e-5
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"size": (18, 6, 4)}, "another mesh"),
+        ({"scheme": hht(0.1)}, "another scheme"),
+        ({"dt": 4e-3}, "for the step 0.005, not 0.004"),
+    ],
+)
+def test_the_memory_of_another_ground_or_step_is_refused(file, given, told):
+    integrate_reduced(record(), 1e-4, [], shelf=file)
+    before = file.path.read_bytes()
+    for kept in ({}, run._KEPT.copy()):
+        run._KEPT.clear()
+        run._KEPT.update(kept)
+        with pytest.raises(KernelError, match=rf"ground\.npz is the memory .*{told}"):
+            integrate_reduced(record(**given), 1e-4, [], shelf=file)
+    assert file.path.read_bytes() == before
+
+
+def _inside(problem):
+    return [track(problem, np.arange(problem.numbering.size))]
+
+
+def _fields(problem):
+    return [Recorder(len(problem.times))]
+
+
+def _moving(problem):
+    problem.loading.imposed[:] = 1e-3
+    return []
+
+
+def _thrown(problem):
+    problem.v[:] = 0.1
+    return []
+
+
+def _unbalanced(problem):
+    problem.u[:] = 0.0
+    return []
+
+
+def _uneven(problem):
+    problem.times[-1] += 1e-3
+    return []
+
+
+@pytest.mark.parametrize(
+    ("spoil", "told"),
+    [
+        (_inside, "results are asked of"),
+        (_fields, "results are asked of"),
+        (_moving, "supports move"),
+        (_thrown, "does not start at rest"),
+        (_unbalanced, "does not start at rest"),
+        (_uneven, "steps of one length"),
+    ],
+)
+def test_what_a_memory_does_not_describe_runs_whole_and_says_why(file, spoil, told):
+    problem = record()
+    observers = spoil(problem)
+    history = integrate_reduced(problem, 1e-2, observers, shelf=file)
+    assert told in str(history.reduction.refused)
+    assert (history.loop, file.path.exists()) == ("condensed", False)
+
+
+def test_bodies_that_hang_together_have_no_ground(file):
+    problem = record()
+    tie = sp.csr_array((problem.numbering.size, problem.numbering.size))
+    lower, upper = building(problem)[0], _upper(problem)[0]
+    tie = sp.csr_array(([1.0], ([lower], [upper])), shape=tie.shape)
+    problem = replace(problem, C=sp.csr_array(problem.C + 1e3 * (tie + tie.T)))
+    history = integrate_reduced(problem, 1e-2, [], shelf=file)
+    assert "no body hangs on by its joints alone" in str(history.reduction.refused)
