@@ -1,6 +1,7 @@
 """Checking without running: what it finds, and that it raises no false alarm."""
 
 import io
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -42,75 +43,26 @@ def errors(source: Source) -> list[str]:
     return [render(p, "en", names) for p in problems if p.severity == "error"]
 
 
-@together(
-    "text, code",
-    [
-        ("X = PORG 1. 2. ; MESS X ;", "unknown-operator"),
-        ("X = (PORG 1. 2.) ; MESS X ;", "unknown-operator"),
-        ("T = TABL ; T . 'A' = PORG 1. 2. ;", "unknown-operator"),
-        ("SI (PORG 1. 2.) ; FINSI ;", "unknown-operator"),
-        ("DEBP P A*ENTIER ; B = PORG A ; FINP B ; X = P 1 ; MESS X ;", "unknown-operator"),
-        ("X = 1 + VRAI ; MESS X ;", "no-rule"),
-        ("OPTI DIME 2 ; P = 0. 0. ; B = BLOQ 'UX' P ; N = NBEL B ; MESS N ;", "wrong-argument"),
-        ("OPTI DIME 2 ; P = 0. 0. ; B = SYMT 'DEPL' P ; MESS B ;", "missing-argument"),
-        ("X = 1. + ; MESS X ;", "two-operands"),
-        ("A = 2. ; X = -A ; MESS X ;", "two-operands"),
-        ("A = 2 ; X = A -1 ; MESS X ;", "glued-sign"),
-        ("X = A + 1 ; MESS X ;", "unknown-operator"),
-        ("X = A + 1 ; A = 2 ; MESS X ;", "set-later"),
-        ("T . 'A' = 1 ;", "undefined-table"),
-        ("T = 3 ; X = T . 1 ; MESS X ;", "not-a-table"),
-        ("SI 3 ; FINSI ;", "condition"),
-        ("SI ; FINSI ;", "condition"),
-        ("SI () ; FINSI ;", "condition"),
-        ("REPE B MANY ; FIN B ;", "undefined-name"),
-        ("REPE B VRAI ; FIN B ;", "loop-count"),
-        ("REPE B 2 ; QUIT C1 ; FIN B ;", "no-such-loop"),
-        ("REPE B 2 ; ITER C1 ; FIN B ;", "no-such-loop"),
-        ("A B = 1 + 2 ; MESS A B ;", "no-result"),
-        ("A = 1. 2. 3. 4. ; MESS A ;", "excess"),
-        ("OPTI DIME 3 ; P = 1. 2. ; MESS (TYPE P) ;", "third-coordinate"),
-        ("DEBP P A*ENTIER ; FINP A ; X = P 'B' ; MESS X ;", "missing-parameter"),
-        ("DEBP P A*ENTIER ; FINP A ; X = P ; MESS X ;", "missing-parameter"),
-        ("SI VRAI ; X = 1 ;", "unclosed-block"),
-        ("X = (1 + 2 ;", "unclosed-paren"),
-        ("X = FLUX 1 2 ; MESS X ;", "unknown-operator"),
-        ("L = PROG 1. ; X = FLUX (L ET L) ; MESS X ;", "unknown-operator"),
-        ("L = PROG 1. ; K = L ET 2. ; X = FLUX K ; MESS X ;", "unknown-operator"),
-        ("L = PROG 1. ; X = L ET (FLUX 'DEPL' L) ; MESS X ;", "unknown-operator"),
-        ("L = PROG 1. ; X = L ET FLUX (L ET L) ; MESS X ;", "unknown-operator"),
-        ("L = PROG 1. ; X = (L ET L) FLUX 'DEPL' ; MESS X ;", "unknown-operator"),
-        ("FLUX 1 ;", "unknown-operator"),
-        ("L = MOTS 'UX' ; M = EXTR L 1 ; X = M EGA 'UX' ; MESS X ;", "unread-operator"),
-        ("L = MOTS 'UX' ; X = EXTR L 1 EGA 'UX' ; MESS X ;", "unread-operator"),
-        ("SI FOO ; FINSI ;", "unknown-operator"),
-        ("X = ((ABSENT ET 1) . 'A') ; MESS X ;", "unread-operator"),
-    ],
-)
-def test_finds(text, code):
-    assert code in codes(text)
+TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["texts"]
+ROWS = [
+    (group.get("before", "") + text, code, group["how"])
+    for group in TEXTS
+    for text, code in group["rows"].items()
+]
 
 
-@together(
-    "text, code",
-    [
-        ("X = 1 / 2 ; MESS X ;", "integer-division"),
-        ("N = 7 ; X = N / 2 ; MESS X ;", "integer-division"),
-        ("X = 1 ;", "unused-name"),
-        ("T = TABL ; T . 'A' = TABL ; T . 'A' . 1 = 2 ;", "unused-name"),
-        ("X = FLUX 1. ; X = 2 ; MESS X ;", "not-built-yet"),
-        ("DENS = 0.1 ; MESS DENS ;", "shadowed-operator"),
-        ("LENGTH = 3. ; X = PROG LENGTH LENGHT ; MESS X ;", "perhaps-misspelt"),
-        ("LENGTH = 3. ; X = MOTS LENGHT 'MANU' ; MESS LENGTH X ;", "perhaps-misspelt"),
-        ("DEBP PROG A ; MESS A ; FINP ; PROG 1. ;", "shadowed-operator"),
-        ("DEBP @VERIFIE ; FINP ;", "overrides-procedure"),
-        ("DEBP P X Y ; Z = MATE X SORT Y YOUM 2. ; FINP Z ; A = P 1 2 ; MESS A ;", "near-word"),
-    ],
-)
-def test_warns(text, code):
+@together("text, code, how", ROWS, by=lambda row: row[1])
+def test_it_is_told_of_what_it_should_be(text, code, how):
     problems, _ = check_source(Source("test", text))
-    assert [p.code for p in problems] == [code]
-    assert problems[0].severity == "warning"
+    found = [p.code for p in problems]
+    if how == "silent":
+        assert code not in (*found, *(p.severity for p in problems))
+    elif how == "among":
+        assert code in found
+    else:
+        others = {"left-to-right", "unused-name"} - {code}
+        told = [(p.code, p.severity) for p in problems if p.code not in others]
+        assert told == [(code, "warning")][: bool(code)]
 
 
 def test_signs_in_an_order_that_is_no_other_language_s_are_noted_once():
@@ -155,64 +107,6 @@ def test_what_is_given_anew_and_not_used_is_told_where_it_is_given(text, name):
     assert text[: found.span.start].count(f"{name} = ") == 1
 
 
-CALLED = "T = TABL ; T . 'CHARGEMENT' = C ; PASAPAS T ; "
-INSIDE = "P = TABL ; T = TABL ; T . 'REPRISE' = P ; PASAPAS T ; "
-
-
-@together(
-    "text, told",
-    [
-        (CALLED + "T . 'CHARGEMENT' = (T . 'CHARGEMENT') ET D ; MESS (T . 'TEMPS' . 1) ;", True),
-        (CALLED + "T . 'TEMPS_CALCULES' = L ; PASAPAS T ;", False),
-        (CALLED + "REPE B 2 ; T . 'CHARGEMENT' = D ; PASAPAS T ; FIN B ;", False),
-        (CALLED + "T . 'CHARGEMENT' = D ; MESS (T . 'CHARGEMENT') ;", False),
-        (CALLED + "T . 'CHARGEMENT' = D ; U = COPI T ; PASAPAS U ;", False),
-        (CALLED + "T . 'CHARGEMENT' = D ; SAUV ;", False),
-        (CALLED + "T . 'MY_OWN' = 3 ;", False),
-        (INSIDE + "P . 'PAS' = 3 ;", True),
-        (INSIDE + "P . 'PAS' = 3 ; U = P ;", False),
-        ("DEBP RUNS ; PASAPAS T ; FINP ; " + CALLED + "T . 'CHARGEMENT' = D ; RUNS ;", False),
-    ],
-)
-def test_an_entry_that_comes_behind_the_call_it_is_for_is_told(text, told):
-    assert ("entry-behind-call" in codes(text)) == told
-
-
-@together(
-    "text, told",
-    [
-        ("T . 'RIGI' = K ; T . 'MASS' = M ; T . 'RIGI' = K ET B ;", True),
-        ("T . 'RIGI' = K ; T . 'RIGI' = (T . 'RIGI') ET B ;", False),
-        ("T . 'RIGI' = K ; DYNAMIC T ; T . 'RIGI' = K ET B ;", False),
-        ("T . 'RIGI' = K ; T = TABL ; T . 'RIGI' = K ET B ;", False),
-        ("T . 'RIGI' = K ; SI X ; T . 'RIGI' = B ; FINSI ;", False),
-        ("T . 'RIGI' = K ; REPE B 2 ; T . 'RIGI' = B ; DYNAMIC T ; FIN B ;", False),
-        ("U = T ; T . 'RIGI' = K ; DYNAMIC U ; T . 'RIGI' = B ;", False),
-        ("DEBP RUNS ; PASAPAS T ; FINP ; T . 'RIGI' = K ; RUNS ; T . 'RIGI' = B ;", False),
-    ],
-)
-def test_an_entry_that_is_set_twice_and_not_read_between_is_told(text, told):
-    assert ("entry-twice" in codes("T = TABL ; " + text)) == told
-
-
-@together(
-    "text",
-    [
-        STALE + "A = MATE M 'KN' 2. ; K = RIGI M A ; MESS K ;",
-        STALE + "REPE B 3 ; K = RIGI M A ; A = MATE M 'KN' 2. ; MESS K ; FIN B ;",
-        STALE + "A = MATE M 'KN' 2. ; MESS 'the last of A' ;",
-        STALE + "A = MATE M 'KN' 2. ; LIST ;",
-        STALE + "DEBP USES X*MAILLAGE ; A = MATE X 'KN' 2. ; B = RIGI X A ; FINP B ; MESS A ;",
-        STALE + "I = 1 ; MESS I ; I = 2 ;",
-        STALE + "K = K ET (APPU 'UX' 1. P) ; MESS K ;",
-        STALE + "L = K ET K ; MESS L ; L = (PROG 1.) ET L ;",
-        "DEBP USES ; U = RESO K F ; FINP U ; " + STALE + "X = USES ; K = RIGI M A ; MESS X USES ;",
-    ],
-)
-def test_what_is_given_anew_and_used_is_not_told(text):
-    assert "stale-name" not in codes(text)
-
-
 @pytest.mark.parametrize(
     ("text", "wrong", "meant"),
     [
@@ -224,57 +118,6 @@ def test_a_one_that_belongs_to_what_follows_is_noted(text, wrong, meant):
     (note,) = [p for p in check_source(Source("test", text))[0] if p.code != "left-to-right"]
     assert (note.code, note.severity) == ("one-changes-nothing", "note")
     assert (note.data["wrong"], note.data["meant"]) == (wrong, meant)
-
-
-CONES = "OPTI DIME 2 ; P = 0. 0. ; K = TABL ; K . 'UX' = 2. ; K . 'UY' = 3. ; K . 'RZ' = 4. ; "
-SOIL = CONES + "M = MODE (MANU 'POI1' P) 'MECANIQUE' ; G0 = 1.E8 ; "
-TURNED = CONES.replace("DIME 2", "DIME 3").replace("0. 0.", "0. 0. 0.")
-
-
-@together(
-    "text, code",
-    [
-        (CONES + "MESS (APPU 'UX' (K . 'UY') P) ;", "spring-of-another"),
-        (CONES + "MESS ((AMOR 'UY' K . 'UY' P) ET (AMOR 'RZ' K . 'UX' P)) ;", "spring-of-another"),
-        (TURNED + "MESS (APPU 'UZ' (K . 'UX') P) ;", "spring-of-another"),
-        (SOIL + "MESS (MATE M 'NU' 0.3 'YOUN' G0) ;", "shear-for-young"),
-        (SOIL + "MESS (MATE M 'NU' 0.3 'YOUN' (2.6 * G0)) ;", ""),
-        (CONES + "K . 'FREQUENCE' = 2. * PI * 1.5 ; MESS K ;", "pulsation-for-frequency"),
-        (CONES + "K . 'FREQUENCES' = PI * 2 * (PROG 1. 2.) ; MESS K ;", "pulsation-for-frequency"),
-        (CONES + "MESS (APPU 'UX' (K . 'UX') P) ; C = AMOR 'UX' 'RZ' (K . 'UX') P ; MESS C ;", ""),
-        (CONES + "MESS (APPU 'UX' (2. * (K . 'UY')) P) ;", ""),
-        (CONES + "I = 'UY' ; MESS (APPU 'UX' (K . I) P) ;", ""),
-        (TURNED + "MESS ((APPU 'UX' (K . 'UY') P) ET (APPU 'UY' (K . 'UX') P)) ;", ""),
-        (CONES + "W = 9. ; K . 'FREQUENCE' = W / (2. * PI) ; MESS K ;", ""),
-        (CONES + "K . 'PULSATION' = 2. * PI * 1.5 ; K . 'FREQUENCE' = 1.5 ; MESS K ;", ""),
-        (CONES + "W = 2. * PI * 1.5 ; K . 'FREQUENCES' = (2. * PI * W) / 39.478 ; MESS K ;", ""),
-    ],
-)  # fmt: skip
-def test_springs_by_the_number_of_another_way_and_pulsations_are_told(text, code):
-    found = [p.code for p in check_source(Source("test", text))[0]]
-    assert {*found} - {"left-to-right", "unused-name"} == {*([code] if code else [])}
-
-
-@together(
-    "text",
-    [
-        "X = 2. ** 1.5 / 2. ; MESS X ;",
-        "X = 3. * 1. ; MESS X ;",
-        "X = 1. * 3. + 2. ; MESS X ;",
-        "X = 3. * 1. / 2. ; MESS X ;",
-        "CHARGE = 3. ; MESS CHARGE ;",
-        "ECOU = 3. ; MESS ECOU ;",
-    ],
-)
-def test_a_one_by_itself_and_operators_that_nothing_calls_for_names_are_not_told(text):
-    assert not [p for p in check_source(Source("test", text))[0] if p.code != "left-to-right"]
-
-
-@pytest.mark.parametrize(
-    "text", ["X = RELA 1. 'UX' P - 2. 'UX' Q * 3. ;", "X = 2. * 3. + 4. ;", "X = 1. - 2. + 3. ;"]
-)
-def test_signs_in_the_order_of_other_languages_are_not_noted(text):
-    assert "left-to-right" not in codes(text)
 
 
 @pytest.mark.parametrize("given", ["SI (Y > 0.) ; {} FINSI ;", "SI (X > 0.) ; FINSI ; {}", "{}"])
@@ -314,47 +157,6 @@ def test_a_name_of_another_branch_is_an_error_where_all_runs_read_it(text, sever
 def test_an_operator_out_of_scope_is_named_with_its_subject():
     (message,) = errors(Source("test", "X = CAPA 1. 2. ; MESS X ;"))
     assert "CAPA is a Cast3M operator (heat), out of ssilang's scope" in message
-
-
-@together(
-    "text",
-    [
-        "X = ABRACADABRA ; MESS X ;",
-        "T = TABL ; T . FOO = 1 ; MESS T . FOO ;",
-        "DEBP P A*ENTIER ; B = A + GLOBAL ; FINP B ; GLOBAL = 2 ; X = P 1 ; MESS X ;",
-        "REPE B 3 ; SI (&B > 1) ; X = X + 1 ; SINON ; X = 0 ; FINSI ; FIN B ; MESS X ;",
-        "L = PROG 1. ; SI VRAI ; MESS 1 ; SINON ; X = 2. * L ; FINSI ; Y = X * L ; LIST Y ;",
-        "OPTI 'ACQU' 'f' ; ACQU N*ENTIER ; X = N + 1 ; MESS X ;",
-        "REST ; X = RESTORED + 1 ; MESS X ;",
-        "FIN ; X = PORG 1. ;",
-        "REST ; P = 0. -1.E6 0. ; MESS P ;",
-        "OPTION DIMENSION 3 ; P = 0. -1.E6 0. ; MESS (TYPE P) ;",
-        "NOMM 'ABC' 3 ; X = ABC + 1 ; MESS X ;",
-        "T = TEXT '1 + 2' ; X = T * 3 ; MESS X ;",
-        "T = TEXT 'A = 3 + 4' ; T ; MESS (A + 1) ;",
-        "M = MOT 'PROG' ; X = M 1. 2. ; MESS X ;",
-        "OPTI DIME 2 ; P = 1. 2. ; Q = P PLUS (1. 0.) ; MESS (COOR 1 Q) ;",
-        "T = TABL ; T . 1 = MOT 'X' ; Y = T . 1 3 ; MESS Y ;",
-        "T = TEXT '1 +' ; X = (T 3) ; MESS X ;",
-        "T = TABL ; T . 1 = TEXT '1 +' ; X = (T . 1 3) ; MESS X ;",
-        "X Y = MAXI (EVOL 'MANU' (PROG 1. 2.) (PROG 1. 2.)) ; MESS X Y ;",
-        "DEBP P A/ENTIER ; B = 0 ; SI (EXIS A) ; B = A + 1 ; FINSI ; FINP B ; X = P ; MESS X ;",
-        "DEBP P ; ARGU A*ENTIER ; FINP A ; X = P 3 ; MESS X ;",
-        "I = 7 ; J = 2 ; K = I * 2 / J ; MESS K ;",
-        "REPE BLOC1 3 ; SI (&BLOC1 > 1) ; QUIT BLOC1 ; FINSI ; FIN BLOC1 ;",
-        "DEBP P X Y ; Z = MATE X 'YOUNG' Y 'ALPHA' 1. 'CREF' 2. ; FINP Z ; A = P 1 2 ; MESS A ;",
-        "DEBP P A*ENTIER ; SI (A EGA 2) ; QUIT B ; FINSI ; FINP ; REPE B 4 ; P &B ; FIN B ;",
-        "REPE B 4 ; REPE C 2 ; SI (&C EGA 2) ; quit B ; FINSI ; FIN C ; FIN B ;",
-        "L = MOTS 'CARA' 'YUON' ; MESS L (MOTS MATE YUON) ;",
-        "DEBP AUTOPILO A*CHPOINT ; FINP 1. ;",
-        "L = (MOT 'A') ET 'B' ; M = L ET (MOTS 'C') ; MESS (M 'ET' L) ;",
-        f"X = {'(' * 300}1{')' * 300} ; MESS X ;",
-        "X = 0. ; T = TABL ; SI (X > 0.) ; T . 'REDUCTION' = X ; FINSI ; DYNAMIC T ;",
-        "REPE B 2 ; SI (&B EGA 2) ; Y = XYZ + 1. ; MESS Y ; FINSI ; REST ; FIN B ;",
-    ],
-)
-def test_raises_no_false_alarm(text):
-    assert errors(Source("test", text)) == []
 
 
 @pytest.mark.parametrize("names", [("CO2", "CO3"), ("BAR", "JOI")])
@@ -405,26 +207,6 @@ def test_what_a_phrase_leaves_is_judged_as_by_a_run(phrase, code):
 
 
 _BODY = "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
-_MODEL = "MO = MODE S MECANIQUE ELASTIQUE ; "
-_CURVE = "(PROG 1. 2.) {} (PROG 3. 4.) ; LIST E ; "
-
-
-@together(
-    "text",
-    [
-        _MODEL + "YOUN1 = 2. ; ALPH1 = 1. ; A = MATE MO YOUNG YOUN1 NU 0. ALPHA ALPH1 ; LIST A ;",
-        "EIX1 = 3. ; MESS EIX1 ; F = 1. ; E = EVOL MANU EIXX " + _CURVE.format("ALPHA"),
-        "DUREE = 1. ; MESS DUREE ; E = EVOL ROUG MANU DUREX " + _CURVE.format("EPSIL"),
-        "E = EVOL MANU UXX " + _CURVE.format("FXX"),
-        "U = MANU CHML S EIXX 1. GIXY 2. ; LIST U ;",
-        "ROSE1 = 1. ; MESS ROSE1 ; T = S COUL ROSE ; LIST T ; OPTI COUL VERT ;",
-        "OPTI MODE PLAN GENE ; B = BLOQ RX UZ RY (S POIN 1) ; LIST B ;",
-        "NOTRON = 3. ; L = MOTS NORTON ; MESS L NOTRON ;",
-    ],
-)
-def test_words_of_operators_are_no_misspelt_names(text):
-    problems, _ = check_source(Source("test", _BODY + text))
-    assert [p.code for p in problems if p.code != "unused-name"] == []
 
 
 @together(
@@ -532,6 +314,7 @@ def test_names_that_nothing_reads_are_told_together_where_a_person_reads():
     assert "X gets a value that nothing reads" in said("X = 1 ;")
 
 
-@pytest.mark.parametrize("depth", [3_000, 50_000])
+@pytest.mark.parametrize("depth", [300, 3_000, 50_000])
 def test_any_depth_of_parentheses_is_answered(depth):
-    assert codes(f"X = {'(' * depth}1{')' * depth} ; MESS X ;") in ([], ["nesting"])
+    told = codes(f"X = {'(' * depth}1{')' * depth} ; MESS X ;")
+    assert told in ([], ["nesting"] if depth > 300 else [])

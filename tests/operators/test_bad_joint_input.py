@@ -82,42 +82,6 @@ def test_a_matrix_of_two_unit_systems_is_warned_of_by_its_condition_number(outco
     assert "the softest 2.0e-01 (UX at node 1)" in said
 
 
-@pytest.mark.parametrize(
-    ("change", "said"),
-    [
-        ("C = MATE M 'KN' 1. 'KS' 1. 'DIM3' -1. ;", "parameter DIM3 = -1 is out of its range"),
-        ("C = MATE M 'KN' 1. 'KS' 1. ;", ""),
-    ],
-)
-def test_negative_thickness_is_refused(outcome, change, said):
-    text = SIDES + "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; " + change + "K = RIGI M C ;"
-    result = outcome(text)
-    assert (result.exit_code == 1) is bool(said)
-    assert said in result.message
-
-
-def test_axisymmetric_joint_left_of_the_axis_is_refused(outcome):
-    text = SIDES.replace("PLAN DEFO", "AXIS").replace("(1. 0.)", "(-1. 0.)")
-    text = text.replace("RACC 1.E-6 A B", "RACC 1.E-6 B A")
-    text += "M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; K = RIGI M (MATE M 'KN' 1. 'KS' 1.) ;"
-    result = outcome(text)
-    assert result.exit_code == 1
-    assert "has a negative area" in result.message
-    assert "radii must be positive" in result.message
-
-
-def test_folded_face_is_refused(outcome):
-    text = """
-    OPTI DIME 3 ELEM QUA4 ;
-    P1 = 0. 0. 0. ; P2 = 1. 0. 0. ; P3 = 1. 1. 0. ; P4 = 0. 1. 0. ;
-    B = MANU 'QUA4' P1 P2 P4 P3 ; A = B PLUS (0. 0. 0.) ; J = LIAI A B ;
-    M = MODE J 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' ; K = RIGI M (MATE M 'KN' 1. 'KS' 1.) ;
-    """
-    result = outcome(text)
-    assert result.exit_code == 1
-    assert "is folded" in result.message or "no area" in result.message
-
-
 @pytest.mark.parametrize("bad", ["nan", "inf", "-1.E999"])
 def test_gap_in_a_motion_file_is_refused_with_its_line(outcome, tmp_path, bad):
     (tmp_path / "m.txt").write_text(f"0.0 1.0\n0.01 {bad}\n0.02 3.0\n")

@@ -48,30 +48,6 @@ def test_elastic_section_is_the_plain_beam_of_its_rectangle(found):
         np.testing.assert_allclose(values, s2.blocks[0].components[name], rtol=1e-7, atol=1e-9)
 
 
-def test_fibres_off_the_line_bend_a_pulled_beam(found):
-    e = 0.3
-    script = (
-        section(centre=e) + "L = DROI 8 (0. 0. 0.) (2. 0. 0.) ; " + FIBRES
-        + "U = RESO ((RIGI M A) ET (BLOQ (POIN 1 L) 'DEPL' 'ROTA')) (FORC (1.E5 0. 0.) (POIN 9 L)) "
-        "; RY = EXTR U 'RY' (POIN 9 L) ; UX = EXTR U 'UX' (POIN 9 L) ; "
-    )  # fmt: skip
-    ry, ux = found(script, "RY", "UX")
-    # moment of the force about the middle of the section: -N e, curvature EPS = k + z CY
-    curvature = -1e5 * e / (2e11 * IY)
-    assert ry == pytest.approx(curvature * 2.0, rel=1e-9)
-    assert ux == pytest.approx((1e5 / (2e11 * AREA) - e * curvature) * 2.0, rel=1e-9)
-
-
-def test_mass_of_fibres_off_the_line_has_the_energy_of_a_turning_body(found):
-    script = (
-        section(centre=0.3) + "L = DROI 8 (0. 0. 0.) (2. 0. 0.) ; " + FIBRES
-        + "R = MANU 'CHPO' L 1 'RX' 1. ; X = XTMX R (MASS M A) ; "
-    )  # fmt: skip
-    energy = found(script, "X")
-    polar = 7800.0 * (IY + IZ + AREA * 0.3**2) * 2.0
-    assert energy == pytest.approx(polar, rel=1e-9)
-
-
 def test_gyroscopic_coupling_of_fibres_is_that_of_the_plain_shaft(found):
     plain = (
         f"'YOUN' 2.E11 'NU' 0.3 'RHO' 7800. 'SECT' {AREA} 'INRY' {IY} 'INRZ' {IZ} "

@@ -11,16 +11,16 @@ from ssilang.language.values import type_of
 
 SECTIONS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 VALUES = SECTIONS.pop("values")
-ROWS = [row for section in SECTIONS.values() for row in section.values()]
+ROWS = [(name, row) for name, section in SECTIONS.items() for row in section.values()]
 ROWS += [
-    {"say": f"{VALUES['before']} x = {phrase} ;", "X": value}
+    ("values", {"say": f"{VALUES['before']} x = {phrase} ;", "X": value})
     for phrase, value in VALUES.items()
     if phrase != "before"
 ]
 
 
-@together("row", ROWS)
-def test_a_script_comes_to_its_values_or_fails_at_its_place(run, tmp_path, row):
+@together("section, row", ROWS, by=lambda row: row[0])
+def test_a_script_comes_to_its_values_or_fails_at_its_place(run, tmp_path, section, row):
     if "fails" in row:
         result = failed(row["say"], tmp_path)
         assert result.errors[0].code == row["fails"]

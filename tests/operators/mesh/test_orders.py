@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from script_runs import failed, ran
+from script_runs import ran
 from together import together
 
 from ssilang.kernel.fields.cell_field import CellField
@@ -140,20 +140,3 @@ def test_points_move_alike_whatever_the_order(row: str) -> None:
     assert others == [first] * len(others)
     assert first != result(PLANE, "P")
     assert result(f"{PLANE}Q = {row.split(' | ')[0]} ;", "Q") == first
-
-
-@together(
-    "phrase, words",
-    [
-        ("P SYME A", ("POINT", "DROIT", "PLAN")),
-        ("LIGN O V", ("ROTA", "TRAN")),
-        ("PART S", ("CONN", "SEPA", "OPTI", "ARLE")),
-        ("P PROJ V", ("PLAN", "SPHERE", "DROIT")),
-        ("F POIN", ("MAXI", "COMPRIS")),
-        ("INDI S", ("ASPE", "SKEW")),
-        ("DEPL P", ("PLUS", "MOINS", "TOUR", "MILI")),
-    ],
-)
-def test_words_that_are_missing_are_told(phrase: str, words: tuple[str, ...]) -> None:
-    run = failed(f"{PLANE}R = {phrase} ;")
-    assert [w for w in words if f"'{w}'" not in run.message] == []

@@ -54,24 +54,6 @@ def _force(zone, node, **values):
     )
 
 
-def test_bar_in_space_stretches_like_a_spring():
-    zone = line_zone("BARR", [0 * AXIS, L * AXIS], Mode.THREE_DIMENSIONAL)
-    mat = material(zone, **SECTION)
-    pull = dict(zip(("FX", "FY", "FZ"), 1e4 * AXIS, strict=True))
-    u = field(
-        zone,
-        **{
-            n: (lambda x, a=a: 1e4 * L / (E * A) * a * x[:, 0] / (L * AXIS[0]))
-            for n, a in zip(("UX", "UY", "UZ"), AXIS, strict=True)
-        },
-    )
-    stress = families.stress(zone, mat, u)
-    np.testing.assert_allclose(stress.components["EFFX"], 1e4, rtol=1e-12)
-    forces = families.internal_forces(zone, CellField((stress,)), mat)
-    for name, value in pull.items():
-        np.testing.assert_allclose(forces.components[name].values, [-value, value], rtol=1e-12)
-
-
 def test_beam_in_the_plane_bends_exactly_with_one_element():
     zone = line_zone("POUT", [(0, 0), (L * 0.6, L * 0.8)], Mode.PLANE_STRESS)
     mat = material(zone, YOUN=E, NU=NU, SECT=A, INRZ=IZ)

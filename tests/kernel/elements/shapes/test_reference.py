@@ -72,22 +72,6 @@ def test_gradients_are_those_of_finite_differences(name: str) -> None:
     np.testing.assert_allclose(shape_gradients(name, points), np.stack(slopes, 2), atol=1e-9)
 
 
-def test_faces_of_the_pyramid_have_the_functions_of_their_cells() -> None:
-    # a neighbour sees the same values on the common face: QUA8 below, TRI6 beside
-    points = np.random.default_rng(3).uniform(0.0, 0.5, (6, 2))
-    base = np.column_stack([points, np.zeros(6)])
-    expected = shape_functions("QUA8", points)
-    np.testing.assert_allclose(shape_functions("PY13", base)[:, :8], expected, atol=1e-14)
-    np.testing.assert_allclose(shape_functions("PY13", base)[:, 8:], 0.0, atol=1e-14)
-    local = list(CELL_TYPES["PY13"].faces[1][1])
-    corners = reference_cell("PY13").nodes[local[::2]]
-    s, t = points.T
-    side = corners[0] + np.outer(s, corners[1] - corners[0]) + np.outer(t, corners[2] - corners[0])
-    found = shape_functions("PY13", side)
-    np.testing.assert_allclose(found[:, local], shape_functions("TRI6", points), atol=1e-13)
-    assert np.abs(np.delete(found, local, axis=1)).max() < 1e-13
-
-
 def test_cells_without_functions_say_so() -> None:
     with pytest.raises(MeshError, match="no shape functions"):
         reference_cell("PY19")

@@ -10,7 +10,6 @@ from scipy.sparse.linalg import spsolve
 from together import together
 
 from ssilang.kernel.elements import families
-from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.loads.loads import shell_load
 from ssilang.kernel.elements.results.skin import shell_skin, shell_tensor
 from ssilang.kernel.elements.results.tensors import section_equivalent
@@ -299,22 +298,6 @@ def test_twisted_blade_of_warped_cells_bends_as_published(h, P, in_plane, out_of
         assert u.values_at(name, end).mean() == pytest.approx(exact, rel=0.03)
 
 
-def test_warped_cells_follow_any_rigid_motion_without_a_force():
-    zone, _, _ = quadrangles("COQ4", 3, 2, 12.0, 1.1, twisted)
-    places = zone.cells.nodes.coordinates
-    turn, shift = np.array([0.3, -0.2, 0.5]), np.array([1.0, 2.0, -0.4])
-    moved = shift + np.cross(turn, places)
-    nodes = np.arange(len(places))
-    parts = dict(zip(("UX", "UY", "UZ"), moved.T, strict=True))
-    parts |= {n: np.full(len(nodes), t) for n, t in zip(("RX", "RY", "RZ"), turn, strict=True)}
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, material(zone, **PLATE)),))
-    numbering = numbering_of(K)
-    A = assemble(K, numbering)
-    u = field_to_vector(NodeField.of(zone.cells.nodes, nodes, parts, "DIFFUS"), numbering, False)
-    assert np.abs(u).max() > 5
-    assert np.abs(A @ u).max() < 1e-12 * (abs(A) @ np.abs(u)).max()
-
-
 def test_skin_stresses_of_a_bent_and_pulled_plate():
     zone, _ = plate(1, 1, 1.0, 1.0)
     forces = {"N11": 3.0, "N22": 1.0, "N12": 0.5, "M11": 2.0, "M22": -1.0, "M12": 0.25}
@@ -479,24 +462,3 @@ def test_a_cone_moves_freely_in_as_many_ways_as_a_body_does(harmonic, rigid):
     values = np.linalg.eigvalsh(scale[:, None] * K * scale)
     assert (np.abs(values) < 1e-12).sum() == rigid
     assert (values > 1e-6).sum() == len(K) - rigid
-
-
-@pytest.mark.parametrize("element", ["DKT", "COQ4", "COQ8"])
-def test_turning_about_any_axis_mass_off_the_mesh_has_the_energy_of_its_place(element):
-    a, b, e = 1.0, 0.7, 0.2
-    w, v, zone = np.array([0.3, -0.7, 0.4]), np.array([0.2, 0.1, -0.5]), None
-    zone, _, _ = flat_zone(element, 2, a, b)
-    block = families.mass(zone, material(zone, **PLATE, EXCE=e))
-    layout = Layout(block.table, block.raw_nodes, block.local, block.unknowns)
-    moved = {
-        n: (lambda x, i=i: (v + np.cross(w, x))[:, i]) for i, n in enumerate(("UX", "UY", "UZ"))
-    }
-    turned = {n: (lambda x, i=i: w[i] + 0 * x[:, 0]) for i, n in enumerate(("RX", "RY", "RZ"))}
-    q = layout.gather(field(zone, **moved, **turned))
-    twice = np.einsum("ci,cij,cj->", q, block.values, q)
-    # two points of Gauss each way are exact for squares of linear velocities
-    points = (1 + np.array([-1, 1]) / np.sqrt(3)) / 2
-    x, y = np.meshgrid(a * points, b * points)
-    velocity = v + np.cross(w, np.column_stack([x.ravel(), y.ravel(), np.full(4, e)]))
-    spinning = H**2 / 12 * (w[0] ** 2 + w[1] ** 2)
-    assert twice == pytest.approx(RHO * H * a * b * ((velocity**2).sum() / 4 + spinning), rel=1e-9)

@@ -142,15 +142,6 @@ def test_squares_fill_a_rectangle_on_its_grid(h):
     np.testing.assert_allclose(doubled_areas(points, triangles), h * h)
 
 
-def test_triangles_fill_a_triangle_on_its_lattice():
-    rim = along(6 * np.array([[0, 0], [1, 0], [0.5, 0.75**0.5]]), 1.0)
-    size = fill.SizeField(rim, np.ones(len(rim)))
-    points, triangles = fill.fill_contour(rim, ring(len(rim)), size, False)
-    assert (len(points), len(triangles)) == (28, 36)
-    for i, j in sides(triangles):
-        assert np.linalg.norm(points[i] - points[j]) == pytest.approx(1.0)
-
-
 @pytest.mark.parametrize("squares", [False, True])
 def test_a_crooked_contour_is_filled_by_its_sizes(squares):
     corners = np.array([[0, 0], [8, 1], [7, 6], [4, 3], [-1, 5.0]])
