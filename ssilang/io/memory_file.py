@@ -14,8 +14,8 @@ from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError
 from ssilang.io.run_output import RunLock
+from ssilang.kernel.stepping.rests.memory.ground import SINGLE
 from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
-from ssilang.kernel.stepping.rests.memory.parts import SINGLE
 from ssilang.system import GUARDED, lock
 
 _LOOK = 0.05  # s between two tries of a file that another process writes

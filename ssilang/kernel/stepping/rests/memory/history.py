@@ -3,8 +3,8 @@
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.stepping.rests.memory.ground import SINGLE
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels
-from ssilang.kernel.stepping.rests.memory.parts import SINGLE
 
 BLOCK = 8
 """Steps whose far past is summed together: each kernel is read once for all of them."""

@@ -18,7 +18,7 @@ from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.base.scientific import la
 from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.newmark import Newmark
-from ssilang.kernel.stepping.rests.memory.parts import SINGLE, Ground, GroundSteps
+from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
 from ssilang.kernel.stepping.verbs import advance, from_past
 
 COLUMNS = 128  # stepped together

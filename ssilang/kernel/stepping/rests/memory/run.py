@@ -19,6 +19,7 @@ from ssilang.kernel.stepping.effective import Effective, effective_matrix, effec
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import advanced
 from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
+from ssilang.kernel.stepping.rests.memory.ground import Ground, Parts, parts_of
 from ssilang.kernel.stepping.rests.memory.history import History as Past
 from ssilang.kernel.stepping.rests.memory.kernels import (
     Kernels,
@@ -27,7 +28,6 @@ from ssilang.kernel.stepping.rests.memory.kernels import (
     loads_name,
     loads_of,
 )
-from ssilang.kernel.stepping.rests.memory.parts import Ground, Parts, parts_of
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
 from ssilang.kernel.stepping.rests.sparse.interleaved import (
     InterleavedLoop,
