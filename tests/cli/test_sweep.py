@@ -476,7 +476,7 @@ def test_the_table_is_a_csv_file_too(deck, tmp_path, monkeypatch):
             else:
                 assert mine[name] == ("" if value is None else str(value))
     # without the library that writes Parquet, it is all there is
-    monkeypatch.setattr("ssilang.cli.sweeping.sweep.can_write", lambda: False)
+    monkeypatch.setattr("ssilang.cli.sweeping.sweep.is_there", lambda: False)
     _, said, _ = run(SweepOptions(deck, ["AG=0.5"], out=tmp_path / "plain", jobs=1))
     assert "sweep.csv" in said
     assert not (tmp_path / "plain" / "sweep.parquet").exists()

@@ -58,8 +58,13 @@ class ElementMatrices:
         cls, table: NodeTable, nodes: IntArray, unknowns: Sequence[str], duals: Sequence[str],
         values: FloatArray, kind: str, symmetric: bool = True,
     ) -> "ElementMatrices":  # fmt: skip
-        """One element: values (m, m) of the unknowns (m,) at nodes (m,)."""
+        """One element: values (m, m) of the unknowns (m,) at nodes (m,).
+
+        Nodes that differ stay in their order, which is that of the shapes that they mark.
+        """
         ids, local = np.unique(nodes, return_inverse=True)
+        if len(ids) == len(nodes):
+            ids, local = nodes, np.arange(len(nodes))
         rows = (local.astype(np.int64), tuple(unknowns), tuple(duals))
         return cls(table, ids[None, :], *rows, values[None], kind, None, symmetric)
 

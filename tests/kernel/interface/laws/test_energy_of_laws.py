@@ -174,7 +174,7 @@ def places_of(name):
 def test_contact_pressure_and_opening_are_those_of_the_plane(name):
     code, d, given = SHAPES[name]
     p = np.zeros(N_PARAMETERS)
-    for parameter, value in (given | {"BED": BED}).items():
+    for parameter, value in (given | {"KN": BED}).items():
         p[Parameter[parameter]] = value
     outline, places = outline_of(code, p, d), places_of(name)
     area = AREAS.get(name, 1.0)
