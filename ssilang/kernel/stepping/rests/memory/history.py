@@ -25,7 +25,7 @@ class History:
         self.pad = max([len(k.whole), *(s.first + len(s.cores) for s in k.stages)])
         self.forces = np.zeros((self.pad + steps + 1, q), SINGLE)
         self.parts = [np.zeros((len(self.forces), s.P.shape[1]), SINGLE) for s in k.stages]
-        self.near = np.concatenate([k.whole[:1] + k.whole[1:2], k.whole[2 : BLOCK + 1]])
+        self.near = [k.whole[0] + k.whole[1], *k.whole[2 : BLOCK + 1]]
         self.incoming = self._incoming(loads.astype(SINGLE), steps)
         self.ahead = np.zeros((0, q), SINGLE)
         self.done = self.begun = 0
