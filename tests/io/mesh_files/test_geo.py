@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import shutil
 import subprocess
 import sys
 import textwrap
@@ -205,7 +204,6 @@ def test_without_a_guard_only_what_is_allowed_runs(tmp_path, monkeypatch, capsys
     """Where the system has none: the guard's file in which it never holds."""
     bare = tmp_path / "bare.py"
     bare.write_text(GUARD.read_text().replace('startswith("linux")', 'startswith("none")'))
-    shutil.copy(GUARD.with_suffix(".toml"), bare.with_suffix(".toml"))
     monkeypatch.setattr(gmsh_alone, "__file__", str(bare))
     assert refusal(tmp_path, SQUARE) == "io.geo-unguarded"
     case = tmp_path / "case.ssi"
