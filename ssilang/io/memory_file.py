@@ -85,8 +85,7 @@ class MemoryFile:
 
 
 _NUMBERS: dict[str, Callable[[Any], Any]] = {
-    "name": str, "loads_name": str, "dt": float, "tolerance": float, "estimate": float,
-    "reach": int,
+    "dt": float, "tolerance": float, "estimate": float, "reach": int,
 }  # fmt: skip
 
 
@@ -95,6 +94,7 @@ def _check(k: Kernels) -> None:
     q = len(k.S)
     shapes = [(k.S, float, (q, q)), (k.whole, SINGLE, (len(k.whole), q, q))]
     shapes += [(k.loads, SINGLE, (len(k.loads), q, *k.loads.shape[2:3]))]
+    shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:
         r = stage.P.shape[-1]
         shapes += [(stage.P, SINGLE, (q, r)), (stage.cores, SINGLE, (stage.first, r, r))]

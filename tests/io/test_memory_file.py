@@ -19,8 +19,16 @@ from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 F = np.float32
 WHOLE, P, CORES = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
 SOUND = Kernels(
-    "a ground", 5e-3, 1e-2, np.eye(6), WHOLE, (Stage(16, P, CORES),), 0, np.ones((3, 6, 2), F), "b"
-)
+    np.ones(3),
+    5e-3,
+    1e-2,
+    np.eye(6),
+    WHOLE,
+    (Stage(16, P, CORES),),
+    0,
+    np.ones((3, 6, 2), F),
+    np.ones(2),
+)  # fmt: skip
 
 
 def npy(values: Any) -> bytes:
@@ -76,7 +84,7 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
         ({"other": npy(WHOLE)}, ""),
         ({"S": declaring((10**11, 2))}, ""),
         ({"S": declaring((10**7, 2))}, ""),
-        ({"name": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
+        ({"mark": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
         ({"S": pickle.dumps(Program(Path("ran")))}, ""),
     ],
 )

@@ -18,7 +18,6 @@ from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import Supernode, supernodes
 from ssilang.kernel.solvers.factor import FIRST_FIT
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
-from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.newmark import Newmark, newmark_of
 from ssilang.kernel.stepping.problem.constraints import split_damping
 from ssilang.kernel.stepping.problem.initial import joint_state
@@ -26,6 +25,7 @@ from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction
 
 SINGLE: Any = np.float32
+PROBES = 4
 REST = 1e-3  # of the joints' forces: what may be out of balance where a motion starts
 
 
@@ -58,11 +58,28 @@ class Ground:
         return sp.csr_array(self.problem.interface.J @ self.T)
 
     @cached_property
-    def name(self) -> str:
-        """A digest of its matrices and of its part of the jumps."""
-        p, T = self.problem, self.T
-        scheme = np.frombuffer(str(p.scheme).encode(), np.uint8)
-        return digest([*(sp.csr_array(T.T @ A @ T) for A in (p.M, p.C, p.K)), self.J], [scheme])
+    def _seen(self) -> FloatArray:
+        """Motions (r, `PROBES`) by which grounds and loads are told apart."""
+        return np.random.default_rng(0).standard_normal((self.T.shape[1], PROBES))
+
+    @cached_property
+    def mark(self) -> FloatArray:
+        """Numbers that tell it and the scheme from others, but for rounding."""
+        p, s = self.problem, self.problem.scheme
+        x = self.T @ self._seen
+        forms = [np.einsum("ij,ij->j", x, A @ x) for A in (p.M, p.C, p.K)]
+        jumps = np.random.default_rng(1).standard_normal(self.J.shape[0]) @ (self.J @ self._seen)
+        sizes = [*self.J.shape, s.alpha_m, s.alpha_f, s.beta, s.gamma]
+        return np.concatenate([sizes, *forms, jumps])
+
+    @property
+    def loads_mark(self) -> FloatArray:
+        """The same of its loads."""
+        F = self.forces
+        size = np.linalg.norm(F, axis=0)
+        return np.concatenate(
+            [size, (F / np.where(size > 0.0, size, 1.0)).T @ self._seen], axis=None
+        )
 
     @cached_property
     def steps(self) -> "GroundSteps":
@@ -106,6 +123,11 @@ class GroundSteps:
     M: sp.csr_array  # (r, r)
     rest: sp.csr_array
     J: sp.csr_array  # (q, r) its part of the jumps
+
+
+def alike(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two marks are those of one thing."""
+    return one.shape == other.shape and np.allclose(one, other, rtol=1e-8, atol=1e-8)
 
 
 @dataclass(frozen=True, eq=False)

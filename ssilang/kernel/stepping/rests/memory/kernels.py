@@ -16,7 +16,6 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.base.scientific import la
-from ssilang.kernel.stepping.keeping import digest
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
 from ssilang.kernel.stepping.verbs import advance, from_past
@@ -40,7 +39,7 @@ class Stage:
 class Kernels:
     """The memory of a ground, of single precision but for the compliance."""
 
-    name: str  # digest of the ground
+    mark: FloatArray  # of the ground
     dt: float
     tolerance: float
     S: FloatArray  # (q, q) compliance of a step
@@ -48,7 +47,7 @@ class Kernels:
     stages: tuple[Stage, ...]
     reach: int  # steps that the memory describes, 0: all
     loads: FloatArray  # (l, q, k) the same of loads
-    loads_name: str  # digest of their forces and of the steps that they were looked at
+    loads_mark: FloatArray  # of their forces, and the steps that they were looked at
     estimate: float = np.nan  # error of the jumps of a motion, of the largest
 
     @property
@@ -145,10 +144,10 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
             stages.append(Stage(first, P.astype(SINGLE), cores))
         P, first = P @ _span(cores, least), 2 * first
     S = whole[0].astype(float) / ground.newmark.end
-    reach, name = first if P.shape[1] else 0, loads_name(ground, steps)
+    reach, mark = first if P.shape[1] else 0, loads_mark(ground, steps)
     loads = loads_of(ground, tolerance, steps)
     return Kernels(
-        ground.name, ground.dt, tolerance, S, whole, tuple(stages), reach, loads, name
+        ground.mark, ground.dt, tolerance, S, whole, tuple(stages), reach, loads, mark
     )  # fmt: skip
 
 
@@ -187,9 +186,9 @@ def _span(kernels: FloatArray, least: float) -> FloatArray:
     return np.asarray(vectors[:, values > least**2])
 
 
-def loads_name(ground: Ground, steps: int) -> str:
-    """A digest of what answers to loads hang on."""
-    return digest([], [ground.forces, np.array([steps])])
+def loads_mark(ground: Ground, steps: int) -> FloatArray:
+    """What answers to loads hang on."""
+    return np.append(ground.loads_mark, steps)
 
 
 def loads_of(ground: Ground, tolerance: float, steps: int) -> FloatArray:

@@ -19,13 +19,13 @@ from ssilang.kernel.stepping.effective import Effective, effective_matrix, effec
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import advanced
 from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
-from ssilang.kernel.stepping.rests.memory.ground import Ground, Parts, parts_of
+from ssilang.kernel.stepping.rests.memory.ground import Ground, Parts, alike, parts_of
 from ssilang.kernel.stepping.rests.memory.history import History as Past
 from ssilang.kernel.stepping.rests.memory.kernels import (
     Kernels,
     increments,
     kernels_of,
-    loads_name,
+    loads_mark,
     loads_of,
 )
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
@@ -185,8 +185,8 @@ class MemoryIntegration(Integration):
         return next(iter(self._choices.values()))
 
 
-_KEPT: dict[str, Kernels] = {}
-"""The memory of the last ground, by its digest: runs that are forks of this one have it."""
+_KEPT: list[Kernels] = []
+"""The memory of the last ground: runs that are forks of this one have it."""
 
 
 def on_memory(
@@ -224,7 +224,7 @@ def on_memory(
             kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
             with shelf.held():
                 shelf.write(kernels)
-            _KEPT[kernels.name] = kernels
+            _KEPT[:] = [kernels]
         if kernels.estimate <= tolerance:
             break
         share *= 0.5 * tolerance / kernels.estimate
@@ -261,22 +261,21 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kerne
     if np.abs(lengths - dt).max() > SAME * dt * len(lengths):
         raise NoReduction("kernel.stepping.memory-steps-differ")
     with shelf.held():
-        known = _KEPT.get(ground.name)
-        found = shelf.read() if known is None or not shelf.there else known
+        known = [k for k in _KEPT if alike(k.mark, ground.mark)] if shelf.there else []
+        found = known[0] if known else shelf.read()
         if found is not None and abs(found.dt - dt) > SAME * dt * len(lengths):
             code = "kernel.stepping.memory-of-another-step"
             raise KernelError(code, name=shelf.name, dt=found.dt, step=dt)
-        if found is not None and found.name != ground.name:
+        if found is not None and not alike(found.mark, ground.mark):
             raise KernelError("kernel.stepping.memory-of-another-ground", name=shelf.name)
         if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
             found = kernels_of(ground, tolerance, steps)
             shelf.write(found)
-        elif found.loads_name != (name := loads_name(ground, steps)):
+        elif not alike(found.loads_mark, mark := loads_mark(ground, steps)):
             loads = loads_of(ground, tolerance, steps)
-            found = replace(found, loads=loads, loads_name=name)
+            found = replace(found, loads=loads, loads_mark=mark)
             shelf.write(found)
-    _KEPT.clear()
-    _KEPT[ground.name] = found
+    _KEPT[:] = [found]
     return found
 
 
