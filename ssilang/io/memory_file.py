@@ -14,7 +14,7 @@ from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError
 from ssilang.io.run_output import RunLock
-from ssilang.kernel.stepping.rests.memory.ground import SINGLE
+from ssilang.kernel.stepping.rests.memory.ground import PROBES, SINGLE
 from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
 from ssilang.system import GUARDED, lock
 
@@ -61,7 +61,7 @@ class MemoryFile:
                 kernels = Kernels(**given, stages=stages)
                 _check(kernels)
                 return kernels
-        except (*DAMAGES, TypeError) as error:
+        except DAMAGES as error:
             raise InputError("io.damaged", name=self.name, error=str(error)) from error
 
     @contextmanager
@@ -86,14 +86,14 @@ class MemoryFile:
 
 _NUMBERS: dict[str, Callable[[Any], Any]] = {
     "dt": float, "tolerance": float, "estimate": float, "reach": int,
+    "loads_reach": int,
 }  # fmt: skip
 
 
 def _check(k: Kernels) -> None:
     """Refuse arrays of kinds and shapes that no run wrote."""
-    q = len(k.S)
-    shapes = [(k.S, float, (q, q)), (k.whole, SINGLE, (len(k.whole), q, q))]
-    shapes += [(k.loads, SINGLE, (len(k.loads), q, *k.loads.shape[2:3]))]
+    q, loads = int(k.mark[0]), k.loads_mark.size // (PROBES + 1)
+    shapes = [(k.whole, SINGLE, (len(k.whole), q, q)), (k.loads, SINGLE, (len(k.loads), q, loads))]
     shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:
         r = stage.P.shape[-1]

@@ -19,15 +19,8 @@ from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 F = np.float32
 WHOLE, P, CORES = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
 SOUND = Kernels(
-    np.ones(3),
-    5e-3,
-    1e-2,
-    np.eye(6),
-    WHOLE,
-    (Stage(16, P, CORES),),
-    0,
-    np.ones((3, 6, 2), F),
-    np.ones(2),
+    np.full(3, 6.0), 5e-3, 1e-2, WHOLE, (Stage(16, P, CORES),), 0, np.ones((3, 6, 2), F),
+    np.ones(10), 0,
 )  # fmt: skip
 
 
@@ -69,23 +62,26 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
 @together(
     "arrays, told",
     [
-        ({"S": npy(np.eye(6) + 1j)}, "complex128"),
+        ({"whole": npy(WHOLE.astype(complex))}, "complex128"),
         ({"whole": npy(np.full((16, 6, 6), "1"))}, "<U1"),
         ({"whole": npy(WHOLE[:, :5])}, ""),
         ({"whole": npy(WHOLE[:15])}, "15 kernels"),
         ({"whole": npy(np.concatenate([WHOLE, WHOLE]))}, "32 kernels"),
         ({"loads": npy(np.full((3, 6, 2), np.nan, F))}, ""),
         ({"loads": npy(np.ones((3, 7, 2), F))}, ""),
+        ({"loads": npy(np.ones((3, 6, 1), F))}, ""),
+        ({"mark": npy(np.ones(3))}, ""),
+        ({"mark": npy(np.full((3, 1), 6.0))}, ""),
         ({"P0": npy(np.eye(6, 3, dtype=F))}, ""),
         ({"cores0": npy(CORES[:5])}, ""),
         ({"firsts": npy(np.zeros(0, int))}, ""),
         ({"firsts": npy(np.array([16, 32]))}, ""),
         ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),
         ({"other": npy(WHOLE)}, ""),
-        ({"S": declaring((10**11, 2))}, ""),
-        ({"S": declaring((10**7, 2))}, ""),
+        ({"whole": declaring((10**11, 2))}, ""),
+        ({"whole": declaring((10**7, 2))}, ""),
         ({"mark": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
-        ({"S": pickle.dumps(Program(Path("ran")))}, ""),
+        ({"whole": pickle.dumps(Program(Path("ran")))}, ""),
     ],
 )
 def test_arrays_that_no_run_wrote_are_damage(
@@ -102,7 +98,7 @@ def test_arrays_that_no_run_wrote_are_damage(
 
 def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="is damaged: packed"):
-        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, S=npy(np.zeros((10**6, 2)))).read()
+        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, whole=npy(np.zeros((10**6, 2)))).read()
     locked = made(tmp_path / "b.npz")
     raw = bytearray(locked.path.read_bytes())
     raw[raw.find(b"PK\x01\x02") + 8] |= 1  # the first array, by a password

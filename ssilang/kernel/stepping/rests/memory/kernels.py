@@ -37,23 +37,32 @@ class Stage:
 
 @dataclass(frozen=True, eq=False)
 class Kernels:
-    """The memory of a ground, of single precision but for the compliance."""
+    """The memory of a ground, of single precision."""
 
     mark: FloatArray  # of the ground
     dt: float
     tolerance: float
-    S: FloatArray  # (q, q) compliance of a step
     whole: FloatArray  # (m, q, q) G_1 to G_m
     stages: tuple[Stage, ...]
     reach: int  # steps that the memory describes, 0: all
     loads: FloatArray  # (l, q, k) the same of loads
-    loads_mark: FloatArray  # of their forces, and the steps that they were looked at
+    loads_mark: FloatArray  # of their forces
+    loads_reach: int  # steps that these describe, 0: all
     estimate: float = np.nan  # error of the jumps of a motion, of the largest
+
+    @property
+    def size(self) -> int:
+        """Number q of jumps."""
+        return int(self.whole.shape[1])
 
     @property
     def vectors(self) -> int:
         """Rows of the largest kernel, and vectors of all stages."""
-        return self.S.shape[0] + sum(s.P.shape[1] for s in self.stages)
+        return self.size + sum(s.P.shape[1] for s in self.stages)
+
+    def compliance(self, n: Newmark) -> FloatArray:
+        """That of a step (q, q): what forces at its end answer in it."""
+        return self.whole[0].astype(float) / n.end
 
 
 def increments(ground: GroundSteps, changes: Iterable[FloatArray]) -> Iterator[FloatArray]:
@@ -143,11 +152,9 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
         else:
             stages.append(Stage(first, P.astype(SINGLE), cores))
         P, first = P @ _span(cores, least), 2 * first
-    S = whole[0].astype(float) / ground.newmark.end
-    reach, mark = first if P.shape[1] else 0, loads_mark(ground, steps)
-    loads = loads_of(ground, tolerance, steps)
     return Kernels(
-        ground.mark, ground.dt, tolerance, S, whole, tuple(stages), reach, loads, mark
+        ground.mark, ground.dt, tolerance, whole, tuple(stages), first if P.shape[1] else 0,
+        *loads_of(ground, tolerance, steps),
     )  # fmt: skip
 
 
@@ -186,14 +193,9 @@ def _span(kernels: FloatArray, least: float) -> FloatArray:
     return np.asarray(vectors[:, values > least**2])
 
 
-def loads_mark(ground: Ground, steps: int) -> FloatArray:
-    """What answers to loads hang on."""
-    return np.append(ground.loads_mark, steps)
-
-
-def loads_of(ground: Ground, tolerance: float, steps: int) -> FloatArray:
-    """Answers (l, q, k) to the loads until they are quiet."""
-    own, found = ground.steps, list[FloatArray]()
+def loads_of(ground: Ground, tolerance: float, steps: int) -> tuple[FloatArray, FloatArray, int]:
+    """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
+    own, found, reach = ground.steps, list[FloatArray](), 0
     for first in range(0, own.forces.shape[1], COLUMNS):
         rows, largest, quiet = list[FloatArray](), 0.0, 0
         forces = np.ascontiguousarray(own.forces[:, first : first + COLUMNS])
@@ -204,7 +206,10 @@ def loads_of(ground: Ground, tolerance: float, steps: int) -> FloatArray:
             quiet = quiet + 1 if (size <= tolerance * largest).all() else 0
             if quiet == QUIET and np.all(largest > 0.0):
                 break
+        else:
+            reach = steps
         found.append(np.array(rows))
     longest = max(map(len, found), default=0)
     padded = [np.pad(x, ((0, longest - len(x)), (0, 0), (0, 0))) for x in found]
-    return np.concatenate(padded or [np.zeros((0, own.J.shape[0], 0), SINGLE)], axis=2)
+    none = np.zeros((0, own.J.shape[0], 0), SINGLE)
+    return np.concatenate(padded or [none], axis=2), ground.loads_mark, reach

@@ -12,22 +12,21 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import BoolArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.stepping.choose import RULES, Choice
+from ssilang.kernel.stepping.choose import Choice, only
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import advanced
-from ssilang.kernel.stepping.problem.problem import Problem, keep_reactions, react
+from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.memory.ground import Ground, Parts, alike, parts_of
-from ssilang.kernel.stepping.rests.memory.history import History as Past
 from ssilang.kernel.stepping.rests.memory.kernels import (
     Kernels,
     increments,
     kernels_of,
-    loads_mark,
     loads_of,
 )
+from ssilang.kernel.stepping.rests.memory.past import Past
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
 from ssilang.kernel.stepping.rests.sparse.interleaved import (
     InterleavedLoop,
@@ -42,7 +41,6 @@ from ssilang.kernel.stepping.state import ELASTIC, EXTERNAL, Motion, Outcome, Re
 from ssilang.kernel.stepping.times import SAME
 from ssilang.kernel.stepping.track import Track
 
-BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
 SHARE = 0.1  # of the tolerance: what stages of kernels leave out
 TRIES = 3  # of smaller and smaller shares
 LOOKED_AT = 160  # steps over which kernels are compared with the ground itself
@@ -55,8 +53,9 @@ class MemoryLoop(InterleavedLoop):
         self, parts: Parts, motion: Motion, effective: Effective, kernels: Kernels
     ) -> None:
         p = parts.near
-        whole = replace(effective, S=effective.S + kernels.S)
-        super().__init__(p, motion, whole)
+        self.S = kernels.compliance(parts.ground.newmark)
+        """The ground's compliance."""
+        super().__init__(p, motion, replace(effective, S=effective.S + self.S))
         self.parts, self.start = parts, motion.f.copy()
         factors = parts.ground.problem.loading.at(p.times)[:, parts.ground.loads]
         self.past = Past(kernels, factors - factors[0], len(p.times) - 1)
@@ -67,27 +66,7 @@ class MemoryLoop(InterleavedLoop):
         self.largest = 0.0
         """Jump so far."""
 
-    def run(self, factors: FloatArray, recorder: Recorder) -> Outcome:
-        """Steps on the whole problem's arrays, some at a time."""
-        worst, r, steps = 0, recorder, len(recorder.row)
-        seen = self.seen(r.tap.at)
-        for first in range(0, steps, BLOCK):
-            part = slice(first, min(first + BLOCK, steps))
-            given = np.ascontiguousarray(factors[part.start : part.stop + 1])
-            block = self.block(given)
-            kept = self.room(block, r, part, seen)
-            done, turns, residual = self._steps(block, kept)
-            self.finish(block, given, kept, done)
-            self.put(block, kept, r, first, done, seen)
-            if first + done == steps or turns <= 0:
-                react(self.problem, self.motion, given[done])
-                keep_reactions(self.problem, factors, r)
-            if turns <= 0:
-                return first + done, turns, residual
-            worst = max(worst, turns)
-        return steps, worst, 0.0
-
-    def _steps(self, block: PreparedBlock, kept: Recorder) -> Outcome:
+    def stepped(self, block: PreparedBlock, kept: Recorder) -> Outcome:
         """Each step of a block: the ground's motion under old forces, then all together."""
         x, n, worst, loads = block.motion, block.plan.newmark, 0, block.factors.shape[1] + 1
         # one load more, which acts on nothing but the jumps: a step's own motion of the ground
@@ -114,7 +93,7 @@ class MemoryLoop(InterleavedLoop):
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            step = brought - self.past.kernels.S @ (n.end * (x.f - before))
+            step = brought - self.S @ (n.end * (x.f - before))
             self.at += step
             self.moved[0] += step
             self.moved[1], self.moved[2] = advanced(n, step, self.moved[1], self.moved[2])
@@ -130,17 +109,15 @@ class MemoryLoop(InterleavedLoop):
     ) -> None:
         """Kept instants, the ground's side of the joints with them."""
         super().put(block, kept, to, first, done, seen)
-        p, rows, back, ground = self.problem, self.parts.rows, self.parts.back, self._ground
-        for name, i in (("u", 0), ("v", 1), ("a", 2)):
-            start = p.u[rows] if i == 0 else 0.0
-            for k in np.flatnonzero(kept.row[:done] >= 0).tolist():
-                getattr(to, name)[to.row[first + k], rows] = start + back @ ground[k, i]
-            steps = np.flatnonzero(kept.tap.row[:done] >= 0)
-            mine = np.isin(seen.unknowns, rows)
-            if len(steps) and mine.any():
-                at = np.searchsorted(rows, seen.unknowns[mine])
-                found = (back[at] @ ground[steps, i].T).T + (start if i else p.u[rows[at]])
-                getattr(to.tap, name)[np.ix_(to.tap.row[first + steps], mine)] = found
+        rows, back = self.parts.rows, self.parts.back
+        whole, tapped = (np.flatnonzero(x.row[:done] >= 0) for x in (kept, kept.tap))
+        mine = np.flatnonzero(np.isin(seen.unknowns, rows))
+        at = np.searchsorted(rows, seen.unknowns[mine])
+        for i, name in enumerate(("u", "v", "a")):
+            start = self.problem.u[rows] if name == "u" else np.zeros(len(rows))
+            moved = start + (back @ self._ground[:, i].T).T
+            getattr(to, name)[np.ix_(to.row[first + whole], rows)] = moved[whole]
+            getattr(to.tap, name)[np.ix_(to.tap.row[first + tapped], mine)] = moved[tapped][:, at]
 
 
 class Shelf(Protocol):
@@ -164,6 +141,12 @@ class Shelf(Protocol):
         """Put it in the place of what stands there."""
 
 
+RULE = replace(
+    only("dissection")[0], name="memory", loop="memory", when="the ground is remembered",
+    said="kernel.stepping.loop-memory",
+)  # fmt: skip
+
+
 @dataclass(eq=False)
 class MemoryIntegration(Integration):
     """An integration whose loop is that of a ground's memory."""
@@ -180,8 +163,7 @@ class MemoryIntegration(Integration):
         """One loop for all steps, that has the past."""
         if not self._choices:
             self.loop = MemoryLoop(self.parts, self.motion, self.effective, self.kernels)
-            rule = next(r for r in RULES if r.name == "dissection")
-            self._choices[dt] = Choice(rule, self.loop, self.effective.inverse.factor.name)
+            self._choices[dt] = Choice(RULE, self.loop, self.effective.inverse.factor.name)
         return next(iter(self._choices.values()))
 
 
@@ -237,7 +219,6 @@ def on_memory(
 
     def integrated() -> History:
         history = run.run()
-        history.loop = "memory"
         history.reduction = Reduction(kernels.vectors, kernels.estimate, None, prepared)
         return history
 
@@ -248,10 +229,12 @@ def _asked(problem: Problem, observers: Sequence[Observer]) -> BoolArray:
     """Unknowns (n,) of which some observer wants results."""
     asked = np.zeros(problem.numbering.size, bool)
     for observer in observers:
-        if isinstance(observer, Track) and not (isinstance(observer, Extremes) and observer.asked):
+        if isinstance(observer, Extremes):
+            asked |= observer.asked
+        elif isinstance(observer, Track):
             asked[observer.unknowns] = True
         else:
-            asked |= bool(observer.wanted.any()) or isinstance(observer, Extremes)
+            asked |= bool(observer.wanted.any())
     return asked
 
 
@@ -271,15 +254,15 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kerne
         if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
             found = kernels_of(ground, tolerance, steps)
             shelf.write(found)
-        elif not alike(found.loads_mark, mark := loads_mark(ground, steps)):
-            loads = loads_of(ground, tolerance, steps)
-            found = replace(found, loads=loads, loads_mark=mark)
+        elif not alike(found.loads_mark, ground.loads_mark) or 0 < found.loads_reach < steps:
+            loads, mark, reach = loads_of(ground, tolerance, steps)
+            found = replace(found, loads=loads, loads_mark=mark, loads_reach=reach)
             shelf.write(found)
     _KEPT[:] = [found]
     return found
 
 
-def _looked_at(ground: Ground, loop: "MemoryLoop") -> float:
+def _looked_at(ground: Ground, loop: MemoryLoop) -> float:
     """What kernels miss of the ground's motion, of the largest jump of a run.
 
     The ground itself is stepped under the forces of the run, over the steps in which these changed
@@ -296,7 +279,7 @@ def _looked_at(ground: Ground, loop: "MemoryLoop") -> float:
     exact = increments(own, (np.ascontiguousarray(x[:, None]) for x in pushed.T))
     known, away, largest = Past(past.kernels, c, length), np.zeros(f.shape[1]), 0.0
     for k, moved in enumerate(exact):
-        step = known.next(f[k]) - past.kernels.S @ (own.newmark.end * (f[k + 1] - f[k]))
+        step = known.next(f[k]) - loop.S @ (own.newmark.end * (f[k + 1] - f[k]))
         away += step - moved[:, 0]
         largest = max(largest, float(np.abs(away).max()))
     return largest / max(loop.largest, 1e-300)

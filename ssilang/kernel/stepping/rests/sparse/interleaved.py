@@ -125,11 +125,7 @@ class InterleavedLoop:
             block = self.block(given)
             kept = self.room(block, r, part, seen)._replace(peaks=peaks)
             peaks.first[0] = r.peaks.first[0] + first
-            done, turns, residual = run_interleaved(
-                block.plan, self.joints, block.motion, block.products,
-                sweep_of(block.plan, len(block.motion.u), block.factors.shape[1]), self.newton,
-                block.factors, kept,
-            )  # fmt: skip
+            done, turns, residual = self.stepped(block, kept)
             self.finish(block, given, kept, done)
             self.put(block, kept, r, first, done, seen)
             if first + done == steps or turns <= 0:
@@ -140,6 +136,14 @@ class InterleavedLoop:
                 return first + done, turns, residual
             worst = max(worst, turns)
         return steps, worst, 0.0
+
+    def stepped(self, block: "PreparedBlock", kept: Recorder) -> Outcome:
+        """The steps of a block."""
+        return run_interleaved(
+            block.plan, self.joints, block.motion, block.products,
+            sweep_of(block.plan, len(block.motion.u), block.factors.shape[1]), self.newton,
+            block.factors, kept,
+        )  # fmt: skip
 
     def view(self, unknowns: IntArray) -> View:
         """Unknowns as they are: they are made block by block, supports move within one."""

@@ -10,7 +10,7 @@ BLOCK = 8
 """Steps whose far past is summed together: each kernel is read once for all of them."""
 
 
-class History:
+class Past:
     """Forces of a motion so far, and what they and the loads bring.
 
     Parameters
@@ -20,7 +20,7 @@ class History:
     """
 
     def __init__(self, kernels: Kernels, loads: FloatArray, steps: int) -> None:
-        self.kernels, self.loads, q = kernels, loads, kernels.S.shape[0]
+        self.kernels, self.loads, q = kernels, loads, kernels.size
         k = kernels
         self.pad = max([len(k.whole), *(s.first + len(s.cores) for s in k.stages)])
         self.forces = np.zeros((self.pad + steps + 1, q), SINGLE)
@@ -31,7 +31,7 @@ class History:
         self.done = self.begun = 0
 
     def _incoming(self, loads: FloatArray, steps: int) -> FloatArray:
-        found = np.zeros((steps, self.kernels.S.shape[0]), SINGLE)
+        found = np.zeros((steps, self.kernels.size), SINGLE)
         for k, rows in enumerate(self.kernels.loads[:steps]):
             found[k:] += loads[1 : steps + 1 - k] @ rows.T
         return found
