@@ -209,8 +209,11 @@ class Reader:
         words = [w for w in ordered if w[0] != ignored]
         self._kinds = [name for name, _ in words]
         tokens = "|".join(f"({pattern})" for _, pattern in words)
-        self._token = re.compile(f"(?:{blank})*+(?:{tokens})")
-        self._blank = re.compile(f"(?:{blank})*+")
+        # the first group is what is passed over, once and for all; a possessive quantifier would
+        # say that too, but Python 3.11.2 then loses groups
+        passed = f"(?=((?:{blank})*))\\1"
+        self._token = re.compile(f"{passed}(?:{tokens})")
+        self._blank = re.compile(passed)
 
     def read(self, source: Source, text: str) -> list[tree.Statement]:
         """The statements of `text`, the code of `source` or its beginning.
@@ -226,9 +229,9 @@ class Reader:
         steps = [assembly.steps[kind] for kind in self._kinds]
         match, at = self._token.match, 0
         while (m := match(text, at)) is not None:
-            group = m.lastindex or 1
+            group = m.lastindex or 2
             start, at = m.span(group)
-            steps[group - 1](m[group], start, at)
+            steps[group - 2](m[group], start, at)
         rest = self._blank.match(text, at)
         if assembly.items or assembly.targets or assembly.outer or assembly.joint:
             raise Unsound
@@ -253,9 +256,9 @@ class Reader:
                 if text[start] == "'":
                     yield "STRING", start, at
                 continue
-            group = m.lastindex or 1
+            group = m.lastindex or 2
             start, at = m.span(group)
-            kind = self._kinds[group - 1]
+            kind = self._kinds[group - 2]
             if kind == "STRING" and _RUNS_AWAY.search(m[group]):
                 at = _line_end(text, start)
             yield kind, start, at
