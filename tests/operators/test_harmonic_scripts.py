@@ -41,7 +41,9 @@ def reals(table, *path):
 
 
 def test_one_harmonic_by_hbm_and_continu_is_duffings_closed_form(found):
-    T = found("NH = 1 ; " + DUFFING + "CONTINU T ; HBM_POST T (MOTS 'MAXI' 'TEMP' 'VITE') ;", "T")
+    none = "DEBP SANS T1*TABLE X1/TABLE ; T1 . 9 = X1 ; FINP ; SANS (T . 'RESULTATS') ; "
+    text = DUFFING + none + "CONTINU T ; HBM_POST T (MOTS 'MAXI' 'TEMP' 'VITE') ;"
+    T = found("NH = 1 ; " + text, "T")
     w = reals(T, "TEMPS_PROG")
     mean, cosine, sine = (reals(T, "RESULTATS_HBM", j, "RESULTATS") for j in (1, 2, 3))
     A = np.hypot(cosine, sine)

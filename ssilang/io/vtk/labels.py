@@ -61,12 +61,11 @@ def labels_of(mesh: Mesh, told: Mapping[str, Named], part: tuple[int, str] | Non
 def _numbers(block: CellBlock, sets: Sequence[Sequence[CellBlock]]) -> IntArray:
     """Number from 1 of the smallest set that has a cell, 0 where none has (n,)."""
     sizes = [sum(len(part) for part in parts) for parts in sets]
-    # smaller ones overwrite, and earlier ones of the same size
-    order = sorted(range(len(sets)), key=lambda i: (-sizes[i], -i))
+    # smaller ones are found first, and earlier ones of the same size
+    order = sorted(range(len(sets)), key=lambda i: (sizes[i], i))
     named = [(part, i + 1) for i in order for part in sets[i] if part.cell_type == block.cell_type]
-    numbers = np.zeros(len(block), dtype=np.int64)
-    if named and len(block):
-        rows = matching_rows(np.concatenate([p.connectivity for p, _ in named]), block.connectivity)
-        values = np.repeat([i for _, i in named], [len(p) for p, _ in named])
-        numbers[rows[rows >= 0]] = values[rows >= 0]
-    return numbers
+    values = np.repeat([i for _, i in named], [len(p) for p, _ in named])
+    if not len(values):
+        return np.zeros(len(block), dtype=np.int64)
+    rows = matching_rows(block.connectivity, np.concatenate([p.connectivity for p, _ in named]))
+    return np.where(rows < 0, 0, values[rows])

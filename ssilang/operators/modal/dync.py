@@ -78,7 +78,7 @@ def _coefficients(
     """Fields at the indices 0, +j (cosine) and -j (sine) as coefficients (2 H + 1, n)."""
     out = np.zeros((2 * harmonics + 1, len(system.M)))
     for index, value in table.items():
-        if type(index) is not int:
+        if type(index) is not int or isinstance(value, Annule):
             continue
         if abs(index) > harmonics:
             raise call.error(

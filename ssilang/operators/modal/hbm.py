@@ -35,7 +35,8 @@ def asked_results(entries: Entries, index: str) -> list[Asked]:
 
 def _numbered(entries: Entries, index: str) -> Iterator[tuple[Entries, str]]:
     inner = entries.get(index) or Table()
-    for i, table in sorted((i, v) for i, v in inner.items() if type(i) is int):
+    given = ((i, v) for i, v in inner.items() if type(i) is int and not isinstance(v, Annule))
+    for i, table in sorted(given):
         assert isinstance(table, Table)  # the whole table is checked
         yield Entries(entries.call, table, entries.procedure, f"TAB1.{index}.I"), f"{index} . {i}"
 

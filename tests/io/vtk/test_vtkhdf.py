@@ -446,6 +446,9 @@ def test_the_smallest_named_set_names_a_cell(tmp_path: Path) -> None:
     assert labels_of(mesh, {"group": {}}) == Labels()
     growing = {"group": {"ONE": turned, "LEFT": left, "ALSO": left, "ALL": whole}}
     assert labels_of(mesh, growing).numbers["group"].tolist() == [2, 2, 1, 4, 4]
+    twice = Mesh.of(mesh.nodes, "SEG2", block.connectivity[[2, 4, 2, 4]])  # in one place
+    both = {"group": {"ALL": twice.blocks, "ONE": turned}}
+    assert labels_of(twice, both).numbers["group"].tolist() == [2, 1, 2, 1]
 
 
 def test_parts_have_names_of_their_own_that_a_path_can_have() -> None:
