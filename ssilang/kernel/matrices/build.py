@@ -147,9 +147,9 @@ def sum_of_outer_products(
     for i, name, part in parts:
         vectors[i, [rows[name, int(node)] for node in part.nodes]] += part.values
     values = (vectors.T * np.asarray(factors, dtype=float)) @ vectors
-    names, nodes = zip(*places, strict=True)
+    names, nodes = [n for n, _ in places], np.array([n for _, n in places], dtype=np.int64)
     duals = [dual_of(name) for name in names]
-    block = ElementMatrices.of_one(table, np.array(nodes), names, duals, values, kind)
+    block = ElementMatrices.of_one(table, nodes, names, duals, values, kind)
     return Matrix(table, (block,), (), kind)
 
 

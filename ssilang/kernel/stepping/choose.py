@@ -217,7 +217,7 @@ RULES = (
         "dissection", "condensed",
         "a factor by nested dissection, the interface at its root, few curves of imposed values",
         "kernel.stepping.loop-dissection",
-        lambda c: fits(c.problem, c.rooted),
+        lambda c: not c.problem.contact and fits(c.problem, c.rooted),
         lambda c: InterleavedLoop(c.problem, c.motion, c.rooted),
     ),
     Rule(

@@ -20,8 +20,8 @@ from ssilang.messages.message import find, sentence
 DT, PLAIN = 1e-3, Scheme()
 
 
-def masses(count: int = 2, shear: float = 0.0, dashpot: bool = False, scheme: Scheme = PLAIN):
-    """Masses on joints that push alone, or that resist shear too, in a row."""
+def masses(count=2, shear=0.0, dashpot=False, scheme: Scheme = PLAIN, stops=False):
+    """Masses on joints that push alone, or that resist shear too, in a row; stops beside them."""
     bench, tops = Bench(), []
     for i in range(count):
         ground, top = bench.node(-1.0, float(i)), bench.node(0.0, float(i))
@@ -34,6 +34,8 @@ def masses(count: int = 2, shear: float = 0.0, dashpot: bool = False, scheme: Sc
         bench.joint("SEG2", [ground, top], "JOI1", KN=1e6, KS=shear)
         if tops:
             bench.spring(2e6, tops[-1], top, unknown="UX")
+        if stops:
+            bench.relate([(1.0, "UX", top)], sense=1)
         tops.append(top)
     push = bench.field(*((t, "FX", -1e4) for t in tops))
     C: Matrix | None = bench.damping if dashpot else None
@@ -65,6 +67,16 @@ def test_large_problems_are_condensed_by_nested_dissection():
 def test_loads_made_under_way_leave_the_loops_that_can_renew_them():
     assert name_of(masses(), renewable=True) == "condensed"
     assert name_of(masses(scheme=Scheme(conserving=True)), renewable=True) == "conserving"
+
+
+def test_joints_with_relations_are_condensed_on_one_factor(monkeypatch):
+    made, real = [], choose.effective_of
+    monkeypatch.setattr(choose, "effective_of", lambda *a, **k: made.append(k) or real(*a, **k))
+    problem = masses(stops=True)
+    assert choose.choose(Case(problem, Integration(problem).motion, DT)).rule.name == "condensed"
+    assert made == [{}]
+    said = method_of(RULES[-1], problem)
+    assert "4 joint unknowns and an active set" in sentence(said.code, said.data, "en")
 
 
 def test_full_newton_is_asked_for_and_excludes_adapted_steps():
