@@ -351,6 +351,28 @@ def test_concrete_unloads_and_loads_again_along_its_first_slope() -> None:
     assert found == pytest.approx(wanted, abs=1e-12)
 
 
+@together("name", ["RH_COULOMB", "PARFAIT", "IWAN"])
+def test_cumulated_strain_is_the_norm_of_the_plastic_tensor(name: str) -> None:
+    """EPSE grows by sqrt(2/3 ep : ep), all six components counted as a tensor's."""
+    p = parameters(name)
+    law = law_at(LAWS[name], p)
+    first, _ = steps(7)
+    blank = np.zeros((M, len(law.variables)))
+    after = law.respond(p, np.zeros((M, 6)), 3 * first, blank)
+    E, nu = 1000.0, 0.3
+    s = after.stress
+    elastic = (1 + nu) / E * s
+    elastic[:, :3] -= nu / E * s[:, :3].sum(axis=1, keepdims=True)
+    elastic[:, 3:] *= 2.0  # engineering shears
+    plastic = 3 * first - elastic
+    tensor = np.zeros((M, 3, 3))
+    for k, (i, j) in enumerate([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]):
+        tensor[:, i, j] = tensor[:, j, i] = plastic[:, k] * (1.0 if i == j else 0.5)
+    wanted = np.sqrt(2 / 3 * np.einsum("mij,mij->m", tensor, tensor))
+    assert (wanted > 1e-4).mean() > 0.5
+    np.testing.assert_allclose(after.variables[:, 0], wanted, rtol=1e-6, atol=1e-12)
+
+
 OTHER_CURVE = Curve((CurvePart(np.array([0.0, 0.004, 0.05]), np.array([1.5, 1.9, 4.0])),))
 OTHER_SOIL = Curve((CurvePart(np.array([5e-4, 3e-3, 1e-2]), np.array([1.0, 0.8, 0.5])),))
 
