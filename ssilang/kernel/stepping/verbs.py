@@ -12,6 +12,27 @@ advance = compiled_inline(newmark.advanced)
 from_past = compiled_inline(newmark.from_past)
 
 
+@compiled_inline
+def damped(
+    n: newmark.Newmark, alpha: float, beta: float, Mx: float, rest: float, force: float,
+    Cv: float, Ca: float,
+) -> tuple[float, float]:  # fmt: skip
+    """Damping forces `(alpha M + beta K + C_rest) v`, and the same of a, after an increment.
+
+    Without a product with K: from the balance of the step.
+
+    Parameters
+    ----------
+    Mx, rest
+        Mass and C_rest times the increment.
+    force
+        What the step's loads and inertia add.
+    """
+    part = alpha * Mx + rest
+    Kx = force + Cv - advance(n, part, Cv, Ca)[0]
+    return advance(n, part + beta * Kx / (1 + beta * n.v_du), Cv, Ca)
+
+
 @compiled
 def _keep_joints(x: Motion, to: Recorder | Tap, row: int) -> None:
     """Forces and state of relations and joints into a row, whole."""

@@ -18,7 +18,7 @@ from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.base.scientific import la
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
-from ssilang.kernel.stepping.verbs import advance, from_past
+from ssilang.kernel.stepping.verbs import advance, damped, from_past
 
 COLUMNS = 128  # stepped together
 WHOLE = 16  # first kernels, kept as they are
@@ -111,17 +111,11 @@ def _advance(
     g_g, g_1, g_0 = -n.start / n.end, -n.inertia_end / n.end, -n.inertia_start / n.end
     for i in range(b.shape[0]):
         for j in range(b.shape[1]):
-            Ma0, g0, Cv0 = Ma[i, j], g[i, j], Cv[i, j]
+            Ma0, g0, own = Ma[i, j], g[i, j], rest[i, j] if len(rest) else 0.0
             Mv[i, j], Ma[i, j] = advance(n, Mx[i, j], Mv[i, j], Ma0)
             g[i, j] = g_g * g0 + g_1 * Ma[i, j] + g_0 * Ma0
-            part = alpha * Mx[i, j]
-            if len(rest):
-                part += rest[i, j]
-            Kx = g[i, j] - g0 + Cv0 - advance(n, part, Cv0, Ca[i, j])[0]
-            if len(change):
-                Kx += change[i, j]
-            part += beta * Kx / (1 + beta * n.v_du)
-            Cv[i, j], Ca[i, j] = advance(n, part, Cv0, Ca[i, j])
+            force = (change[i, j] if len(change) else 0.0) + g[i, j] - g0
+            Cv[i, j], Ca[i, j] = damped(n, alpha, beta, Mx[i, j], own, force, Cv[i, j], Ca[i, j])
             b[i, j] = from_past(n, Mv[i, j], Ma[i, j], Cv[i, j], Ca[i, j]) + Cv[i, j] - g[i, j]
 
 

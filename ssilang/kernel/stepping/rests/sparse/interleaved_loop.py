@@ -47,7 +47,7 @@ from ssilang.kernel.stepping.state import (
     Motion,
     Recorder,
 )
-from ssilang.kernel.stepping.verbs import advance, end_of_step, from_past
+from ssilang.kernel.stepping.verbs import advance, damped, end_of_step, from_past
 
 BOTH, DOWN, UP = range(3)  # ways through a part: a branch goes down and up at once
 
@@ -200,12 +200,10 @@ def advance_range(
             Mx = _row(plan.M, i, du)
             Mv[i], Ma[i] = advance(n, Mx, Mv[i], Ma0)
         g[i] = g_g * g0 + g_1 * Ma[i] + g_0 * Ma0
-        if plan.damped:  # C du from the balance of the step, without a product with K
-            Cv0, Ca0 = products.Cv[i], products.Ca[i]
-            part = plan.C.alpha * Mx + _row(plan.C.rest, i, du)
-            Kx = sweep.room[i] + g[i] - g0 + Cv0 - advance(n, part, Cv0, Ca0)[0]
-            part += plan.C.beta * Kx / (1 + plan.C.beta * n.v_du)
-            products.Cv[i], products.Ca[i] = advance(n, part, Cv0, Ca0)
+        if plan.damped:
+            Cv0, Ca0, C = products.Cv[i], products.Ca[i], plan.C
+            rest, force = _row(C.rest, i, du), sweep.room[i] + g[i] - g0
+            products.Cv[i], products.Ca[i] = damped(n, C.alpha, C.beta, Mx, rest, force, Cv0, Ca0)
             sweep.sums[2] += x.u[i] * products.Cv[i]
             sweep.sums[3] += move * (Cv0 + products.Cv[i])
         kinetic += x.v[i] * Mv[i]
