@@ -97,11 +97,12 @@ def _check(k: Kernels) -> None:
     shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:
         r = stage.P.shape[-1]
-        shapes += [(stage.P, SINGLE, (q, r)), (stage.cores, SINGLE, (stage.first, r, r))]
+        shapes += [(stage.P, SINGLE, (q, r)), (stage.cores, SINGLE, (len(stage.cores), r, r))]
     for part, kind, shape in shapes:
         if part.dtype != kind or part.shape != shape or not np.isfinite(part).all():
             raise ValueError(f"{part.shape} {part.dtype}")
-    if len(k.whole) < WHOLE or any(s.first < len(k.whole) for s in k.stages):
+    ends = [len(k.whole) - 1, *(s.first + len(s.cores) for s in k.stages)]
+    if len(k.whole) < WHOLE or any(s.first < end for s, end in zip(k.stages, ends, strict=False)):
         raise ValueError(f"{len(k.whole)} kernels")
 
 

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 from ssilang.late_imports import Late
 
 if TYPE_CHECKING:
-    from scipy import interpolate, optimize, signal, spatial, special, stats
+    from scipy import fft, interpolate, optimize, signal, spatial, special, stats
     from scipy import linalg as la
     from scipy import sparse as sp
     from scipy.sparse import csgraph
     from scipy.sparse import linalg as spla
 else:
+    fft = Late("scipy.fft")
     interpolate = Late("scipy.interpolate")
     la = Late("scipy.linalg")
     optimize = Late("scipy.optimize")
@@ -26,6 +27,6 @@ else:
     stats = Late("scipy.stats")
 
 __all__ = [
-    "csgraph", "interpolate", "la", "optimize", "signal", "sp", "spatial", "special",
+    "csgraph", "fft", "interpolate", "la", "optimize", "signal", "sp", "spatial", "special",
     "spla", "stats",
 ]  # fmt: skip

@@ -4,16 +4,19 @@ Each part is calculated as if it were alone, so that the number of threads chang
 """
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, takewhile
+from threading import Event
+from typing import TypeVar
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.system import after_fork, cores
 
+T = TypeVar("T")
 LEAST = 200_000  # numbers that a thread must have to read before it is worth waking
 
 
@@ -52,3 +55,21 @@ def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
     jobs = [_threads(count).submit(work, int(low), int(high)) for low, high in pairwise(cuts)]
     for job in jobs:
         job.result()
+
+
+def side_by_side(iterators: Sequence[Iterator[T]]) -> list[list[T]]:
+    """All that each iterator gives, several at once where BLAS leaves processors to them.
+
+    An error or an interruption ends all of them.
+    """
+    ended = Event()
+
+    def drained(iterator: Iterator[T]) -> list[T]:
+        return list(takewhile(lambda _: not ended.is_set(), iterator))
+
+    count = thread_count() if os.environ.get("OPENBLAS_NUM_THREADS") == "1" else 1
+    jobs = [_threads(count).submit(drained, iterator) for iterator in iterators]
+    try:
+        return [job.result() for job in jobs]
+    finally:
+        ended.set()

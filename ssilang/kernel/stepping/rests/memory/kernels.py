@@ -1,34 +1,43 @@
 """What the motion of a ground's side of the joints remembers of forces and loads.
 
 Discrete kernels of the scheme's own steps: `G_k` (q, q) are the increments of the jumps in the kth
-step under unit forces at the end of the first one. The first kernels are kept whole. Waves leave,
-and what is left of them is smooth: from step a to 2a forces count by their part in the span of
-what the kernels from a/2 to a answered, whose singular vectors below the tolerance are left out
-(the next kernels shrink them further). Dyadic steps as in fast convolution (Hairer, Lubich and
-Schlichte 1985).
+step under unit forces at the end of the first one. They are seen through answers `G_k W` to probes
+W, orthonormal forces: waves leave, and what is left of them is smooth, so that fewer and fewer
+probes tell all of a kernel (Halko, Martinsson and Tropp 2011, 10.1137/090771806: the mixed cosines
+of section 4.6, symmetric kernels from one pass of section 5.5). The first kernels are kept whole.
+Later ones are kept as sums `G_1 + .. + G_k`, how far an impulse has moved the jumps, in the span of
+their answers but for singular vectors below the tolerance: what is left out of a sum is there for a
+step, what is left out of an increment stays.
 """
 
-from collections.abc import Iterable, Iterator
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.base.scientific import la
+from ssilang.kernel.base.compiled.compiler import compiled_threaded
+from ssilang.kernel.base.scientific import fft, la, spla
+from ssilang.kernel.base.threads import side_by_side
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
 from ssilang.kernel.stepping.verbs import advance, damped, from_past
 
 COLUMNS = 128  # stepped together
-WHOLE = 16  # first kernels, kept as they are
+PROBES = 64  # at first; half as many more while they do not suffice
+OVER = 2  # probes of one singular vector
+MOST = 0.75  # singular vectors of one probe
+WHOLE = 9  # first kernels, kept as they are
 FEW = 0.6  # of the jumps: more singular vectors than that are kept as whole kernels
+LONGER = 1.5  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
+QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
 
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """Kernels from `first` on, on a few vectors: `G_k = P core P^T`."""
+    """Kernels after `first`, summed from the first one on, on a few vectors: `P core P^T`."""
 
     first: int
     P: FloatArray  # (q, r) orthonormal
@@ -42,7 +51,7 @@ class Kernels:
     mark: FloatArray  # of the ground
     dt: float
     tolerance: float
-    whole: FloatArray  # (m, q, q) G_1 to G_m
+    whole: FloatArray  # (m + 1, q, q) G_1 to G_m, less their sum where stages follow
     stages: tuple[Stage, ...]
     reach: int  # steps that the memory describes, 0: all
     loads: FloatArray  # (l, q, k) the same of loads
@@ -96,7 +105,7 @@ def impulse(forces: FloatArray, steps: int) -> Iterator[FloatArray]:
         yield forces[:0]
 
 
-@compiled_fast
+@compiled_threaded
 def _advance(
     n: Newmark, alpha: float, beta: float,
     given: tuple[FloatArray, FloatArray, FloatArray],
@@ -125,85 +134,124 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     Parameters
     ----------
     tolerance : float
-        Norm of what is left out of a stage, of that of the first kernel.
+        Norm of what is left out of a kernel, of that of the first one.
 
     Raises
     ------
     NoReduction
         If the ground has no factor.
     """
-    own, q = ground.steps, ground.J.shape[0]
-    whole = _kernels(own, np.eye(q), 0, WHOLE)
-    least = tolerance * float(np.linalg.norm(whole[0], 2))
-    first, stages = WHOLE, list[Stage]()
-    P = _span(whole[WHOLE // 2 :], least)
-    while P.shape[1] and first < steps:
-        if P.shape[1] > FEW * q:
-            P = np.eye(q)
-        cores = _kernels(own, P, first, 2 * first, 0.1 * least)
-        if len(P) == P.shape[1]:
-            whole = np.concatenate([whole, cores])
-        else:
+    q = ground.J.shape[0]
+    probes = _probes(q)
+    answers, quiet = _answers_to_probes(ground.steps, probes, tolerance, max(steps, WHOLE))
+    whole, stages = list[FloatArray](), list[Stage]()
+    first, least = 0, tolerance * _norm(answers[0])
+    while first < len(answers):
+        count = answers[first].shape[1]
+        longest = answers[first : max(WHOLE, int(LONGER * first))]
+        part = [Y for Y in longest if Y.shape[1] == count]
+        P = probes if first < WHOLE else _span(part, least * np.sqrt(count / q), MOST * count)
+        if count == q and first == len(whole) and P.shape[1] > FEW * q:
+            whole += [_symmetric(Y @ probes.T) for Y in part]  # sums
+        elif P.shape[1]:
+            back = la.pinv(P.T @ probes[:, :count])
+            cores = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
             stages.append(Stage(first, P.astype(SINGLE), cores))
-        P, first = P @ _span(cores, least), 2 * first
+        first += len(part)
+    increments_of = np.diff(whole, axis=0, prepend=0.0, append=whole[-1:] if not stages else 0.0)
     return Kernels(
-        ground.mark, ground.dt, tolerance, whole, tuple(stages), first if P.shape[1] else 0,
-        *loads_of(ground, tolerance, steps),
+        ground.mark, ground.dt, tolerance, increments_of.astype(SINGLE), tuple(stages),
+        0 if quiet else steps, *loads_of(ground, tolerance, steps),
     )  # fmt: skip
 
 
-def _kernels(
-    ground: GroundSteps, P: FloatArray, begin: int, end: int, little: float = 0.0
-) -> FloatArray:
-    """`P^T G_k P` (end - begin, r, r) for the kernels after `begin`, symmetric.
+def _probes(q: int) -> FloatArray:
+    """Orthonormal columns (q, q) of which any few are as good as others: cosines in disorder."""
+    random = np.random.default_rng(0)
+    cosines = fft.dct(np.diag(random.choice([-1.0, 1.0], q)), axis=0, norm="ortho")
+    return np.asarray(cosines.T[:, random.permutation(q)], SINGLE)
 
-    Zero behind `QUIET` steps with no more than `little`.
+
+def _answers_to_probes(
+    ground: GroundSteps, probes: FloatArray, tolerance: float, steps: int
+) -> tuple[list[FloatArray], bool]:
+    """Answers (q, r_k) to as many probes as tell all until the kth step, whether none comes then.
+
+    Summed: how far the probes' impulses have moved the jumps.
     """
-    P = P.astype(SINGLE)
-    r = P.shape[1]
-    found = np.zeros((end - begin, r, r), SINGLE)
-    for first in range(0, r, COLUMNS):
-        part = slice(first, first + COLUMNS)
-        forces, quiet = ground.J.T @ P[:, part], 0
-        for k, rows in enumerate(increments(ground, impulse(forces, end))):
-            if k >= begin:
-                found[k - begin, :, part] = answer = P.T @ rows
-                quiet = quiet + 1 if np.linalg.norm(answer) <= little else 0
-                if quiet == QUIET:
-                    break
-    for G in found:
-        G += G.T.copy()
-    found *= SINGLE(0.5)
-    return found
+    forces = ground.J.T @ probes[:, :PROBES]
+    first, quiet = _answers(ground, forces, steps, QUIETER * tolerance)
+    found, end = list(np.cumsum(first, axis=0)), len(first)
+    while end and (count := found[0].shape[1]) < len(probes):
+        least = tolerance * _norm(found[0])
+        end = bisect_left(
+            range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
+        )  # fmt: skip
+        forces = ground.J.T @ probes[:, count : count + max(count // 2, 1)]
+        for k, rows in enumerate(np.cumsum(_answers(ground, forces, end, 0.0)[0], axis=0)):
+            found[k] = np.hstack([found[k], rows])
+    return found, quiet
 
 
-def _span(kernels: FloatArray, least: float) -> FloatArray:
-    """Orthonormal columns of the directions that some kernels answer by more than `least`."""
-    W = np.zeros(kernels.shape[1:])
-    for G in kernels:
-        exact = G.astype(float)
-        W += exact @ exact
-    values, vectors = la.eigh(W)
-    return np.asarray(vectors[:, values > least**2])
+def _norm(A: FloatArray) -> float:
+    """The largest singular value."""
+    if min(A.shape) <= PROBES:
+        return float(la.norm(A, 2))
+    start = np.ones(min(A.shape), A.dtype)
+    return float(spla.svds(A, 1, v0=start, return_singular_vectors=False)[0])
+
+
+def _rank(A: FloatArray, least: float) -> int:
+    """Singular values above `least`."""
+    exact = A.astype(float)
+    return int((la.eigvalsh(exact.T @ exact) > least**2).sum())
+
+
+def _symmetric(A: FloatArray) -> FloatArray:
+    return 0.5 * (A + A.T)
+
+
+def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
+    """Orthonormal columns of the directions that some answers have by more than `least`."""
+    Z = np.hstack(parts).astype(float)
+    wide = Z.shape[1] > len(Z)
+    values, vectors = la.eigh(Z @ Z.T if wide else Z.T @ Z)
+    kept = values > least**2
+    kept[: max(0, len(kept) - int(most))] = False
+    few = vectors[:, kept]
+    return few if wide else Z @ (few / np.sqrt(values[kept]))
+
+
+def _answers(
+    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: float
+) -> tuple[FloatArray, bool]:
+    """Increments (k, q, c) of the jumps after forces (r, c) in the first step, until quiet.
+
+    Quiet: for `QUIET` steps no more than `tolerance` of what was largest. Whether it came to that.
+    """
+    count = max(2, -(-forces.shape[1] // COLUMNS))
+    pieces = (np.ascontiguousarray(F) for F in np.array_split(forces, count, axis=1) if F.size)
+    found = side_by_side([_until_quiet(ground, F, steps, tolerance) for F in pieces])
+    longest = max(map(len, found), default=0)
+    padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in found]
+    none = np.zeros((0, ground.J.shape[0], 0), SINGLE)
+    return np.concatenate(padded or [none], axis=2), longest < steps
+
+
+def _until_quiet(
+    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: float
+) -> Iterator[FloatArray]:
+    largest, quiet = np.zeros(forces.shape[1]), 0
+    for row in increments(ground, impulse(forces, steps)):
+        yield row
+        size = np.abs(row).max(axis=0)
+        largest = np.maximum(largest, size)
+        quiet = quiet + 1 if (size <= tolerance * largest).all() else 0
+        if quiet == QUIET and np.all(largest > 0.0):
+            return
 
 
 def loads_of(ground: Ground, tolerance: float, steps: int) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
-    own, found, reach = ground.steps, list[FloatArray](), 0
-    for first in range(0, own.forces.shape[1], COLUMNS):
-        rows, largest, quiet = list[FloatArray](), 0.0, 0
-        forces = np.ascontiguousarray(own.forces[:, first : first + COLUMNS])
-        for row in increments(own, impulse(forces, steps)):
-            rows.append(row)
-            size = np.abs(row).max(axis=0)
-            largest = np.maximum(largest, size)
-            quiet = quiet + 1 if (size <= tolerance * largest).all() else 0
-            if quiet == QUIET and np.all(largest > 0.0):
-                break
-        else:
-            reach = steps
-        found.append(np.array(rows))
-    longest = max(map(len, found), default=0)
-    padded = [np.pad(x, ((0, longest - len(x)), (0, 0), (0, 0))) for x in found]
-    none = np.zeros((0, own.J.shape[0], 0), SINGLE)
-    return np.concatenate(padded or [none], axis=2), ground.loads_mark, reach
+    found, quiet = _answers(ground.steps, ground.steps.forces, steps, tolerance)
+    return found, ground.loads_mark, 0 if quiet else steps

@@ -28,6 +28,9 @@ class Past:
         self.near = [k.whole[0] + k.whole[1], *k.whole[2 : BLOCK + 1]]
         self.incoming = self._incoming(loads.astype(SINGLE), steps)
         self.ahead = np.zeros((0, q), SINGLE)
+        self.far = np.zeros((1, q), SINGLE)
+        self.gone = np.zeros(k.stages[-1].P.shape[1] if k.stages else 0, SINGLE)
+        """Sum of the forces before all kernels, in the last stage."""
         self.done = self.begun = 0
 
     def _incoming(self, loads: FloatArray, steps: int) -> FloatArray:
@@ -63,8 +66,15 @@ class Past:
         for j in range(2, len(k.whole)):
             n = min(steps, j - 1)
             self.ahead[:n] -= self.forces[at - j : at - j + n] @ k.whole[j]
+        far = np.zeros((steps, len(self.far[0])), SINGLE)
         for stage, part in zip(k.stages, self.parts, strict=True):
             found = np.zeros((steps, part.shape[1]), SINGLE)
             for j, core in enumerate(stage.cores, stage.first):
                 found += part[at - j : at - j + steps] @ core
-            self.ahead -= found @ stage.P.T
+            if stage is k.stages[-1]:
+                j = at - stage.first - len(stage.cores)
+                gone = self.gone + np.cumsum(part[j : j + steps], axis=0)
+                found, self.gone = found + gone @ stage.cores[-1], gone[-1]
+            far += found @ stage.P.T
+        self.ahead -= np.diff(far, axis=0, prepend=self.far)
+        self.far = far[-1:]
