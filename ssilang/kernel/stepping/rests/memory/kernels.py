@@ -154,13 +154,15 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
         if count == q and first == len(whole) and P.shape[1] > FEW * q:
             whole += [_symmetric(Y @ probes.T) for Y in part]  # sums
         elif P.shape[1]:
-            back = la.pinv(P.T @ probes[:, :count])
+            seen = P.T @ probes[:, :count]
+            back = la.solve(seen @ seen.T, seen, assume_a="pos").T
             cores = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
             stages.append(Stage(first, P.astype(SINGLE), cores))
         first += len(part)
-    increments_of = np.diff(whole, axis=0, prepend=0.0, append=whole[-1:] if not stages else 0.0)
+    none = np.zeros((1, q, q), SINGLE)
+    ended = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
     return Kernels(
-        ground.mark, ground.dt, tolerance, increments_of.astype(SINGLE), tuple(stages),
+        ground.mark, ground.dt, tolerance, ended, tuple(stages),
         0 if quiet else steps, *loads_of(ground, tolerance, steps),
     )  # fmt: skip
 
@@ -215,11 +217,10 @@ def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
     """Orthonormal columns of the directions that some answers have by more than `least`."""
     Z = np.hstack(parts).astype(float)
     wide = Z.shape[1] > len(Z)
-    values, vectors = la.eigh(Z @ Z.T if wide else Z.T @ Z)
-    kept = values > least**2
-    kept[: max(0, len(kept) - int(most))] = False
-    few = vectors[:, kept]
-    return few if wide else Z @ (few / np.sqrt(values[kept]))
+    gram = Z @ Z.T if wide else Z.T @ Z
+    values, vectors = la.eigh(gram, subset_by_value=[least**2, np.inf])
+    few = slice(max(0, len(values) - int(most)), None)
+    return vectors[:, few] if wide else Z @ (vectors[:, few] / np.sqrt(values[few]))
 
 
 def _answers(
