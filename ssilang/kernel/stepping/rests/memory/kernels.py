@@ -30,7 +30,8 @@ OVER = 2  # probes of one singular vector
 MOST = 0.75  # singular vectors of one probe
 WHOLE = 9  # first kernels, kept as they are
 FEW = 0.6  # of the jumps: more singular vectors than that are kept as whole kernels
-LONGER = 1.5  # where steps end that share their vectors, over where they begin
+CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
+LONGER = 1.25  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
 QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
 
@@ -134,7 +135,7 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     Parameters
     ----------
     tolerance : float
-        Norm of what is left out of a kernel, of that of the first one.
+        Norm of what is left out of kernels, of that of the first one.
 
     Raises
     ------
@@ -145,7 +146,7 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     probes = _probes(q)
     answers, quiet = _answers_to_probes(ground.steps, probes, tolerance, max(steps, WHOLE))
     whole, stages = list[FloatArray](), list[Stage]()
-    first, least = 0, tolerance * _norm(answers[0])
+    first, least = 0, CLOSER * tolerance * _norm(answers[0])
     while first < len(answers):
         count = answers[first].shape[1]
         longest = answers[first : max(WHOLE, int(LONGER * first))]
@@ -185,7 +186,7 @@ def _answers_to_probes(
     first, quiet = _answers(ground, forces, steps, QUIETER * tolerance)
     found, end = list(np.cumsum(first, axis=0)), len(first)
     while end and (count := found[0].shape[1]) < len(probes):
-        least = tolerance * _norm(found[0])
+        least = CLOSER * tolerance * _norm(found[0])
         end = bisect_left(
             range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
@@ -254,5 +255,5 @@ def _until_quiet(
 
 def loads_of(ground: Ground, tolerance: float, steps: int) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
-    found, quiet = _answers(ground.steps, ground.steps.forces, steps, tolerance)
+    found, quiet = _answers(ground.steps, ground.steps.forces, steps, CLOSER * tolerance)
     return found, ground.loads_mark, 0 if quiet else steps
