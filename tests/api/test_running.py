@@ -126,6 +126,7 @@ def test_nothing_stays_on_the_disk_but_what_a_folder_was_asked_for(tmp_path, mon
 def test_checks_warnings_and_time(swing):
     assert swing.checks["peak"].value == pytest.approx(0.2)
     assert [c.ok for c in swing.checks] == [True, False]
+    assert len({*swing.checks, *swing.checks}) == 2  # values: nobody changes them behind a summary
     assert len(swing.checks) == repr(swing.checks).count("Check(") == 2
     assert swing.checks.frame().loc[1, "expected"] == 1.0
     with pytest.raises(KeyError, match="did you mean peak"):

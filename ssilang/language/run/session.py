@@ -76,7 +76,7 @@ class Runner(Protocol):
         """Run what an operator does; whatever it raises becomes an error of the script."""
 
 
-@dataclass
+@dataclass(frozen=True)
 class Check:
     """A figure that a script reports (SORT 'BILA', @VERIFIE).
 
@@ -95,9 +95,9 @@ class Check:
     ok: bool | None = field(init=False)
 
     def __post_init__(self) -> None:
-        self.ok = None
-        if self.expected is not None and self.tolerance is not None:
-            self.ok = abs(self.value - self.expected) <= self.tolerance
+        wanted, most = self.expected, self.tolerance
+        ok = None if wanted is None or most is None else abs(self.value - wanted) <= most
+        object.__setattr__(self, "ok", ok)
 
 
 @dataclass
