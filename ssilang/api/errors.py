@@ -84,6 +84,9 @@ class Error(Exception):
         self.code, self.hint = first.code, first.hint
         self.file, self.line, self.column = first.file, first.line, first.column
 
+    def __reduce__(self) -> tuple[type["Error"], tuple[object, ...]]:
+        return type(self), (self.notices,)  # from another process without what the run had
+
     def __str__(self) -> str:
         return str(self.args[0])
 

@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import pickle
 import pkgutil
 import re
 from pathlib import Path
@@ -59,6 +60,14 @@ def test_what_is_not_there_is_refused_with_what_is_near(swing, asked, said):
     with pytest.raises(ssilang.Error) as caught:
         swing.history(*asked)
     assert said in str(caught.value)
+
+
+def test_an_error_comes_whole_from_another_process():
+    with pytest.raises(ssilang.Error) as caught:
+        ssilang.run("X = PROG 1. ; Y = MAXI (X + 'a') ;")
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert (type(error), str(error)) == (ssilang.Error, str(caught.value))
+    assert (error.code, error.line, error.column, error.result) == ("no-rule", 1, 25, None)
 
 
 @together("tables, said", [(0, "no table of results"), (1, ""), (2, "T1 and T2")])
