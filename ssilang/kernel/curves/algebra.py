@@ -167,7 +167,7 @@ def spline(
 
 
 def interpolated(x: FloatArray, y: FloatArray, at: FloatArray) -> FloatArray:
-    """Linear interpolation; abscissas may increase or decrease; constant outside."""
+    """Linear interpolation; abscissas increase or decrease, not both; constant outside."""
     if len(x) != len(y):
         raise FieldError("kernel.curves.abscissas-ordinates", n_x=len(x), n_y=len(y))
     if len(x) == 0:

@@ -150,7 +150,7 @@ def multiplied_by_names(
 
 
 def component(field: NodeField, name: str) -> NodeValues:
-    """A component of a field."""
+    """A component of a field; an error if it has none of that name."""
     found = field.components.get(name)
     if found is None:
         known = field.components

@@ -25,7 +25,7 @@ PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
 def check_isotropic(young: FloatArray, poisson: FloatArray) -> None:
-    """Refuse moduli that no stable material has."""
+    """Refuse moduli that no stable material has: NU outside of -1 < NU < 0.5."""
     bad = (poisson <= -1) | (poisson >= 0.5)
     if bad.any():
         raise MaterialError(

@@ -17,7 +17,7 @@ from ssilang.kernel.mesh.nodes import NodeTable
 
 
 def same_value(table: NodeTable, nodes: IntArray, unknown: str) -> Relations:
-    """`u_i = u_1` for all nodes but the first (ENSE)."""
+    """`u_i = u_1` for all nodes but the first (ENSE); refuses a single node."""
     if len(nodes) < 2:
         raise MeshError("kernel.matrices.common-motion-needs-least")
     return relation_rows(table, [Term(1.0, unknown, nodes[1:]), Term(-1.0, unknown, nodes[:1])])

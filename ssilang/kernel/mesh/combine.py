@@ -158,7 +158,7 @@ def _found_in(block: CellBlock, other: Mesh) -> BoolArray:
 
 
 def polygons(mesh: Mesh) -> Mesh:
-    """The cells of five sides and more."""
+    """The cells of five sides and more; an error if there are none."""
     found = tuple(b for b in mesh.blocks if b.cell_type in POLYGON_SIDES)
     if not found:
         raise MeshError("kernel.mesh.no-polygons-five-sides")
@@ -166,7 +166,7 @@ def polygons(mesh: Mesh) -> Mesh:
 
 
 def of_type(mesh: Mesh, cell_type: str) -> Mesh:
-    """The cells of one type."""
+    """The cells of one type; an error if there are none."""
     found = tuple(b for b in mesh.blocks if b.cell_type == cell_type)
     if not found:
         kinds = [b.cell_type for b in mesh.blocks]

@@ -40,7 +40,7 @@ from ssilang.kernel.mesh.mesh import Point
 
 
 def unit(v: FloatArray) -> FloatArray:
-    """Vectors (..., d) of length one."""
+    """Vectors (..., d) of length one; an error where one is zero."""
     size = np.linalg.norm(v, axis=-1, keepdims=True)
     if (size <= 0).any():
         raise FieldError("kernel.elements.vector-radius-frame-zero")

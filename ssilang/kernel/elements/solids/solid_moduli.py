@@ -178,7 +178,7 @@ def moduli_from_field(material: ZoneField, support: Support) -> FloatArray | Non
 
 
 def inverted(zone: Zone, moduli: FloatArray) -> FloatArray:
-    """Inverse of moduli."""
+    """Inverse of moduli; an error where they are singular."""
     try:
         return np.linalg.inv(moduli).astype(np.float64)
     except np.linalg.LinAlgError:

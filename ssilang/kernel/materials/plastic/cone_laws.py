@@ -59,7 +59,7 @@ def drucker(parameters: PointParameters) -> dict[str, FloatArray]:
 
 
 def check_drucker(parameters: PointParameters) -> None:
-    """Refuse strengths without a cone."""
+    """Refuse strengths without a cone: it needs LTR > 0 and |LCS| >= LTR."""
     tension, compression = parameters["LTR"], np.abs(parameters["LCS"])
     if (tension <= 0).any() or (compression < tension).any():
         told = {"tension_min": tension.min(), "compression_min": compression.min()}

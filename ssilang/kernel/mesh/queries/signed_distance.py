@@ -11,7 +11,7 @@ from ssilang.kernel.mesh.mesh import Mesh
 
 
 def facets(mesh: Mesh, dimension: int) -> IntArray:
-    """Segments (n, 2) of a line (SEG3 in two) or triangles (n, 3) of a surface (QUA4 in two)."""
+    """Segments (n, 2) of SEG2, SEG3 (two), or triangles (n, 3) of TRI3, QUA4 (two); no others."""
     parts: list[IntArray] = []
     for block in mesh.blocks:
         c = block.connectivity

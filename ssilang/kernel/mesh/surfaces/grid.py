@@ -14,7 +14,7 @@ from ssilang.kernel.mesh.surfaces.charts import Chart
 
 
 def sides_in_order(sides: Sequence[Mesh]) -> tuple[Mesh, Mesh, Mesh, Mesh]:
-    """Four lines turned, and put in order, so that each starts where the one before it ends.
+    """Four lines, turned and put in order until each starts where the one before ends, or refused.
 
     The first line keeps its sense, and the others their order, unless only others fit.
     """

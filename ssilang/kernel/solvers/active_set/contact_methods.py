@@ -40,7 +40,7 @@ def lagrange(
 def penalty(
     W: FloatArray, q: FloatArray, coefficient: float | None, start: BoolArray | None
 ) -> Reactions:
-    """`p = c max(0, -g)`: rows with a flexibility 1/c added."""
+    """`p = c max(0, -g)`: rows with a flexibility 1/c added; an error without a positive c."""
     if coefficient is None or not coefficient > 0.0:
         raise KernelError("kernel.solvers.penalty-needs-coefficient")
     return lagrange(W + np.eye(len(q)) / coefficient, q, None, start)
