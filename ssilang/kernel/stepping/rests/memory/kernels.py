@@ -142,9 +142,13 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     NoReduction
         If the ground has no factor.
     """
-    q = ground.J.shape[0]
-    probes = _probes(q)
-    answers, quiet = _answers_to_probes(ground.steps, probes, tolerance, max(steps, WHOLE))
+    own, q = ground.steps, ground.J.shape[0]
+    probes, steps = _probes(q), max(steps, WHOLE)
+    little = QUIETER * tolerance
+    (first_answers, reach), (loads, loads_reach) = _answers(
+        own, [(own.J.T @ probes[:, :PROBES], little), (own.forces, CLOSER * tolerance)], steps
+    )
+    answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance)
     whole, stages = list[FloatArray](), list[Stage]()
     first, least = 0, CLOSER * tolerance * _norm(answers[0])
     while first < len(answers):
@@ -163,8 +167,8 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     none = np.zeros((1, q, q), SINGLE)
     ended = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
     return Kernels(
-        ground.mark, ground.dt, tolerance, ended, tuple(stages),
-        0 if quiet else steps, *loads_of(ground, tolerance, steps),
+        ground.mark, ground.dt, tolerance, ended, tuple(stages), reach, loads, ground.loads_mark,
+        loads_reach,
     )  # fmt: skip
 
 
@@ -176,24 +180,23 @@ def _probes(q: int) -> FloatArray:
 
 
 def _answers_to_probes(
-    ground: GroundSteps, probes: FloatArray, tolerance: float, steps: int
-) -> tuple[list[FloatArray], bool]:
-    """Answers (q, r_k) to as many probes as tell all until the kth step, whether none comes then.
+    ground: GroundSteps, probes: FloatArray, first: FloatArray, tolerance: float
+) -> list[FloatArray]:
+    """Answers (q, r_k) to as many probes as tell all until the kth step, from the `first` ones.
 
     Summed: how far the probes' impulses have moved the jumps.
     """
-    forces = ground.J.T @ probes[:, :PROBES]
-    first, quiet = _answers(ground, forces, steps, QUIETER * tolerance)
     found, end = list(np.cumsum(first, axis=0)), len(first)
-    while end and (count := found[0].shape[1]) < len(probes):
-        least = CLOSER * tolerance * _norm(found[0])
+    while (count := found[0].shape[1]) < len(probes):
+        least = tolerance * _norm(found[0])
         end = bisect_left(
             range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
-        forces = ground.J.T @ probes[:, count : count + max(count // 2, 1)]
-        for k, rows in enumerate(np.cumsum(_answers(ground, forces, end, 0.0)[0], axis=0)):
-            found[k] = np.hstack([found[k], rows])
-    return found, quiet
+        forces = ground.J.T @ probes[:, count : count + max(count // 2, PROBES)]
+        ((rows, _),) = _answers(ground, [(forces, 0.0)], end)
+        for k, row in enumerate(np.cumsum(rows, axis=0)):
+            found[k] = np.hstack([found[k], row])
+    return found
 
 
 def _norm(A: FloatArray) -> float:
@@ -225,19 +228,28 @@ def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
 
 
 def _answers(
-    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: float
-) -> tuple[FloatArray, bool]:
+    ground: GroundSteps, several: Sequence[tuple[FloatArray, float]], steps: int
+) -> list[tuple[FloatArray, int]]:
     """Increments (k, q, c) of the jumps after forces (r, c) in the first step, until quiet.
 
-    Quiet: for `QUIET` steps no more than `tolerance` of what was largest. Whether it came to that.
+    Quiet: for `QUIET` steps no more than a tolerance of what was largest, of each of `several`.
+    With each the steps that these describe, 0: all.
     """
-    count = max(2, -(-forces.shape[1] // COLUMNS))
-    pieces = (np.ascontiguousarray(F) for F in np.array_split(forces, count, axis=1) if F.size)
-    found = side_by_side([_until_quiet(ground, F, steps, tolerance) for F in pieces])
-    longest = max(map(len, found), default=0)
-    padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in found]
-    none = np.zeros((0, ground.J.shape[0], 0), SINGLE)
-    return np.concatenate(padded or [none], axis=2), longest < steps
+    counts = [-(-F.shape[1] // COLUMNS) for F, _ in several]
+    pieces = [
+        _until_quiet(ground, np.ascontiguousarray(part), steps, tolerance)
+        for (F, tolerance), count in zip(several, counts, strict=True)
+        for part in np.array_split(F, count or 1, axis=1)[:count]
+    ]
+    drained, found = iter(side_by_side(pieces)), list[tuple[FloatArray, int]]()
+    for count in counts:
+        part = [next(drained) for _ in range(count)]
+        longest = max(map(len, part), default=0)
+        padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in part]
+        none = np.zeros((0, ground.J.shape[0], 0), SINGLE)
+        joined = np.concatenate(padded or [none], axis=2)
+        found.append((joined, 0 if longest < steps else steps))
+    return found
 
 
 def _until_quiet(
@@ -255,5 +267,5 @@ def _until_quiet(
 
 def loads_of(ground: Ground, tolerance: float, steps: int) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
-    found, quiet = _answers(ground.steps, ground.steps.forces, steps, CLOSER * tolerance)
-    return found, ground.loads_mark, 0 if quiet else steps
+    ((found, reach),) = _answers(ground.steps, [(ground.steps.forces, CLOSER * tolerance)], steps)
+    return found, ground.loads_mark, reach
