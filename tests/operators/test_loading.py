@@ -131,11 +131,12 @@ print([len(Filled.index), len(list(OPERATORS))])
 SAVED = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; P = 0. 0. ; Q = 1. 0. ;
 MJ = MODE (MANU 'SEG2' P Q) 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;
+M = MODE (P D 1 Q) CONTACT FROTTANT COULOMB (Q D 1 P) FAIB ; B = MATE M 'MU' 0.3 ;
 AJ = MATE MJ 'KN' 4. 'KS' 0. ; N1 = NUAG 'COMP' 'X' 0. 1. ; OPTI SAUV 'kept.sauv' ; SAUV ;
 """
 RESTORED = """
 OPTI DIME 2 MODE PLAN DEFO ELEM SEG2 ; OPTI REST 'kept.sauv' ; REST ;
-K = RIGI MJ AJ ; MESS (TYPE N1) (MAXI (K * (MANU 'CHPO' Q 1 'UX' 0.5))) ;
+K = RIGI MJ AJ ; MESS (TYPE N1) (MAXI (K * (MANU 'CHPO' Q 1 'UX' 0.5))) (MAXI B) ;
 """
 
 
@@ -152,5 +153,5 @@ import json
 print(json.dumps(result.output.split()))
 """
         told.append(run(program))
-    kind, force = told[1]
-    assert (kind, float(force)) == ("NUAGE", 2.0)
+    kind, force, friction = told[1]
+    assert (kind, float(force), float(friction)) == ("NUAGE", 2.0, 0.3)

@@ -1,7 +1,6 @@
 """The finite elements by name, as data: cells they stand on, family, integration points.
 
-Families give the element its behaviour (see `ssilang.kernel.elements.family`); other packages
-(joints) add their own elements with `register_element`.
+Families give the element its behaviour (see `ssilang.kernel.elements.family`).
 """
 
 from dataclasses import dataclass, field
@@ -82,6 +81,30 @@ def _solid(
     return ElementKind(name, cell_type or name, family, modes, points, default=not cell_type)
 
 
+GAUSS = {"SEG2": 2, "SEG3": 3, "TRI3": 3, "TRI6": 7, "QUA4": 4, "QUA8": 9}
+"""Points by face of joints: no jump is without stiffness."""
+
+NODAL_WEIGHTS = {
+    "SEG2": (1.0, 1.0),
+    "SEG3": (1 / 3, 4 / 3, 1 / 3),
+    "TRI3": (1 / 6, 1 / 6, 1 / 6),
+    "QUA4": (1.0, 1.0, 1.0, 1.0),
+}
+"""Weights of integration at the nodes; serendipity faces have negative ones and are left out."""
+
+
+def _joint(name: str, cell_type: str, face: str, at_nodes: bool = False) -> ElementKind:
+    plane = REFERENCE_CELLS[face].shape == "line"
+    modes = (*PLANE_MODES, Mode.AXISYMMETRIC) if plane else _VOLUME
+    nodal = NODAL_WEIGHTS[face] if at_nodes else ()
+    points: dict[Support, int] = {"RIGIDITE": len(nodal) or GAUSS[face]}
+    return ElementKind(name, cell_type, "joint", modes, points, False, face, nodal=nodal)
+
+
+def _anywhere(name: str, cell_type: str, family: str, points: int = 1) -> ElementKind:
+    return ElementKind(name, cell_type, family, tuple(Mode), {"RIGIDITE": points}, default=False)
+
+
 _VOLUME = (Mode.THREE_DIMENSIONAL,)
 _ROD: dict[Support, int] = {"RIGIDITE": 2, "MASSE": 3}
 
@@ -151,6 +174,25 @@ ELEMENTS: dict[str, ElementKind] = {
         ElementKind(
             "COQ2", "SEG2", "meridian", SECTION_MODES, {"RIGIDITE": 3, "MASSE": 4}, default=False
         ),
+        ElementKind("JOI1", "SEG2", "joint", FRAME_MODES, {"RIGIDITE": 1}, False, "POI1"),
+        _joint("JOI2", "RAC2", "SEG2"),
+        _joint("JOI3", "RAC3", "SEG3"),
+        _joint("JOT3", "LIA3", "TRI3"),
+        _joint("JOI4", "LIA4", "QUA4"),
+        _joint("JOT6", "LIA6", "TRI6"),
+        _joint("JOI8", "LIA8", "QUA8"),
+        _joint("JNO2", "RAC2", "SEG2", True),
+        _joint("JNO3", "RAC3", "SEG3", True),
+        _joint("JNT3", "LIA3", "TRI3", True),
+        _joint("JNO4", "LIA4", "QUA4", True),
+        _anywhere("IMP1", "POI1", "impedance"),
+        _anywhere("IMP2", "SEG2", "impedance"),
+        _anywhere("MODAL", "POI1", "shape"),
+        _anywhere("STATIQUE", "POI1", "shape"),
+        _anywhere("LIAI", "POI1", "link"),
+        _anywhere("COS2", "SEG2", "contact", 2),
+        _anywhere("COT3", "TRI3", "contact", 1),
+        _anywhere("COQU", "QUA4", "contact", 4),
     )
 }
 
@@ -171,9 +213,9 @@ def support_shapes(element: str, support: Support) -> FloatArray:
     return shape_functions(kind.reference or kind.cell_type, support_rule(element, support).points)
 
 
-def register_element(kind: ElementKind) -> None:
-    """Add an element to the catalogue (used by packages that bring their own)."""
-    ELEMENTS[kind.name] = kind
+def by_cells(family: str) -> dict[str, str]:
+    """The element of a family by the cells that it stands on."""
+    return {k.cell_type: k.name for k in ELEMENTS.values() if k.family == family}
 
 
 def default_element(cell_type: str, mode: Mode) -> str:

@@ -23,13 +23,13 @@ import numpy as np
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.elements.catalog import ELEMENTS, ElementKind, register_element
+from ssilang.kernel.elements.catalog import ELEMENTS, by_cells
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Zone
 
 # Families of elements that give matrices and have no strains.
 
@@ -57,13 +57,8 @@ class StrainlessFamily(ElementFamily):
 LAWS = ("ELASTIQUE", "VOIGT", "REUSS", "COMPLEXE")
 """Words that follow IMPEDANCE."""
 
-ELEMENT = {"POI1": "IMP1", "SEG2": "IMP2"}
+ELEMENT = by_cells("impedance")
 """Element of an impedance by the cells that it stands on."""
-
-for _cell, _name in ELEMENT.items():
-    register_element(
-        ElementKind(_name, _cell, "impedance", tuple(Mode), {"RIGIDITE": 1}, default=False)
-    )
 
 _ROTATIONS = frozenset(u for names in NODE_ROTATIONS.values() for u in names)
 _SHARES = {"MODAL": "ALFA", "STATIQUE": "BETA"}

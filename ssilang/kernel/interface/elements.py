@@ -1,4 +1,4 @@
-"""The joint elements by name, as data, and their place in the catalogue of elements.
+"""The joint elements of the catalogue: sides, names of jumps and tractions, rules.
 
 Sides: a surface joint (RACC, LIAI) has its first half of nodes on the upper side U (structure),
 its second half on the lower side L (soil); a joint of two points has L first, then U, so that
@@ -10,15 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.errors import MaterialError, MeshError
-from ssilang.kernel.elements.catalog import (
-    FRAME_MODES,
-    PLANE_MODES,
-    ElementKind,
-    register_element,
-)
+from ssilang.kernel.elements.catalog import ELEMENTS, GAUSS, NODAL_WEIGHTS
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
-from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.model import Mode, Zone
 
 
@@ -42,20 +36,16 @@ _POINTS = {
     3: (("GXY", "GXZ", "EXX"), ("EFFY", "EFFZ", "EFFX")),
 }
 
-_SURFACES: dict[str, JointElement] = {
-    e.name: e
-    for e in (
-        JointElement("JOI2", "RAC2", "SEG2", 2, *_LINE),
-        JointElement("JOI3", "RAC3", "SEG3", 2, *_LINE),
-        JointElement("JOT3", "LIA3", "TRI3", 3, *_SURFACE),
-        JointElement("JOI4", "LIA4", "QUA4", 3, *_SURFACE),
-        JointElement("JOT6", "LIA6", "TRI6", 3, *_SURFACE),
-        JointElement("JOI8", "LIA8", "QUA8", 3, *_SURFACE),
-        JointElement("JNO2", "RAC2", "SEG2", 2, *_LINE, "LOBATTO"),
-        JointElement("JNO3", "RAC3", "SEG3", 2, *_LINE, "LOBATTO"),
-        JointElement("JNT3", "LIA3", "TRI3", 3, *_SURFACE, "LOBATTO"),
-        JointElement("JNO4", "LIA4", "QUA4", 3, *_SURFACE, "LOBATTO"),
+_SURFACES = {
+    k.name: JointElement(
+        k.name,
+        k.cell_type,
+        k.reference,
+        *((3, *_SURFACE) if Mode.THREE_DIMENSIONAL in k.modes else (2, *_LINE)),
+        "LOBATTO" if k.nodal else "GAUSS",
     )
+    for k in ELEMENTS.values()
+    if k.family == "joint" and k.name != "JOI1"
 }
 JOINT_NAMES = ("JOI1", *_SURFACES)
 
@@ -97,34 +87,6 @@ def is_joint(zone: Zone) -> bool:
     return zone.element in JOINT_NAMES
 
 
-def register_joints() -> None:
-    """Put the joints in the catalogue of elements."""
-    one: dict[Support, int] = {"RIGIDITE": 1}
-    register_element(ElementKind("JOI1", "SEG2", "joint", FRAME_MODES, one, False, "POI1"))
-    plane = (*PLANE_MODES, Mode.AXISYMMETRIC)
-    for e in _SURFACES.values():
-        modes = plane if e.dimension == 2 else (Mode.THREE_DIMENSIONAL,)
-        nodal = NODAL_WEIGHTS[e.face] if e.rule == "LOBATTO" else ()
-        points: dict[Support, int] = {"RIGIDITE": len(nodal) or GAUSS[e.face]}
-        register_element(
-            ElementKind(e.name, e.cell_type, "joint", modes, points, False, e.face, nodal=nodal)
-        )
-
-
-# Integration points on the faces of joints: Gauss, or at the nodes.
-
-GAUSS = {"SEG2": 2, "SEG3": 3, "TRI3": 3, "TRI6": 7, "QUA4": 4, "QUA8": 9}
-"""Points by face: no jump is without stiffness."""
-
-NODAL_WEIGHTS = {
-    "SEG2": (1.0, 1.0),
-    "SEG3": (1 / 3, 4 / 3, 1 / 3),
-    "TRI3": (1 / 6, 1 / 6, 1 / 6),
-    "QUA4": (1.0, 1.0, 1.0, 1.0),
-}
-"""Weights of integration at the nodes; serendipity faces have negative ones and are left out."""
-
-
 def face_rule(face: str, rule: str = "GAUSS") -> Rule:
     """Points and weights on a face, by name of the rule.
 
@@ -146,6 +108,3 @@ def face_rule(face: str, rule: str = "GAUSS") -> Rule:
         return Rule(cell.nodes, np.array(NODAL_WEIGHTS[face]))
     told = {"face": face, "rule": rule, "nodal_weights": NODAL_WEIGHTS}
     raise MaterialError("kernel.interface.joints-faces-no-integration", **told)
-
-
-register_joints()

@@ -11,14 +11,13 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.elements.catalog import ElementKind, register_element
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.springs import StrainlessFamily
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
 from ssilang.kernel.modal.basis import work
 from ssilang.kernel.modal.modes import eigenvalue
@@ -27,13 +26,6 @@ UNKNOWN = {"MODAL": "ALFA", "STATIQUE": "BETA"}
 """Unknown of each kind of point."""
 LINK = "LIAI"
 """Element of links (MODE 'LIAISON')."""
-
-for _name in UNKNOWN:
-    register_element(
-        ElementKind(_name, "POI1", "shape", tuple(Mode), {"RIGIDITE": 1}, default=False)
-    )
-
-register_element(ElementKind(LINK, "POI1", "link", tuple(Mode), {"RIGIDITE": 1}, default=False))
 
 
 class _ShapeFamily(StrainlessFamily):

@@ -1,7 +1,7 @@
 """MODE ... 'CONTACT': two sides that must not go into each other, cables that slide in a body."""
 
 from ssilang.kernel.contact.unilateral import ContactRelations, Rubbing, contact_relations
-from ssilang.kernel.elements.catalog import ElementKind, register_element
+from ssilang.kernel.elements.catalog import by_cells
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import missing_parameter, zone_field
 from ssilang.operators.prelude import *
@@ -9,14 +9,8 @@ from ssilang.operators.prelude import *
 METHODS = ("MESC", "SYME", "FAIB", "MORT")
 COULOMB = ("FROTTANT", "COULOMB")
 FROCABLE = ("FROTTANT", "FROCABLE")
-ELEMENTS = {"SEG2": "COS2", "TRI3": "COT3", "QUA4": "COQU"}
+ELEMENTS = by_cells("contact")
 """Names under which fields in cells know the sides."""
-
-for _cell, _name in ELEMENTS.items():
-    _points = {"SEG2": 2, "TRI3": 1, "QUA4": 4}[_cell]
-    register_element(
-        ElementKind(_name, _cell, "contact", tuple(Mode), {"RIGIDITE": _points}, default=False)
-    )
 
 
 def contact_model(
