@@ -181,7 +181,7 @@ def test_a_finer_tolerance_makes_it_anew(truncated, file):
 
 @pytest.mark.parametrize(("tries", "loop"), [(1, "condensed"), (3, "memory")])
 def test_a_memory_that_misses_the_tolerance_is_made_finer_or_told(file, monkeypatch, tries, loop):
-    monkeypatch.setattr(run, "SHARE", 300.0)
+    monkeypatch.setattr(run, "SHARE", 3000.0)
     monkeypatch.setattr(run, "TRIES", tries)
     whole, found, _, history = beside_the_whole(record(**WIDE), 1e-4, file)
     assert history.loop == loop
