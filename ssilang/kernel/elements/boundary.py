@@ -9,7 +9,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
+from ssilang.kernel.elements.catalog import BODY_FAMILIES, family_name
 from ssilang.kernel.elements.family import Layout, element_matrices
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
@@ -107,7 +107,7 @@ def zones_of_faces(of: Parents, model: Model) -> list[tuple[Zone, IntArray]]:
 
 def is_solid(zone: Zone) -> bool:
     """True for continuous elements."""
-    return ELEMENTS[zone.element].family in BODY_FAMILIES
+    return family_name(zone) in BODY_FAMILIES
 
 
 def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Matrix:

@@ -17,7 +17,7 @@ from ssilang.kernel.elements.shapes.reference import (
     shape_functions,
 )
 from ssilang.kernel.fields.cell_field import Support
-from ssilang.kernel.materials.model import Mode
+from ssilang.kernel.materials.model import Mode, Zone
 
 PLANE_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.GENERALISED_PLANE_STRAIN)
 SECTION_MODES = (*PLANE_MODES, Mode.AXISYMMETRIC, Mode.FOURIER)
@@ -25,6 +25,22 @@ SOLID_FAMILIES = ("solid", "incompressible", "one point")
 """Families of continuous elements."""
 BODY_FAMILIES = (*SOLID_FAMILIES, "solid shell")
 """Families whose cells fill space, with translations only."""
+FLAT_SHELLS = ("plate", "mindlin")
+"""Families of flat cells in space, with forces and moments of their section."""
+THIN_SHELLS = ("plate", "meridian", "mindlin")
+"""Families of shells with forces and moments of their section."""
+SHELLS = (*THIN_SHELLS, "thick")
+"""Families of shells whose nodes turn."""
+STRAIGHT_BEAMS = ("beam", "timoshenko")
+"""Families of beams whose section is given by its constants, or its fibres."""
+CUBIC_BEAMS = ("beam", "pipe")
+"""Families of beams of cubic deflection, whose forces and strains stand at their ends."""
+BEAMS = (*STRAIGHT_BEAMS, "pipe")
+"""Families of lines that bend."""
+LINES = (*BEAMS, "bar")
+"""Families of beams and bars."""
+BARS = ("bar", "hoop", "across")
+"""Families with a normal force alone."""
 FRAME_MODES = (Mode.PLANE_STRAIN, Mode.PLANE_STRESS, Mode.THREE_DIMENSIONAL)
 
 
@@ -207,6 +223,11 @@ LOCKING = {"QUA4": True, "CUB8": True, "TRI3": False, "TET4": False, "PRI6": Fal
 """Elements too stiff for nearly incompressible matter; whether the mean volume change cures it."""
 
 
+def family_name(zone: Zone) -> str:
+    """Name of the family of a zone's element."""
+    return ELEMENTS[zone.element].family
+
+
 def support_shapes(element: str, support: Support) -> FloatArray:
     """Shape functions (n_points, n_nodes) of an element's reference cell at a support's points."""
     kind = ELEMENTS[element]
@@ -241,7 +262,7 @@ def support_rule(element: str, support: Support) -> Rule:
     """
     kind = ELEMENTS[element]
     cell = kind.reference_cell
-    if support == "NOEUD" or (support == "STRESSES" and kind.family in ("beam", "pipe")):
+    if support == "NOEUD" or (support == "STRESSES" and kind.family in CUBIC_BEAMS):
         n = len(cell.nodes)
         return Rule(cell.nodes, np.full(n, float(quadrature(cell.shape, 1).weights.sum()) / n))
     if support == "GRAVITE":

@@ -12,7 +12,7 @@ from ssilang.kernel.elements.beams.bar import Across, Bar, Hoop
 from ssilang.kernel.elements.beams.beam import Beam, FibreBeam, Timoshenko
 from ssilang.kernel.elements.beams.fibre_section import Fibre
 from ssilang.kernel.elements.beams.pipe import Pipe
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import ELEMENTS, family_name
 from ssilang.kernel.elements.family import (
     ElementFamily,
     apply_moduli,
@@ -67,7 +67,7 @@ def family_of(zone: Zone) -> ElementFamily:
     """
     if "SECTION" in zone.behaviour:
         return FAMILIES["fibre beam"]
-    family = FAMILIES.get(ELEMENTS[zone.element].family)
+    family = FAMILIES.get(family_name(zone))
     if family is None:
         alike = [k for k in ELEMENTS.values() if k.cell_type == zone.cells.cell_type]
         others = [k.name for k in alike if k.family in FAMILIES and zone.mode in k.modes]

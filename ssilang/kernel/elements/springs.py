@@ -23,7 +23,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import ComplexArray, FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.curves.curve import Curve, CurvePart
-from ssilang.kernel.elements.catalog import ELEMENTS, by_cells
+from ssilang.kernel.elements.catalog import by_cells, family_name
 from ssilang.kernel.elements.families import register_family
 from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
@@ -69,7 +69,7 @@ _TERMS = {  # of translations, of rotations
 
 def is_impedance(zone: Zone) -> bool:
     """Whether a zone is made of springs and dashpots."""
-    return ELEMENTS[zone.element].family == "impedance"
+    return family_name(zone) == "impedance"
 
 
 def law_of_impedance(zone: Zone) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.results.frames import has_shell_frames, points_of, shell_frames
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.elasticity import two_axes
@@ -47,7 +47,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     """
     if has_shell_frames(zone):
         return _on_shell(zone, given), "GRAVITE"
-    if ELEMENTS[zone.element].family == "joint" and zone.element != "JOI1" and given.second is None:
+    if family_name(zone) == "joint" and zone.element != "JOI1" and given.second is None:
         return _on_joint(zone, given), "GRAVITE"
     flat = zone.mode is not Mode.THREE_DIMENSIONAL
     support: Support = "RIGIDITE" if given.radial else "GRAVITE"

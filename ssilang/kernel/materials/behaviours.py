@@ -3,7 +3,7 @@
 from collections.abc import Collection
 
 from ssilang.kernel.base.errors import MaterialError
-from ssilang.kernel.elements.catalog import SOLID_FAMILIES
+from ssilang.kernel.elements.catalog import BARS, BEAMS, SOLID_FAMILIES, THIN_SHELLS
 from ssilang.kernel.interface.laws.law_table import LAWS
 from ssilang.kernel.materials.plastic.laws import (
     CREEP_LAWS,
@@ -24,14 +24,12 @@ OTHER_FORMULATIONS = {
 }  # fmt: skip
 """Formulations that are not built, by their subject; what is not mechanics is out of scope."""
 
-_SHELLS = ("plate", "meridian", "mindlin")
 ELASTICITIES: dict[str, tuple[str, ...]] = {
     "ISOTROPE": (
-        *SOLID_FAMILIES, *_SHELLS, "thick", "solid shell", "bar", "hoop", "across", "beam",
-        "timoshenko", "pipe", "joint", "fibre",
+        *SOLID_FAMILIES, *THIN_SHELLS, "thick", "solid shell", *BARS, *BEAMS, "joint", "fibre",
     ),
     "SECTION": ("timoshenko",),
-    "ORTHOTROPE": (*SOLID_FAMILIES, *_SHELLS, "joint"),
+    "ORTHOTROPE": (*SOLID_FAMILIES, *THIN_SHELLS, "joint"),
     "ANISOTROPE": (*SOLID_FAMILIES, "joint"),  # of joints, those of two points
     "UNIDIRECTIONNEL": (*SOLID_FAMILIES, "plate"),
     "ARMATURE": ("bar",),
@@ -49,11 +47,9 @@ JOINT_WORDS = (
 PLASTIC_WORDS = tuple(w for w in PLASTIC_LAWS if w not in ELASTICITIES)
 """Words that follow PLASTIQUE in a model of bodies (beside ISOTROPE)."""
 
-SECTION_FAMILIES = ("plate", "meridian", "mindlin", "beam", "timoshenko", "pipe")
+SECTION_FAMILIES = (*THIN_SHELLS, *BEAMS)
 """Families whose sections yield as a whole; DKT also at points across the thickness."""
-PLASTIC_FAMILIES = (
-    "solid", "incompressible", "bar", "hoop", "across", "fibre", "thick", *SECTION_FAMILIES
-)  # fmt: skip
+PLASTIC_FAMILIES = ("solid", "incompressible", *BARS, "fibre", "thick", *SECTION_FAMILIES)
 """Families of elements that have plastic laws."""
 
 UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
@@ -61,10 +57,10 @@ UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
 UNIAXIAL_FAMILIES = ("fibre", "bar")
 """Families of elements that have them."""
 
-CREEP_FAMILIES = ("solid", "incompressible", "bar", "hoop", "across", "thick", "plate", "meridian")
+CREEP_FAMILIES = ("solid", "incompressible", *BARS, "thick", "plate", "meridian")
 """Families of elements that creep, thin shells by the forces of their sections."""
 
-DAMAGE_FAMILIES = ("solid", "bar", "hoop", "across")
+DAMAGE_FAMILIES = ("solid", *BARS)
 """Families of elements that are damaged."""
 
 OWN_LAWS = {

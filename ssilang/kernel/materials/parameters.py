@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
+from ssilang.kernel.elements import catalog
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.interface.laws.law_table import law_of
 from ssilang.kernel.materials.model import Mode, Zone
@@ -96,19 +96,16 @@ _ORTHOTROPIC: dict[Mode, int] = {  # how many of ORTHOTROPIC are required
 }  # fmt: skip
 
 _GEOMETRY: dict[str, Names] = {
-    **dict.fromkeys(SOLID_FAMILIES, Names((), ("DIM3",))),
-    "bar": Names(("SECT",)),
-    "hoop": Names(("SECT",)),
-    "across": Names(("SECT",)),
+    **dict.fromkeys(catalog.SOLID_FAMILIES, Names((), ("DIM3",))),
+    **dict.fromkeys(catalog.BARS, Names(("SECT",))),
     "fibre": Names(("ALPY", "ALPZ"), ("SECT",)),
     "joint": Names((), ("DIM3", "EPAI")),
     "pipe": Names(
         ("EPAI", "RAYO"),
         ("RACO", "VECT", "PRES", "CISA", "CFFX", "CFMX", "CFMY", "CFMZ", "CFPR", "OMEG"),
     ),
-    "mindlin": Names(("EPAI",), ("EXCE", "CALF")),
     "thick": Names(("EPAI",), ("EXCE",)),
-    "plate": Names(("EPAI",), ("EXCE", "CALF")),
+    **dict.fromkeys(catalog.FLAT_SHELLS, Names(("EPAI",), ("EXCE", "CALF"))),
     "meridian": Names(("EPAI",), ("EXCE", "CALF", "DIM3")),
 }
 _BEAM_PLANE = Names(("SECT", "INRZ"), ("SECY", "SECZ", "INRY", "TORS", "VECT", "DX", "DY", "DZ"))
@@ -116,11 +113,6 @@ _BEAM_SPACE = Names(
     ("SECT", "INRY", "INRZ", "TORS"),
     ("SECY", "SECZ", "VECT", "VX", "VY", "VZ", "DX", "DY", "DZ", "OMEG"),
 )
-
-
-def family_name(zone: Zone) -> str:
-    """Name of the family of a zone's element."""
-    return ELEMENTS[zone.element].family
 
 
 def material_names(zone: Zone) -> Names:
@@ -145,12 +137,8 @@ def material_names(zone: Zone) -> Names:
         return _IMPEDANCE[zone.behaviour[-1]]
     kind = zone.behaviour[1] if len(zone.behaviour) > 1 else "ISOTROPE"
     if kind == "ORTHOTROPE":
-        shells = {"plate": 4, "meridian": 4, "mindlin": 4}
-        needed = (
-            shells[family_name(zone)]
-            if family_name(zone) in shells
-            else _ORTHOTROPIC.get(zone.mode, 7)
-        )
+        thin = catalog.family_name(zone) in catalog.THIN_SHELLS
+        needed = 4 if thin else _ORTHOTROPIC.get(zone.mode, 7)
         rest = ("RHO", *ORTHOTROPIC[needed:], *ORTHOTROPIC_THERMAL, *AXES)
         return Names(ORTHOTROPIC[:needed], rest)
     plastic = plastic_law(zone.behaviour)
@@ -163,17 +151,17 @@ def material_names(zone: Zone) -> Names:
 
 def geometric_names(zone: Zone) -> Names:
     """Parameters of the section or thickness of a zone's elements."""
-    family = family_name(zone)
+    family = catalog.family_name(zone)
     if "SECTION" in zone.behaviour:
         return Names((), ("VECT", "VX", "VY", "VZ", "OMEG"))
-    if family in ("beam", "timoshenko"):
+    if family in catalog.STRAIGHT_BEAMS:
         return _BEAM_SPACE if zone.mode is Mode.THREE_DIMENSIONAL else _BEAM_PLANE
     return _GEOMETRY.get(family, Names())
 
 
 def idle_names(zone: Zone) -> tuple[str, ...]:
     """Parameters that a zone takes and that change nothing: the thickness outside of a plane."""
-    if family_name(zone) in SOLID_FAMILIES:
+    if catalog.family_name(zone) in catalog.SOLID_FAMILIES:
         return () if zone.mode is Mode.PLANE_STRESS else ("DIM3",)
     return ("DIM3",) if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) else ()
 

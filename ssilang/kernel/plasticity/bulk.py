@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import FLAT_SHELLS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -325,7 +325,7 @@ def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numb
 
 def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
-    drilled = ELEMENTS[zone.element].family in ("plate", "mindlin", "thick")
+    drilled = family_name(zone) in (*FLAT_SHELLS, "thick")
     return drilling_stiffness(zone, characteristics) if drilled else without_stiffness(zone)
 
 

@@ -14,7 +14,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.families import family_of, integration_weights, moduli_of
 from ssilang.kernel.elements.solids.kinematics import as_components, as_tensor, harmonic
 from ssilang.kernel.elements.solids.solid import REVOLUTION, kinematics, radius, zone_geometry
@@ -198,7 +198,7 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     if is_space_beam(zone):
         return finite_space_beam(zone, material, weights.shape[1])
     plane = zone.mode in (Mode.PLANE_STRAIN, Mode.PLANE_STRESS)
-    if plane and ELEMENTS[zone.element].family == "meridian":
+    if plane and family_name(zone) == "meridian":
         return finite_plane_shell(zone, material, weights.shape[1])
     if is_facet_shell(zone):
         return finite_plate(zone, material, weights.shape[1])

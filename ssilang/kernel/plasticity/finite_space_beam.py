@@ -19,14 +19,13 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import STRAIGHT_BEAMS, family_name
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.plasticity.large.carried import Array, Carried
 
-_BEAMS = ("beam", "timoshenko")
 # displacements of both nodes, in the axes of the chord, for one unit of lengthening and end turns
 CARRIED = np.zeros((6, 3))
 CARRIED[3, 0] = CARRIED[2, 1] = CARRIED[5, 2] = 1.0
@@ -34,8 +33,7 @@ CARRIED[3, 0] = CARRIED[2, 1] = CARRIED[5, 2] = 1.0
 
 def is_plane_beam(zone: Zone) -> bool:
     """Whether a zone has the unknowns UX UY RZ of beams of the plane."""
-    space = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER, Mode.AXISYMMETRIC)
-    return ELEMENTS[zone.element].family in _BEAMS and not space
+    return family_name(zone) in STRAIGHT_BEAMS and zone.mode is not Mode.THREE_DIMENSIONAL
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,8 +125,7 @@ for _k in range(3):
 
 def is_space_beam(zone: Zone) -> bool:
     """Whether a zone is one of beams in space."""
-    family = ELEMENTS[zone.element].family
-    straight = family in ("beam", "timoshenko") and "SECTION" not in zone.behaviour
+    straight = family_name(zone) in STRAIGHT_BEAMS and "SECTION" not in zone.behaviour
     return straight and zone.mode is Mode.THREE_DIMENSIONAL
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.curves.curve import Curve
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.families import family_of, plastic_strain_names
 from ssilang.kernel.elements.family import Layout, cell_block
 from ssilang.kernel.elements.shapes.geometry import chunks
@@ -219,8 +219,7 @@ class PlasticPoints:
 
 def is_plastic(zone: Zone) -> bool:
     """Whether a zone of bodies has a plastic law."""
-    family = ELEMENTS[zone.element].family
-    return family != "joint" and plastic_law(zone.behaviour) is not None
+    return family_name(zone) != "joint" and plastic_law(zone.behaviour) is not None
 
 
 def plastic_zones(model: Model | None) -> tuple[Zone, ...]:

@@ -12,13 +12,12 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import KernelError, MaterialError
-from ssilang.kernel.elements import zone_fields
+from ssilang.kernel.elements import catalog, zone_fields
 from ssilang.kernel.elements.beams.beam import paired
 from ssilang.kernel.elements.beams.beam_frame import beam_frame, kept_rows
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
-from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.results.tensors import LEVERS, SHELLS, section_form
+from ssilang.kernel.elements.results.tensors import LEVERS, section_form
 from ssilang.kernel.elements.shapes.geometry import chunks
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.behaviours import SECTION_FAMILIES
@@ -44,9 +43,6 @@ from ssilang.kernel.plasticity.points import (
 from ssilang.kernel.plasticity.solving.blocks import ZonePass, cells_of
 from ssilang.kernel.plasticity.solving.cones import ConePass
 from ssilang.kernel.plasticity.solving.nested import NestedPass
-
-BENT = ("beam", "pipe")
-"""Lines whose strains and forces are linear between their two nodes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,22 +81,23 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     MaterialError
         For missing or inadmissible parameters, beams without a distance for their moments.
     """
-    kind, family, law = ELEMENTS[zone.element].family, family_of(zone), plastic_law(zone.behaviour)
+    kind, family, law = catalog.family_name(zone), family_of(zone), plastic_law(zone.behaviour)
     assert law is not None
     given = zone_fields.zone_field(zone, characteristics)
     if zone.mode is Mode.FOURIER:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
-    if kind in ("beam", "timoshenko") and not any(d in given for d, _ in LEVERS.values()):
+    if kind in catalog.STRAIGHT_BEAMS and not any(d in given for d, _ in LEVERS.values()):
         raise MaterialError("kernel.plasticity.moments-without-distances", element=zone.element)
     if kind == "beam" and ("SECY" in given or "SECZ" in given):
         raise MaterialError("kernel.plasticity.sheared-beam-is-elastic").about("SECY", "SECZ")
     at = law_support(zone)
     operator = family.strain_operator(zone, given, at, slice(None))
     n, s, p, _ = operator.matrix.shape
-    slots = kept_rows(zone) if kind not in SHELLS else {4: (0, 1, 3, 4)}.get(s, tuple(range(s)))
+    thin, bent = kind in catalog.THIN_SHELLS, kind in catalog.CUBIC_BEAMS
+    slots = {4: (0, 1, 3, 4)}.get(s, tuple(range(s))) if thin else kept_rows(zone)
     width = max(6, s)
     sized = pipe_parameters(zone, given) if kind == "pipe" else given
-    size = sized.at("EPAI" if kind in SHELLS else "SECT", at)
+    size = sized.at("EPAI" if thin else "SECT", at)
 
     def placed(matrix: FloatArray) -> FloatArray:
         full = np.zeros((n, p, width, width))
@@ -114,10 +111,10 @@ def section_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
         own.values, own.curves, D, np.asarray(np.linalg.pinv(D, hermitian=True), dtype=np.float64),
         placed(section_form(zone, given, at)), np.broadcast_to(size, (n, p)).ravel(),
     )  # fmt: skip
-    flowing: PlasticLaw = replace(law, respond=section_flow.respond, symmetric=kind not in BENT)
+    flowing: PlasticLaw = replace(law, respond=section_flow.respond, symmetric=not bent)
     weights = np.broadcast_to(operator.weights, (n, p))
     common = (zone, flowing, family.layout(zone), operator.matrix, weights, None, slots, ())
-    if kind in BENT:
+    if bent:
         return EndPoints(*common, parameters, given)
     return PlasticPoints(*common, parameters)
 
@@ -132,18 +129,17 @@ def plastic_points(zone: Zone, characteristics: CellField) -> PlasticPoints:
     MaterialError
         For missing or inadmissible parameters.
     """
+    kind = catalog.family_name(zone)
     if "SECTION" in zone.behaviour:
         return fibre_points(zone, characteristics)
     if is_layered(zone):
         return layered_points(zone, characteristics)
-    if ELEMENTS[zone.element].family in SECTION_FAMILIES:
+    if kind in SECTION_FAMILIES:
         return section_points(zone, characteristics)
     law, family = plastic_law(zone.behaviour), family_of(zone)
     assert law is not None
     given = zone_fields.zone_field(zone, characteristics)
-    bar, thick = (
-        ELEMENTS[zone.element].family in n for n in (("bar", "hoop", "across"), ("thick",))
-    )
+    bar, thick = kind in catalog.BARS, kind == "thick"
     if not bar and zone.mode not in COMPONENTS:
         raise KernelError("kernel.plasticity.plastic-laws-not-exist", value=zone.mode.value)
     parts = [

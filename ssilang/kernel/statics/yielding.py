@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, SingularFactorError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
@@ -90,7 +90,7 @@ def criterion(
         return _of_joint(zone, material, stress, variables)
     words = zone.behaviour
     name = _law(zone) if is_plastic(zone) else ""
-    if name not in CRITERIA or ELEMENTS[zone.element].family in (*SECTION_FAMILIES, "thick"):
+    if name not in CRITERIA or family_name(zone) in (*SECTION_FAMILIES, "thick"):
         told = {"words": words, "element": zone.element, "criteria": CRITERIA}
         raise FieldError("kernel.statics.law-element-no-criterion", **told)
     points = plastic_points(zone, material)

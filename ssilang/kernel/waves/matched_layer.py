@@ -26,7 +26,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError, MaterialError, MeshError
 from ssilang.kernel.elements.boundary import wave_speeds
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.family import element_matrices, node_major_layout, per_cell
 from ssilang.kernel.elements.solids.kinematics import SOLID_KINEMATICS
 from ssilang.kernel.elements.solids.solid import zone_geometry
@@ -185,7 +185,7 @@ def suited_reflection(cells: float) -> float:
 def _refuse_others(zone: Zone) -> None:
     if zone.mode is not Mode.PLANE_STRAIN:
         raise MeshError("kernel.waves.matched-layer-plane-strain")
-    if ELEMENTS[zone.element].family != "solid":
+    if family_name(zone) != "solid":
         raise MeshError("kernel.waves.matched-layer-elements", element=zone.element)
     if is_plastic(zone) or symmetry_of(zone) != "ISOTROPE":
         raise MaterialError(

@@ -5,7 +5,7 @@ from functools import wraps
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.rotating import corotational
 from ssilang.kernel.elements.boundary import absorbing_boundary
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import FLAT_SHELLS, family_name
 from ssilang.kernel.elements.loads.follower import gradient_stiffness, pressure_stiffness
 from ssilang.kernel.elements.shells.shell_section import moduli_on_mesh
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS
@@ -241,7 +241,7 @@ def hook(call: Call, model: Model, fields: tuple[CellField, ...], on_mesh: bool)
     for zone in present(call, model).zones:
         parameters = zone_field(zone, material)
         moduli = families.family_of(zone).moduli(zone, parameters, "RIGIDITE")
-        if on_mesh and ELEMENTS[zone.element].family in ("plate", "mindlin"):
+        if on_mesh and family_name(zone) in FLAT_SHELLS:
             moduli = moduli_on_mesh(moduli, zone, parameters)
         blocks.append(hooke_block(zone, moduli, "RIGIDITE"))
     return CellField(tuple(blocks), "MATRICE DE HOOKE")

@@ -1,6 +1,6 @@
 """PREC: tensions of prestressing cables. IMPF: kept for old scripts."""
 
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import n_points, zone_field
 from ssilang.kernel.statics.prestress import NO_LOSSES, Cable, Losses, cables_of, tensions
@@ -56,7 +56,7 @@ def _zone(
     losses: Losses | None,
     ends: IntArray | None,
 ) -> CellFieldBlock:
-    if ELEMENTS[zone.element].family != "bar" or zone.cells.cell_type != "SEG2":
+    if family_name(zone) != "bar" or zone.cells.cell_type != "SEG2":
         raise call.error("operators.models.cables-are-bars", element=zone.element)
     cells = zone.cells.connectivity
     x = zone.cells.nodes.coordinates[:, : zone.mode.dimension]

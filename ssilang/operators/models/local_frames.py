@@ -1,7 +1,7 @@
 """Frames of elements: RTEN VLOC CALP, FREN along lines, VSUR for normals and tangents."""
 
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.catalog import BEAMS, SHELLS, family_name, support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results.frames import (
     SurfaceAxes,
@@ -82,7 +82,7 @@ def rten(
         frames, surface = _of_material(material, product)
 
     def make(zone: Zone) -> CellFieldBlock:
-        thick = ELEMENTS[zone.element].family == "thick" and material is not None
+        thick = family_name(zone) == "thick" and material is not None
         if surface is not None and (thick or is_flat_shell(zone)):
             axes = surface(zone, shell_support(zone, field))
             return shell_in_axes(zone, field, axes, material)
@@ -221,10 +221,6 @@ def fren(session: Session, line: Mesh = Arg("MAILLAGE", en="lines")) -> NodeFiel
     return NodeField.of(line.nodes, ids, values, "DIFFUS")
 
 
-_SHELLS = ("plate", "mindlin", "thick", "meridian")
-_BEAMS = ("beam", "timoshenko", "pipe")
-
-
 @operator("VSUR", family="models")
 def vsur(
     model: Model = Arg("MMODEL", en="model"), unit: bool = Flag("NORM", en="of length 1")
@@ -235,10 +231,10 @@ def vsur(
 
 
 def _block(zone: Zone, unit: bool) -> CellFieldBlock | None:
-    family = ELEMENTS[zone.element].family if zone.element in ELEMENTS else ""
-    if family not in (*_SHELLS, *_BEAMS):
+    family = family_name(zone)
+    if family not in (*SHELLS, *BEAMS):
         return None
-    vectors = _vectors(zone, family in _SHELLS)
+    vectors = _vectors(zone, family in SHELLS)
     if unit:
         vectors = vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
     if zone.mode is Mode.THREE_DIMENSIONAL:

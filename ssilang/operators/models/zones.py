@@ -2,7 +2,7 @@
 
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES
+from ssilang.kernel.elements.catalog import BEAMS, SHELLS, SOLID_FAMILIES, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
@@ -188,13 +188,9 @@ def intersection_of_models(first: Model = _FIRST, second: Model = _SECOND) -> Mo
     return Model(common)
 
 
-_SHELLS = ("plate", "mindlin", "thick", "meridian")
-_BEAMS = ("beam", "timoshenko", "pipe")
-
-
 def _depth(zone: Zone, given: ZoneField, family: str) -> FloatArray:
     """Thickness (n or 1, 1) of shells, that of the rectangle of the same gyration of beams."""
-    if family in _SHELLS:
+    if family in SHELLS:
         return given.at("EPAI", "GRAVITE")
     if family == "pipe":
         given = pipe_parameters(zone, given)
@@ -215,11 +211,11 @@ def tail(
         raise call.error("operators.models.only-diametre-min-built", model)
     blocks = []
     for zone in model.zones:
-        family = ELEMENTS[zone.element].family
-        if family not in (*SOLID_FAMILIES, *_SHELLS, *_BEAMS, "bar"):
+        family = family_name(zone)
+        if family not in (*SOLID_FAMILIES, *SHELLS, *BEAMS, "bar"):
             raise call.error("operators.models.no-smallest-length", model, element=zone.element)
         values = {"L": smallest_lengths(zone.cells)[:, None]}
-        if family in (*_SHELLS, *_BEAMS):
+        if family in (*SHELLS, *BEAMS):
             if given is None:
                 raise call.error(
                     "operators.models.bending-elements-need-section", model, element=zone.element

@@ -2,7 +2,7 @@
 
 from ssilang.kernel.contact.cable import Bars, CableRelations, cable_relations
 from ssilang.kernel.contact.rows import Friction
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS
 from ssilang.kernel.elements.zone_fields import cell_rows, zone_field
@@ -83,7 +83,7 @@ def _of_bars(
     stiffness, tension = np.zeros(len(cells)), np.zeros(len(cells))
     known = np.zeros(len(cells), bool)
     for bar in zones:
-        if bar.formulation != "MECANIQUE" or ELEMENTS[bar.element].family != "bar":
+        if bar.formulation != "MECANIQUE" or family_name(bar) != "bar":
             continue
         rows = cell_rows(bar.cells, cells)
         on = np.flatnonzero(rows >= 0)

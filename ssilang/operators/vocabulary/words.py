@@ -8,7 +8,7 @@ MODE, MATE, OPTI and the checker ask here.
 from functools import cache
 
 from ssilang.kernel.elements import springs
-from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS
+from ssilang.kernel.elements.catalog import ELEMENTS, GENERIC_ELEMENTS, family_name
 from ssilang.kernel.elements.families import FAMILIES, family_of
 from ssilang.kernel.elements.zone_fields import INSTEAD
 from ssilang.kernel.interface.laws.law import DEFAULTS
@@ -106,7 +106,7 @@ _ELASTIC_SAMPLES = {
 
 def scopes(zone: Zone) -> set[str]:
     """What the meanings of words may be limited to in a zone: element, family, law."""
-    return {zone.element, ELEMENTS[zone.element].family, zone.formulation, *zone.behaviour}
+    return {zone.element, family_name(zone), zone.formulation, *zone.behaviour}
 
 
 def parameter(name: str, zone: Zone) -> Quantity | None:
@@ -144,7 +144,7 @@ def parameter_rows(zone: Zone, law: bool = True, section: bool = False) -> list[
 
 
 def _default(word: Quantity, zone: Zone) -> float | None:
-    if ELEMENTS[zone.element].family == "joint" and word.name in law_of(zone.behaviour).optional:
+    if family_name(zone) == "joint" and word.name in law_of(zone.behaviour).optional:
         return DEFAULTS.get(word.name, 0.0)
     return word.default
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.catalog import family_name, support_rule
 from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
@@ -154,7 +154,7 @@ def fibre_section(model: Model, material: CellField) -> FibreSection:
     """
     places, areas, moduli, zones, start = [], [], [], [], 0
     for zone in model.zones:
-        if ELEMENTS[zone.element].family != "fibre":
+        if family_name(zone) != "fibre":
             raise MaterialError("kernel.elements.section-no-element", element=zone.element)
         given = zone_field(zone, material)
         at, own = fibre_places(zone, "STRESSES")[0], fibre_areas(zone, given, "STRESSES")

@@ -12,9 +12,9 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
+from ssilang.kernel.elements import catalog
 from ssilang.kernel.elements.beams.beam import keep, to_global
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
-from ssilang.kernel.elements.catalog import BODY_FAMILIES, ELEMENTS
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import element_matrices
 from ssilang.kernel.elements.solids.kinematics import cross_matrix
@@ -25,11 +25,8 @@ from ssilang.kernel.matrices.matrix import ElementMatrices
 
 TRANSLATIONS = ("UX", "UY", "UZ")
 _OF_REVOLUTION = ("UR", "UT", "UZ")
-_SCALAR_MASS = (
-    *BODY_FAMILIES, "bar", "timoshenko", "plate", "mindlin", "thick",
-)  # fmt: skip
+_SCALAR_MASS = (*catalog.BODY_FAMILIES, *catalog.FLAT_SHELLS, "thick", "timoshenko", "bar")
 """Families whose mass couples each translation with itself only, all in the same way."""
-_LINE_FAMILIES = ("beam", "pipe", "timoshenko")
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 
 
@@ -57,8 +54,8 @@ def inertia_coupling(
     if turning and np.any(coupling != np.diag(np.diag(coupling))):
         raise FieldError("kernel.elements.turning-frame-couples-two")
     parameters = zone_field(zone, material)
-    name = ELEMENTS[zone.element].family
-    if name in ("beam", "pipe"):
+    name = catalog.family_name(zone)
+    if name in catalog.CUBIC_BEAMS:
         values, layout = _cubic(zone, parameters, coupling), family_of(zone).layout(zone)
     elif name in _SCALAR_MASS:
         mass, layout = family_of(zone).mass_values(zone, parameters)
@@ -128,9 +125,7 @@ def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> E
     FieldError
         For other elements than beams in space.
     """
-    if ELEMENTS[zone.element].family not in _LINE_FAMILIES or (
-        zone.mode is not Mode.THREE_DIMENSIONAL
-    ):
+    if catalog.family_name(zone) not in catalog.BEAMS or zone.mode is not Mode.THREE_DIMENSIONAL:
         raise FieldError("kernel.elements.corotational-damping-beams-space", element=zone.element)
     parameters = zone_field(zone, material)
     axes = beam_frame(zone, parameters).axes
@@ -153,8 +148,8 @@ def gyroscopic(zone: Zone, material: CellField) -> ElementMatrices:
     FieldError
         For other elements than beams in space.
     """
-    name = ELEMENTS[zone.element].family
-    if name not in _LINE_FAMILIES or zone.mode is not Mode.THREE_DIMENSIONAL:
+    name = catalog.family_name(zone)
+    if name not in catalog.BEAMS or zone.mode is not Mode.THREE_DIMENSIONAL:
         raise FieldError("kernel.elements.gyroscopic-coupling-beams-space", element=zone.element)
     family, parameters = family_of(zone), zone_field(zone, material)
     frame = beam_frame(zone, parameters)
@@ -162,7 +157,7 @@ def gyroscopic(zone: Zone, material: CellField) -> ElementMatrices:
     local = np.zeros((len(frame.lengths), 12, 12))
     scale = parameters.each("OMEG", 1.0) * moments[:, 0] * frame.lengths
     for s, w in zip(0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS, strict=True):
-        _, R = _shapes(float(s), frame.lengths, name != "timoshenko")
+        _, R = _shapes(float(s), frame.lengths, name in catalog.CUBIC_BEAMS)
         y, z = R[:, 1], R[:, 2]
         turn = y[:, :, None] * z[:, None, :] - z[:, :, None] * y[:, None, :]
         local += (w * scale)[:, None, None] * turn

@@ -6,15 +6,13 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
-from ssilang.kernel.elements import boundary
+from ssilang.kernel.elements import boundary, catalog
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.beams.pipe import pressure_forces
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import Layout, node_major_layout
 from ssilang.kernel.elements.results.supports import nodal_of_cells
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, chunks
-from ssilang.kernel.elements.shapes.reference import shape_functions
 from ssilang.kernel.elements.shells.meridian_shell import meridian_forces
 from ssilang.kernel.elements.solids.kinematics import NODE_ROTATIONS, NODE_TRANSLATIONS, harmonic
 from ssilang.kernel.elements.solids.solid import integration_weights, zone_geometry
@@ -27,8 +25,6 @@ from ssilang.kernel.mesh.boundary import contour, envelope
 from ssilang.kernel.mesh.changes.merge import regenerate
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-
-LINES = ("beam", "timoshenko", "bar")
 
 # forces (v1 m1 v2 m2) of a linear density q1, q2 on the cubic deflection, times L and L^2
 _CUBIC = np.array([[7 / 20, 3 / 20], [1 / 20, 1 / 30], [3 / 20, 7 / 20], [-1 / 30, -1 / 20]])
@@ -73,8 +69,8 @@ def _densities(zone: Zone, names: tuple[str, ...], value: FloatArray | NodeField
 def _on_zone(
     zone: Zone, value: FloatArray | NodeField, plane_normal: FloatArray | None
 ) -> NodeField:
-    family = ELEMENTS[zone.element].family
-    if family not in LINES or zone.cells.kind.n_nodes != 2:
+    family = catalog.family_name(zone)
+    if family not in (*catalog.STRAIGHT_BEAMS, "bar") or zone.cells.kind.n_nodes != 2:
         raise MeshError("kernel.elements.load-along-lines-beams", element=zone.element)
     frame = beam_frame(zone, zone_field(zone, None))
     translations = NODE_TRANSLATIONS[zone.mode]
@@ -281,14 +277,11 @@ def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:
     return Mesh(table, tuple(blocks))
 
 
-SHELLS = ("plate", "meridian", "mindlin", "thick")
-
-
 def pipe_pressure(model: Model, material: CellField) -> NodeField:
     """Forces of the inner pressure PRES of pipes on their closed ends."""
     out = []
     for zone in model.zones:
-        if ELEMENTS[zone.element].family != "pipe":
+        if catalog.family_name(zone) != "pipe":
             raise MeshError("kernel.elements.pressure-pipes-not-element", element=zone.element)
         layout = family_of(zone).layout(zone)
         out.append(layout.scatter(pressure_forces(zone, zone_field(zone, material))))
@@ -321,7 +314,7 @@ def shell_load(
     """
     out = []
     for zone in model.zones:
-        if ELEMENTS[zone.element].family not in SHELLS:
+        if catalog.family_name(zone) not in catalog.SHELLS:
             raise MeshError("kernel.elements.load-shells-not-element", element=zone.element)
         aim = along
         if towards is not None:
@@ -338,8 +331,8 @@ def _on_shell(
     material: CellField | None,
 ) -> NodeField:
     """Forces of one zone, whose area vectors are those of its faces."""
-    meridian = ELEMENTS[zone.element].family == "meridian"
-    rule = support_rule(zone.element, "MASSE") if meridian else None
+    meridian = catalog.family_name(zone) == "meridian"
+    rule = catalog.support_rule(zone.element, "MASSE") if meridian else None
     geometry = boundary.face_geometry(zone.cells, zone.mode, harmonic(zone), rule)
     if isinstance(value, np.ndarray) or (
         isinstance(value, NodeField) and any(n in value.components for n in force_names(zone))
@@ -420,8 +413,8 @@ def _body_force(
     names = force_names(zone)
     forces = np.zeros((len(zone.cells), zone.cells.kind.n_nodes, len(names)))
     parameters = zone_field(zone, material)
-    if ELEMENTS[zone.element].family in ("plate", "mindlin"):
-        shapes = shape_functions(zone.cells.cell_type, support_rule(zone.element, "MASSE").points)
+    if catalog.family_name(zone) in catalog.FLAT_SHELLS:
+        shapes = catalog.support_shapes(zone.element, "MASSE")
         h = parameters.each("EPAI")[:, None]
         w = family_of(zone).weights(zone, parameters, "MASSE") * h
         values = _density_values(zone, density, names, shapes, slice(0, len(zone.cells)))

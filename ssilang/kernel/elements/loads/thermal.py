@@ -5,7 +5,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.beams.fibre_section import section_of_beam
-from ssilang.kernel.elements.catalog import ELEMENTS, SOLID_FAMILIES, support_shapes
+from ssilang.kernel.elements.catalog import SOLID_FAMILIES, THIN_SHELLS, family_name, support_shapes
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.shells.thick_shell import ACROSS
 from ssilang.kernel.elements.solids.kinematics import as_components
@@ -16,7 +16,6 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.mesh.cells import CELL_TYPES
 
-THIN_SHELLS = ("plate", "meridian", "mindlin")
 JOINT_RATES = {
     "DRN": ("ALPN",), "EXX": ("ALPN",), "GXY": ("ALPS", "ALP1"), "GXZ": ("ALP2",),
     "CXX": ("ALQN",), "CXY": ("ALQ1",), "CXZ": ("ALQS", "ALQ2"),
@@ -76,12 +75,12 @@ def thermal_strain(zone: Zone, material: CellField, field: NodeField | CellField
     """
     family = family_of(zone)
     parameters = zone_field(zone, material)
-    if ELEMENTS[zone.element].family == "joint" and isinstance(field, NodeField):
+    kind = family_name(zone)
+    if kind == "joint" and isinstance(field, NodeField):
         raise FieldError("kernel.elements.temperature-joints-cells", element=zone.element)
     rise = temperature(zone, field) - parameters.at("TALP", "STRESSES", 0.0)
     names = family.strain_names(zone)
     values = np.zeros((len(zone.cells), len(names), rise.shape[1]))
-    kind = ELEMENTS[zone.element].family
     if kind in SOLID_FAMILIES:
         if kind == "incompressible" and CELL_TYPES[zone.cells.cell_type].degree == 1:
             rise = np.broadcast_to(rise.mean(axis=1, keepdims=True), rise.shape)

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.base.scientific import spatial
-from ssilang.kernel.elements.catalog import ELEMENTS, support_shapes
+from ssilang.kernel.elements.catalog import BEAMS, FLAT_SHELLS, family_name, support_shapes
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results import tensors
@@ -118,10 +118,6 @@ def given_rotations(
     return np.swapaxes(R, -1, -2) if transposed else R
 
 
-FLAT_SHELLS = ("plate", "mindlin")
-"""Families of flat shells; their parameters V1X V1Y are cosines in their own frames."""
-
-
 def has_shell_frames(zone: Zone) -> bool:
     """True for shells whose axes of orthotropy are given in their own frames."""
     return is_flat_shell(zone) or zone.element == "COQ2"
@@ -177,7 +173,7 @@ class SurfaceAxes:
 
 def is_flat_shell(zone: Zone) -> bool:
     """True for shells of flat cells."""
-    return ELEMENTS[zone.element].family in FLAT_SHELLS
+    return family_name(zone) in FLAT_SHELLS
 
 
 def shell_support(zone: Zone, field: CellField) -> Support:
@@ -250,7 +246,6 @@ def _global(own: FloatArray, inside: FloatArray) -> FloatArray:
 FOLLOWING = "LIE"
 """Of the option FRAME of JOI1: its axes follow."""
 _VECTORS = (("VX", "VY", "VZ"), ("V1X", "V1Y", "V1Z"), ("V2X", "V2Y", "V2Z"))
-_LINES = ("beam", "timoshenko", "pipe")
 
 
 def following_axes(model: Model, material: CellField, motion: NodeField) -> CellField:
@@ -274,8 +269,7 @@ def following_axes(model: Model, material: CellField, motion: NodeField) -> Cell
 def _turns(zone: Zone) -> bool:
     if zone.element == "JOI1":
         return zone.options.get("FRAME") == FOLLOWING
-    kind = ELEMENTS.get(zone.element)
-    return kind is not None and kind.family in _LINES
+    return family_name(zone) in BEAMS
 
 
 def _turns_of(zone: Zone, motion: NodeField) -> FloatArray:

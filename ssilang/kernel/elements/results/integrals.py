@@ -8,7 +8,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.bar import bar_stretch
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.catalog import LINES, THIN_SHELLS, family_name, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.shapes.geometry import surface_geometry
@@ -19,9 +19,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 
 # what the line or middle surface of a family is multiplied by
-_ACROSS = dict.fromkeys(("bar", "beam", "timoshenko", "pipe"), "SECT") | dict.fromkeys(
-    ("plate", "mindlin", "meridian"), "EPAI"
-)
+_ACROSS = dict.fromkeys(LINES, "SECT") | dict.fromkeys(THIN_SHELLS, "EPAI")
 
 
 def integrals(
@@ -48,7 +46,7 @@ def integrals(
     else:
         weights = family_of(zone).weights(zone, parameters, target)
     total: FloatArray = (np.broadcast_to(values, weights.shape) * weights).sum(axis=1)
-    family = ELEMENTS[zone.element].family
+    family = family_name(zone)
     across = _ACROSS.get(family)
     if material is not None and across is not None:
         if family == "pipe":
@@ -59,7 +57,7 @@ def integrals(
 
 def has_second_order(zone: Zone) -> bool:
     """Whether a zone's strains of second order are known."""
-    return is_solid(zone) or ELEMENTS[zone.element].family == "bar"
+    return is_solid(zone) or family_name(zone) == "bar"
 
 
 def green_strain(

@@ -5,7 +5,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import STRAIGHT_BEAMS, THIN_SHELLS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.frames import shell_frames, strains_or_stresses
 from ssilang.kernel.elements.results.tensors import components_at_home
@@ -24,7 +24,7 @@ _SKIN_NAMES = {
 
 def is_shell(zone: Zone) -> bool:
     """True for shells described by section forces."""
-    return ELEMENTS[zone.element].family in ("plate", "meridian", "mindlin")
+    return family_name(zone) in THIN_SHELLS
 
 
 def shell_skin(
@@ -69,7 +69,7 @@ def in_global_axes(zone: Zone, T: FloatArray) -> FloatArray:
 
 def is_thick_shell(zone: Zone) -> bool:
     """True for shells with stresses at points across the thickness."""
-    return ELEMENTS[zone.element].family == "thick"
+    return family_name(zone) == "thick"
 
 
 def thick_tensor(zone: Zone, field: CellField) -> tuple[FloatArray, Support]:
@@ -91,7 +91,7 @@ def skin_stress(zone: Zone, field: CellField, material: CellField) -> CellFieldB
     FieldError
         For elements that are not beams.
     """
-    if ELEMENTS[zone.element].family not in ("beam", "timoshenko"):
+    if family_name(zone) not in STRAIGHT_BEAMS:
         raise FieldError("kernel.elements.element-no-skin", element=zone.element)
     names = family_of(zone).stress_names(zone)
     forces, support = components_at_home(zone, field, names)

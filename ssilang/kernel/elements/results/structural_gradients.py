@@ -14,7 +14,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
+from ssilang.kernel.elements.catalog import FLAT_SHELLS, LINES, family_name, support_rule
 from ssilang.kernel.elements.families import components_of, family_of
 from ssilang.kernel.elements.family import Layout
 from ssilang.kernel.elements.shells.flat_shell import flat_frames, surface_slopes
@@ -24,22 +24,20 @@ from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 
-LINES = ("beam", "timoshenko", "pipe", "bar")
-SHELLS = ("plate", "mindlin")
 _SHELL_FORCES = np.array([[0, 2], [2, 1]])
 """Place of N11 N12, N12 N22 among N11 N22 N12."""
 
 
 def is_structural(zone: Zone) -> bool:
     """Whether a zone has gradients here: beams, bars of two nodes, flat shells."""
-    family = ELEMENTS[zone.element].family
-    return family in SHELLS or (family in LINES and zone.cells.cell_type == "SEG2")
+    family = family_name(zone)
+    return family in FLAT_SHELLS or (family in LINES and zone.cells.cell_type == "SEG2")
 
 
 def structural_names(zone: Zone) -> tuple[str, ...]:
     """Components of the gradient."""
     moves = ("UX", "UY", "UZ")[: 3 if zone.mode is Mode.THREE_DIMENSIONAL else 2]
-    axes = "XY" if ELEMENTS[zone.element].family in SHELLS else "X"
+    axes = "XY" if family_name(zone) in FLAT_SHELLS else "X"
     return tuple(f"{u},{a}" for u in moves for a in axes)
 
 
@@ -61,7 +59,7 @@ class _Surface:
 
 def _surface(zone: Zone, parameters: ZoneField) -> _Surface:
     rule = support_rule(zone.element, "STRESSES")
-    family = ELEMENTS[zone.element].family
+    family = family_name(zone)
     if family in LINES:
         frame = beam_frame(zone, parameters)
         d = zone.mode.dimension
@@ -92,7 +90,7 @@ def structural_gradient(zone: Zone, displacement: NodeField, parameters: ZoneFie
 
 def _forces(zone: Zone, stress: CellField) -> FloatArray:
     """Forces (n_cells, axes, axes, n_points) along the line or surface."""
-    names = ("N11", "N22", "N12") if ELEMENTS[zone.element].family in SHELLS else ("EFFX",)
+    names = ("N11", "N22", "N12") if family_name(zone) in FLAT_SHELLS else ("EFFX",)
     N = components_of(zone, stress, names)
     return N[:, _SHELL_FORCES] if len(names) == 3 else N[:, None]
 

@@ -13,7 +13,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import LINES, THIN_SHELLS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.solids.kinematics import as_tensor
@@ -140,7 +140,6 @@ def largest_shear_strain(zone: Zone, motion: Iterable[FloatArray]) -> CellFieldB
     return cell_block(zone, ("SCAL",), np.sqrt(largest)[:, None, None], "GRAVITE")
 
 
-SHELLS = ("plate", "meridian", "mindlin")
 LEVERS = {"MOMX": ("DX", "TORS"), "MOMY": ("DZ", "INRY"), "MOMZ": ("DY", "INRZ")}
 """Moments of beams: the distance that makes a stress of them, the constant of the section."""
 _PLANE = np.array([[1.0, -0.5, 0.0], [-0.5, 1.0, 0.0], [0.0, 0.0, 3.0]])
@@ -158,8 +157,8 @@ def section_form(zone: Zone, given: ZoneField, support: Support) -> FloatArray:
     FieldError
         For elements that are not shells, beams, pipes or bars.
     """
-    names, family = family_of(zone).stress_names(zone), ELEMENTS[zone.element].family
-    if family in SHELLS:
+    names, family = family_of(zone).stress_names(zone), family_name(zone)
+    if family in THIN_SHELLS:
         h = given.at("EPAI", support)
         weights = (1 / h, 6 * given.at("CALF", support, 2 / 3) / h**2)
         half = sum(n[0] == "M" for n in names)
@@ -168,7 +167,7 @@ def section_form(zone: Zone, given: ZoneField, support: Support) -> FloatArray:
             rows = slice(start, start + half)
             P[..., rows, rows] = (weight**2)[..., None, None] * _PLANE[:half, :half]
         return P
-    if family not in ("bar", "beam", "timoshenko", "pipe"):
+    if family not in LINES:
         raise FieldError("kernel.elements.element-no-equivalent-stress", element=zone.element)
     per_force = (_of_pipe if family == "pipe" else _of_beam)(zone, given)
     factors = np.broadcast_arrays(*(per_force.get(n, np.zeros((1, 1))) for n in names))
@@ -218,7 +217,7 @@ def section_equivalent(
     P = section_form(zone, given, support)
     P = np.broadcast_to(P, (len(forces), forces.shape[2], *P.shape[2:]))
     squares = np.einsum("cip,cpij,cjp->cp", forces, P, forces)
-    if ELEMENTS[zone.element].family == "pipe" and "CFPR" in given and "PRES" in given:
+    if family_name(zone) == "pipe" and "CFPR" in given and "PRES" in given:
         h, mean, _ = _ring(given)
         hoop = given.at("PRES", "GRAVITE") * given.at("CFPR", "GRAVITE") * mean / h
         squares = squares + hoop**2

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.elements.catalog import ELEMENTS
+from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
 from ssilang.kernel.fields.cell_field import CellField
@@ -22,7 +22,7 @@ from ssilang.kernel.plasticity.large.carried import Array, CarriedShell, seen_an
 
 def is_facet_shell(zone: Zone) -> bool:
     """Whether a zone is one of flat triangular shells (DKT, COQ3)."""
-    return ELEMENTS[zone.element].family == "plate" and zone.mode is Mode.THREE_DIMENSIONAL
+    return family_name(zone) == "plate" and zone.mode is Mode.THREE_DIMENSIONAL
 
 
 @dataclass(frozen=True, eq=False)
