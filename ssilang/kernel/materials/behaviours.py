@@ -57,7 +57,7 @@ UNIAXIAL_LAWS = ("PARFAIT_UNI", "BETON_BAEL", "ACIER_UNI", "BETON_UNI")
 UNIAXIAL_FAMILIES = ("fibre", "bar")
 """Families of elements that have them."""
 
-CREEP_FAMILIES = ("solid", "incompressible", *BARS, "thick", "plate", "meridian")
+CREEP_FAMILIES = ("solid", "incompressible", *BARS, "thick", *THIN_SHELLS)
 """Families of elements that creep, thin shells by the forces of their sections."""
 
 DAMAGE_FAMILIES = ("solid", *BARS)

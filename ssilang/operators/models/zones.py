@@ -2,7 +2,7 @@
 
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import BEAMS, SHELLS, SOLID_FAMILIES, family_name
+from ssilang.kernel.elements.catalog import BEAMS, BODY_FAMILIES, LINES, SHELLS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.structural_gradients import names_of_gradient
 from ssilang.kernel.elements.results.tensors import PRINCIPAL
@@ -212,7 +212,7 @@ def tail(
     blocks = []
     for zone in model.zones:
         family = family_name(zone)
-        if family not in (*SOLID_FAMILIES, *SHELLS, *BEAMS, "bar"):
+        if family not in (*BODY_FAMILIES, *SHELLS, *LINES):
             raise call.error("operators.models.no-smallest-length", model, element=zone.element)
         values = {"L": smallest_lengths(zone.cells)[:, None]}
         if family in (*SHELLS, *BEAMS):

@@ -108,7 +108,7 @@ T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ; T . 'TEMPS_CALCULES
 """
 
 
-@together("element", ["'DKT'", "'COQ3'", "'DKT' 'INTEGRE' 3"])
+@together("element", ["'DKT'", "'COQ3'", "'DST'", "'DKT' 'INTEGRE' 3"])
 @together("age", [0.5, 1.2])
 def test_a_stretched_plate_relaxes_as_a_body_in_plane_stress(element, age, tmp_path):
     words = {"element": element, "m": age, "a": "1.E-6"}

@@ -25,7 +25,7 @@ from ssilang.kernel.matrices.matrix import ElementMatrices
 
 TRANSLATIONS = ("UX", "UY", "UZ")
 _OF_REVOLUTION = ("UR", "UT", "UZ")
-_SCALAR_MASS = (*catalog.BODY_FAMILIES, *catalog.FLAT_SHELLS, "thick", "timoshenko", "bar")
+_SCALAR_MASS = (*catalog.BODY_FAMILIES, *catalog.FLAT_SHELLS, *catalog.BARS, "thick", "timoshenko")
 """Families whose mass couples each translation with itself only, all in the same way."""
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 

@@ -70,7 +70,7 @@ def _on_zone(
     zone: Zone, value: FloatArray | NodeField, plane_normal: FloatArray | None
 ) -> NodeField:
     family = catalog.family_name(zone)
-    if family not in (*catalog.STRAIGHT_BEAMS, "bar") or zone.cells.kind.n_nodes != 2:
+    if family not in catalog.LINES or zone.cells.kind.n_nodes != 2:
         raise MeshError("kernel.elements.load-along-lines-beams", element=zone.element)
     frame = beam_frame(zone, zone_field(zone, None))
     translations = NODE_TRANSLATIONS[zone.mode]
@@ -84,7 +84,7 @@ def _on_zone(
     local = np.stack(
         [np.einsum("cij,caj->cai", frame.axes, v) for v in (forces, moments)], axis=2
     )  # (n, end, force or moment, axis)
-    out = _equivalent(local, frame.lengths, family == "beam")
+    out = _equivalent(local, frame.lengths, family in catalog.CUBIC_BEAMS)
     turned = np.einsum("cij,cnti->cntj", frame.axes, out)
     columns = [(0, "XYZ".index(u[1])) for u in translations]
     columns += [(1, "XYZ".index(u[1])) for u in rotations]

@@ -8,7 +8,7 @@ from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.bar import bar_stretch
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import LINES, THIN_SHELLS, family_name, support_rule
+from ssilang.kernel.elements.catalog import BARS, BEAMS, THIN_SHELLS, family_name, support_rule
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.shapes.geometry import surface_geometry
@@ -19,7 +19,7 @@ from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 
 # what the line or middle surface of a family is multiplied by
-_ACROSS = dict.fromkeys(LINES, "SECT") | dict.fromkeys(THIN_SHELLS, "EPAI")
+_ACROSS = dict.fromkeys((*BEAMS, *BARS), "SECT") | dict.fromkeys(THIN_SHELLS, "EPAI")
 
 
 def integrals(
