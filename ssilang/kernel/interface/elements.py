@@ -7,12 +7,8 @@ its normal goes from the first node to the second. The jump is always u_U - u_L.
 
 from dataclasses import dataclass
 
-import numpy as np
-
-from ssilang.kernel.base.errors import MaterialError, MeshError
-from ssilang.kernel.elements.catalog import ELEMENTS, GAUSS, NODAL_WEIGHTS
-from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
-from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
+from ssilang.kernel.base.errors import MeshError
+from ssilang.kernel.elements.catalog import ELEMENTS, NODAL_WEIGHTS
 from ssilang.kernel.materials.model import Mode, Zone
 
 
@@ -26,7 +22,6 @@ class JointElement:
     dimension: int  # of space; the jump has as many components
     strains: tuple[str, ...]  # of the jump, shear first, normal last
     stresses: tuple[str, ...]  # of the traction
-    rule: str = "GAUSS"  # 'GAUSS', or 'LOBATTO': integration at the nodes
 
 
 _LINE = (("DRSN", "DRN"), ("SMSN", "SMN"))
@@ -42,7 +37,6 @@ _SURFACES = {
         k.cell_type,
         k.reference,
         *((3, *_SURFACE) if Mode.THREE_DIMENSIONAL in k.modes else (2, *_LINE)),
-        "LOBATTO" if k.nodal else "GAUSS",
     )
     for k in ELEMENTS.values()
     if k.family == "joint" and k.name != "JOI1"
@@ -65,9 +59,9 @@ def with_rule(element: str, rule: str) -> str:
     """
     if element == "JOI1":  # one pair of points: both rules are the same
         return element
-    here = _SURFACES[element]
-    for other in _SURFACES.values():
-        if other.cell_type == here.cell_type and other.rule == rule:
+    here, at_nodes = ELEMENTS[element], rule == "LOBATTO"
+    for other in (ELEMENTS[name] for name in _SURFACES):
+        if other.cell_type == here.cell_type and bool(other.nodal) == at_nodes:
             return other.name
     told = {"element": element, "nodal_weights": NODAL_WEIGHTS}
     raise MeshError("kernel.interface.joint-cannot-integrated-nodes", **told)
@@ -85,26 +79,3 @@ def joint_element(zone: Zone) -> JointElement:
 def is_joint(zone: Zone) -> bool:
     """True if the zone holds joints."""
     return zone.element in JOINT_NAMES
-
-
-def face_rule(face: str, rule: str = "GAUSS") -> Rule:
-    """Points and weights on a face, by name of the rule.
-
-    Parameters
-    ----------
-    rule : 'GAUSS' or 'LOBATTO'
-        Gauss is the more accurate for the resultant of a partly open footing; points at the
-        nodes avoid oscillating tractions where a joint is much stiffer than its neighbours.
-
-    Raises
-    ------
-    MaterialError
-        If the face has no such rule.
-    """
-    cell = REFERENCE_CELLS[face]
-    if rule == "GAUSS":
-        return quadrature(cell.shape, GAUSS[face])
-    if rule == "LOBATTO" and face in NODAL_WEIGHTS:
-        return Rule(cell.nodes, np.array(NODAL_WEIGHTS[face]))
-    told = {"face": face, "rule": rule, "nodal_weights": NODAL_WEIGHTS}
-    raise MaterialError("kernel.interface.joints-faces-no-integration", **told)

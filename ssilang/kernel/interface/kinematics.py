@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
+from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.zone_fields import ZoneField
-from ssilang.kernel.interface.elements import JointElement, face_rule, joint_element
+from ssilang.kernel.interface.elements import JointElement, joint_element
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.messages.message import Sentence
 
@@ -44,8 +45,6 @@ class JointCells:
 def joint_cells(zone: Zone, given: ZoneField | None = None) -> JointCells:
     """Local axes, interpolation and weights of a zone of joints.
 
-    Points are those of the zone's option 'INTEGRATION' (GAUSS or LOBATTO), else the element's.
-
     Parameters
     ----------
     given : ZoneField, optional
@@ -63,8 +62,7 @@ def joint_cells(zone: Zone, given: ZoneField | None = None) -> JointCells:
     _refuse_merged(zone, *half)
     if element.face == "POI1":
         return _two_points(zone, element, given, *half)
-    rule = str(zone.options.get("INTEGRATION", element.rule))
-    return _surface(zone, element, given, *half, rule)
+    return _surface(zone, element, given, *half)
 
 
 def element_sides(zone: Zone) -> tuple[IntArray, IntArray]:
@@ -133,9 +131,8 @@ def _surface(
     given: ZoneField | None,
     upper: IntArray,
     lower: IntArray,
-    rule_name: str,
 ) -> JointCells:
-    rule = face_rule(element.face, rule_name)
+    rule = support_rule(zone.element, "RIGIDITE")
     N = shape_functions(element.face, rule.points)
     dN = shape_gradients(element.face, rule.points)
     d = element.dimension

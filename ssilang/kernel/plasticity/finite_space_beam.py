@@ -18,7 +18,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
-from ssilang.kernel.elements.beams.beam_frame import beam_frame
+from ssilang.kernel.elements.beams.beam_frame import BeamFrame, beam_frame
 from ssilang.kernel.elements.catalog import STRAIGHT_BEAMS, family_name
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.zone_fields import zone_field
@@ -105,13 +105,18 @@ class FiniteBeam(Carried):
 
 def finite_beam(zone: Zone, material: CellField, points: int) -> FiniteBeam:
     """A zone of beams without stress."""
-    frame = beam_frame(zone, zone_field(zone, material))
-    T = frame.rotation(zone)
-    local = T @ stiffness(zone, material).values @ np.swapaxes(T, 1, 2)
-    ends = zone.cells.coordinates
-    span = (ends[:, -1] - ends[:, 0])[:, :2]
-    inner = CARRIED.T @ local @ CARRIED
-    return FiniteBeam(zone, inner, np.zeros((len(span), 3)), points, span)
+    _, span, inner = _at_rest(zone, material, CARRIED)
+    return FiniteBeam(zone, inner, np.zeros((len(span), 3)), points, span[:, :2])
+
+
+def _at_rest(
+    zone: Zone, material: CellField, carried: FloatArray
+) -> tuple[BeamFrame, FloatArray, FloatArray]:
+    """Frames, spans (n, 3), and stiffness (n, k, k) over what frames do not carry (m, k)."""
+    frame, ends = beam_frame(zone, zone_field(zone, material)), zone.cells.coordinates
+    moved = np.swapaxes(frame.rotation(zone), 1, 2) @ carried
+    inner = np.swapaxes(moved, 1, 2) @ stiffness(zone, material).values @ moved
+    return frame, ends[:, -1] - ends[:, 0], inner
 
 
 SMALL = 1e-3
@@ -224,9 +229,7 @@ class FiniteSpaceBeam(Carried):
         small: list[Array],
     ) -> Array:  # fmt: skip
         n = len(u)
-        T = np.zeros((n, 12, 12), dtype=frame.dtype)
-        for i in range(4):
-            T[:, 3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = frame
+        T = np.kron(np.eye(4)[None], frame)
         for k in (3, 9):
             T[:, k : k + 3, k : k + 3] = frame @ spin_of(u[:, k : k + 3])
         q = np.einsum("cij,cj->ci", frame, mean)
@@ -269,10 +272,5 @@ class FiniteSpaceBeam(Carried):
 
 def finite_space_beam(zone: Zone, material: CellField, points: int) -> FiniteSpaceBeam:
     """A zone of beams without stress."""
-    frame = beam_frame(zone, zone_field(zone, material))
-    T = frame.rotation(zone)
-    local = T @ stiffness(zone, material).values @ np.swapaxes(T, 1, 2)
-    ends = zone.cells.coordinates
-    inner = _CARRIED.T @ local @ _CARRIED
-    start = np.zeros((len(ends), 7))
-    return FiniteSpaceBeam(zone, inner, start, points, ends[:, -1] - ends[:, 0], frame.axes)
+    frame, span, inner = _at_rest(zone, material, _CARRIED)
+    return FiniteSpaceBeam(zone, inner, np.zeros((len(span), 7)), points, span, frame.axes)

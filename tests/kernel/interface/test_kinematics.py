@@ -12,6 +12,7 @@ from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
+from ssilang.kernel.interface.elements import with_rule
 from ssilang.kernel.interface.family import JointFamily
 from ssilang.kernel.interface.kinematics import joint_cells
 from ssilang.kernel.materials.model import Mode, Zone
@@ -50,8 +51,7 @@ def one_joint(element: str, rule: str = "GAUSS", reverse: bool = False, gap: flo
     upper = [bench.node(*(p + gap * normal)) for p in x]
     lower = [bench.node(*p) for p in x]
     sides = [*lower, *upper] if reverse else [*upper, *lower]
-    zone = bench.joint(cell, sides, element, KN=5.0, KS=2.0)
-    zone.options["INTEGRATION"] = rule
+    zone = bench.joint(cell, sides, with_rule(element, rule), KN=5.0, KS=2.0)
     return zone, bench.characteristics, x, R
 
 

@@ -26,13 +26,9 @@ class BeamFrame:
     lengths: FloatArray
     axes: FloatArray
 
-    def rotation(self, zone: Zone, n_nodes: int = 2) -> FloatArray:
-        """Matrix (n_cells, m, m) from global to local unknowns of all nodes."""
-        blocks = n_nodes * (2 if zone.mode is Mode.THREE_DIMENSIONAL else 1)
-        T = np.zeros((len(self.lengths), 3 * blocks, 3 * blocks))
-        for i in range(blocks):
-            T[:, 3 * i : 3 * i + 3, 3 * i : 3 * i + 3] = self.axes
-        return T
+    def rotation(self, zone: Zone) -> FloatArray:
+        """Matrix (n_cells, m, m) from global to local unknowns of both nodes."""
+        return np.kron(np.eye(4 if zone.mode is Mode.THREE_DIMENSIONAL else 2)[None], self.axes)
 
 
 def _default_side(along: FloatArray) -> FloatArray:

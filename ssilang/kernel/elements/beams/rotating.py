@@ -7,6 +7,7 @@ by the translations of their middle surface.
 """
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -60,16 +61,11 @@ def inertia_coupling(
     elif name in _SCALAR_MASS:
         mass, layout = family_of(zone).mass_values(zone, parameters)
         values = np.zeros_like(mass)
-        own = [i for i, u in enumerate(layout.unknowns) if u in names]
-        nodes = layout.local
-        for i in own:
-            a = names.index(layout.unknowns[i])
-            for j in own:
-                b = names.index(layout.unknowns[j])
+        rows = [np.flatnonzero([u == name for u in layout.unknowns]) for name in names]
+        for (a, own), (b, other) in product(enumerate(rows), repeat=2):
+            if len(own) and len(other):
                 # the scalar mass between two nodes, read off one and the same unknown
-                same = [r for r in own if layout.unknowns[r] == layout.unknowns[i]]
-                column = next(r for r in same if nodes[r] == nodes[j])
-                values[:, i, j] = coupling[a, b] * mass[:, i, column]
+                values[:, own[:, None], other] = coupling[a, b] * mass[:, own[:, None], own]
     else:
         raise FieldError("kernel.elements.element-no-matrices-turning", element=zone.element)
     symmetric = bool(np.array_equal(coupling, coupling.T))
@@ -129,11 +125,8 @@ def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> E
         raise FieldError("kernel.elements.corotational-damping-beams-space", element=zone.element)
     parameters = zone_field(zone, material)
     axes = beam_frame(zone, parameters).axes
-    turn = np.zeros((len(axes), *damping.values.shape[1:]))
     W = cross_matrix(parameters.each("OMEG", 1.0)[:, None] * axes[:, 0])
-    for start in range(0, turn.shape[1], 3):
-        turn[:, start : start + 3, start : start + 3] = W
-    values = -damping.values @ turn
+    values = -damping.values @ np.kron(np.eye(damping.values.shape[1] // 3)[None], W)
     return replace(damping, values=values, kind="RIGIDITE", zone=None, symmetric=False)
 
 

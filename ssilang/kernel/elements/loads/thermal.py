@@ -183,10 +183,7 @@ def given_strain(zone: Zone, field: CellField) -> FloatArray:
 
     Components that the field lacks, and all on zones that it does not cover, are zero.
     """
-    seen, names = zone_field(zone, field), family_of(zone).strain_names(zone)
-    shape = (len(zone.cells), n_points(zone.element, "STRESSES"))
-    columns = [np.broadcast_to(seen.at(n, "STRESSES", 0.0), shape) for n in names]
-    return np.stack(columns, axis=1)
+    return zone_field(zone, field).matrix(family_of(zone).strain_names(zone), "STRESSES")
 
 
 def _solid(zone: Zone, parameters: ZoneField, rise: FloatArray, n_strains: int) -> FloatArray:

@@ -144,21 +144,16 @@ def point_coordinates(field: CellField) -> list[tuple[CellFieldBlock, FloatArray
 
 def values_at_points(field: CellField) -> NodeField:
     """A nodal field on new nodes, one at each point that carries the field."""
-    parts: dict[str, list[NodeValues]] = {}
+    parts: dict[str, list[tuple[IntArray, FloatArray]]] = {}
     for block, x in point_coordinates(field):
         n, p, _ = x.shape
         nodes = block.cells.nodes.add(x.reshape(-1, 3))
         for name, values in block.components.items():
             flat = np.broadcast_to(values, (n, p)).astype(float).ravel()
-            parts.setdefault(name, []).append(NodeValues(nodes, flat))
+            parts.setdefault(name, []).append((nodes, flat))
     if not parts:
         raise FieldError("kernel.elements.field-empty")
-    made = {
-        name: NodeValues(
-            np.concatenate([v.nodes for v in values]), np.concatenate([v.values for v in values])
-        )
-        for name, values in parts.items()
-    }
+    made = {n: NodeValues(*map(np.concatenate, zip(*p, strict=True))) for n, p in parts.items()}
     return NodeField(field.blocks[0].cells.nodes, made, "DIFFUS")
 
 

@@ -11,28 +11,25 @@ from ssilang.kernel.base.errors import MaterialError, MeshError
 from ssilang.kernel.elements.catalog import support_rule
 from ssilang.kernel.elements.family import Layout, StrainOperator, TurningFamily
 from ssilang.kernel.elements.shells.shell_section import offset, section_moduli
+from ssilang.kernel.elements.solids import solid
 from ssilang.kernel.elements.solids.kinematics import harmonic
-from ssilang.kernel.elements.solids.solid import circumference, section_strain, with_section
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone
 
-REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
-_ROWS = {"plane": (0, 1, 3, 4), Mode.AXISYMMETRIC: (0, 1, 3, 4), Mode.FOURIER: tuple(range(6))}
-
 
 def _kept(zone: Zone) -> tuple[int, ...]:
-    return _ROWS.get(zone.mode, _ROWS["plane"])
+    return tuple(range(6)) if zone.mode is Mode.FOURIER else (0, 1, 3, 4)
 
 
 class _Meridian:
-    """Interpolation of u (along), w (normal), v (circumference) and slopes at points.
+    """Interpolation of u (along), w (normal), v (solid.circumference) and slopes at points.
 
     Each is an operator (n, p, rows) on the element's unknowns, in global components.
     """
 
-    def __init__(self, zone: Zone, support: Support, cells: slice) -> None:
+    def __init__(self, zone: Zone, support: Support, cells: slice = slice(None)) -> None:
         rule = support_rule(zone.element, support)
         x = zone.cells.nodes.coordinates[zone.cells.connectivity[cells]][..., :2]
         side = x[:, 1] - x[:, 0]
@@ -80,7 +77,7 @@ class _Meridian:
         return out
 
     def slope_around(self, harmonic_number: int) -> FloatArray:
-        """Rotation of the normal towards the circumference."""
+        """Rotation of the normal towards the solid.circumference."""
         r, nr = self.r[..., None], self.n[:, 0, None, None]
         return (harmonic_number * self.w + nr * self.v) / r
 
@@ -90,18 +87,18 @@ class MeridianShell(TurningFamily):
 
     def layout(self, zone: Zone) -> Layout:
         """Translations then rotations, node by node, then the section's."""
-        return with_section(zone, super().layout(zone))
+        return solid.with_section(zone, super().layout(zone))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Membrane strains and curvatures."""
-        if zone.mode not in REVOLUTION:
+        if zone.mode not in solid.REVOLUTION:
             return ("EPSS", "EPZZ", "RTSS", "RTZZ")
         names = ("EPSS", "EPTT", "GAST", "RTSS", "RTTT", "RTST")
         return tuple(names[i] for i in _kept(zone))
 
     def stress_names(self, zone: Zone) -> tuple[str, ...]:
         """Forces and moments per length."""
-        if zone.mode not in REVOLUTION:
+        if zone.mode not in solid.REVOLUTION:
             return ("N11", "NZZ", "M11", "MZZ")
         names = ("N11", "N22", "N12", "M11", "M22", "M12")
         return tuple(names[i] for i in _kept(zone))
@@ -134,17 +131,17 @@ class MeridianShell(TurningFamily):
         n, p, rows = m.shape
         B = np.zeros((n, 6, p, rows))
         B[:, 0], B[:, 3] = m.du, -m.ddw
-        if zone.mode in REVOLUTION:
+        if zone.mode in solid.REVOLUTION:
             self._around(B, m, harmonic(zone))
         if zone.mode is Mode.GENERALISED_PLANE_STRAIN:
             B = np.pad(B, ((0, 0), (0, 0), (0, 0), (0, 3)))
-            B[:, 1, :, rows:] = section_strain(zone, m.r, m.y)
+            B[:, 1, :, rows:] = solid.section_strain(zone, m.r, m.y)
             B[:, 4, :, rows + 1 :] = (m.n[:, ::-1] * (1.0, -1.0))[:, None]
         return StrainOperator(B[:, list(_kept(zone))], self._measure(zone, m, parameters, cells))
 
     @staticmethod
     def _around(B: FloatArray, m: _Meridian, k: int) -> None:
-        """Rows of the circumference, for harmonic k.
+        """Rows of the solid.circumference, for harmonic k.
 
         The twist counts the turning about the normal (Sanders, NASA TR R-24, 1959; Koiter, 1960),
         without which a body's own turning would twist a shell.
@@ -160,31 +157,31 @@ class MeridianShell(TurningFamily):
         B[:, 5] = (2 * k * m.dw + nr * m.dv - 2 * tr * turn + nr * about_normal) / r
 
     @staticmethod
-    def _measure(zone: Zone, m: _Meridian, parameters: ZoneField, cells: slice) -> FloatArray:
-        if zone.mode in REVOLUTION:
-            return m.weights * m.r * circumference(zone)
+    def _measure(
+        zone: Zone, m: _Meridian, parameters: ZoneField, cells: slice = slice(None)
+    ) -> FloatArray:
+        if zone.mode in solid.REVOLUTION:
+            return m.weights * m.r * solid.circumference(zone)
         width = parameters.at("DIM3", "GRAVITE", 1.0)
         part = width if len(width) == 1 else width[cells]
         return m.weights * part.mean(axis=1, keepdims=True)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO EPAI of the three displacements."""
-        whole = slice(0, len(zone.cells))
-        m = _Meridian(zone, "MASSE", whole)
+        m = _Meridian(zone, "MASSE")
         density = parameters.at("RHO", "MASSE") * parameters.at("EPAI", "MASSE")
-        w = self._measure(zone, m, parameters, whole) * density
+        w = self._measure(zone, m, parameters) * density
         values = sum(np.einsum("cp,cpi,cpj->cij", w, N, N, optimize=True) for N in (m.u, m.w, m.v))
         return np.asarray(values), super().layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Effect of the membrane forces on the rotations of the normal."""
-        whole = slice(0, len(zone.cells))
-        m = _Meridian(zone, "STRESSES", whole)
-        w = self._measure(zone, m, parameters, whole)
+        m = _Meridian(zone, "STRESSES")
+        w = self._measure(zone, m, parameters)
         values: FloatArray = np.einsum(
             "cp,cpi,cpj->cij", w * stress[:, 0], m.dw, m.dw, optimize=True
         )
-        if zone.mode in REVOLUTION:
+        if zone.mode in solid.REVOLUTION:
             turn = m.slope_around(harmonic(zone))
             values += np.einsum("cp,cpi,cpj->cij", w * stress[:, 1], turn, turn, optimize=True)
         beyond = len(self.layout(zone).unknowns) - values.shape[-1]  # the section's motion
@@ -201,7 +198,7 @@ def meridian_forces(zone: Zone, pushed: FloatArray, parameters: ZoneField) -> No
     parameters : ZoneField
         DIM3 is the width in plane stress.
     """
-    m = _Meridian(zone, "MASSE", slice(0, len(zone.cells)))
+    m = _Meridian(zone, "MASSE")
     along, across = (np.einsum("cpd,cd->cp", pushed[..., :2], axis) for axis in (m.t, m.n))
     work = np.einsum("cp,cpi->ci", along, m.u) + np.einsum("cp,cpi->ci", across, m.w)
     if pushed.shape[-1] == 3:

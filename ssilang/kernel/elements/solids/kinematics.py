@@ -58,10 +58,6 @@ _SPACE_TERMS: tuple[Term, ...] = (
 )  # fmt: skip
 
 
-def _names(prefix: tuple[str, str], axes: tuple[str, ...], normal: int) -> tuple[str, ...]:
-    return tuple(prefix[0 if i < normal else 1] + a for i, a in enumerate(axes))
-
-
 def _entry(
     unknowns: tuple[str, ...],
     components: tuple[str, ...],
@@ -70,8 +66,8 @@ def _entry(
 ) -> SolidKinematics:
     return SolidKinematics(
         unknowns,
-        _names(("EP", "GA"), components, 3),
-        _names(("SM", "SM"), components, 3),
+        tuple(("EP" if i < 3 else "GA") + a for i, a in enumerate(components)),
+        tuple("SM" + a for a in components),
         tuple(f"{u},{a}" for u in unknowns for a in gradient_axes),
         terms,
     )
