@@ -72,8 +72,7 @@ def face_geometry(
     faces: CellBlock, mode: Mode, harmonic: int = 0, rule: Rule | None = None
 ) -> SurfaceGeometry:
     """Area vectors of faces (times 2 pi r in axisymmetry, pi r for a harmonic > 0)."""
-    dim = 3 if mode is Mode.THREE_DIMENSIONAL else mode.dimension
-    x = faces.coordinates[..., :dim]
+    x = faces.coordinates[..., : mode.dimension]
     geometry = surface_geometry(faces.cell_type, x, rule or face_rule(faces.cell_type))
     if mode not in (Mode.AXISYMMETRIC, Mode.FOURIER):
         return geometry

@@ -85,7 +85,7 @@ class ElementKind:
         return REFERENCE_CELLS[self.reference or self.cell_type]
 
 
-def _solid(
+def _element(
     name: str,
     modes: tuple[Mode, ...],
     stiffness: int,
@@ -117,79 +117,69 @@ def _joint(name: str, cell_type: str, face: str, at_nodes: bool = False) -> Elem
     return ElementKind(name, cell_type, "joint", modes, points, False, face, nodal=nodal)
 
 
-def _anywhere(name: str, cell_type: str, family: str, points: int = 1) -> ElementKind:
-    return ElementKind(name, cell_type, family, tuple(Mode), {"RIGIDITE": points}, default=False)
-
-
 _VOLUME = (Mode.THREE_DIMENSIONAL,)
 _ROD: dict[Support, int] = {"RIGIDITE": 2, "MASSE": 3}
 
 ELEMENTS: dict[str, ElementKind] = {
     kind.name: kind
     for kind in (
-        _solid("TRI3", SECTION_MODES, 1, 3),
-        _solid("TRI6", SECTION_MODES, 3, 7),
-        _solid("QUA4", SECTION_MODES, 4),
-        _solid("QUA8", SECTION_MODES, 9),
-        *(_solid(name, SECTION_MODES, n, 3 * n) for name, n in SIDES.items()),
-        _solid("Q4RI", SECTION_MODES, 1, 4, "QUA4", "one point"),
-        _solid("Q8RI", SECTION_MODES, 4, 9, "QUA8"),
-        _solid("TET4", _VOLUME, 1, 4),
-        _solid("TE10", _VOLUME, 4, 27),
-        _solid("PRI6", _VOLUME, 6),
-        _solid("PR15", _VOLUME, 21),
-        _solid("P15R", _VOLUME, 6, 21, "PR15"),
-        _solid("PYR5", _VOLUME, 8),
-        _solid("PY13", _VOLUME, 27),
-        _solid("CUB8", _VOLUME, 8),
-        _solid("CU20", _VOLUME, 27),
-        _solid("C20R", _VOLUME, 8, 27, "CU20"),
-        _solid("ICT3", SECTION_MODES, 3, 3, "TRI3", "incompressible"),
-        _solid("ICT6", SECTION_MODES, 3, 7, "TRI6", "incompressible"),
-        _solid("ICQ4", SECTION_MODES, 4, 4, "QUA4", "incompressible"),
-        _solid("ICQ8", SECTION_MODES, 9, 9, "QUA8", "incompressible"),
-        _solid("ICT4", _VOLUME, 1, 4, "TET4", "incompressible"),
-        _solid("IC10", _VOLUME, 4, 27, "TE10", "incompressible"),
-        _solid("ICP6", _VOLUME, 6, 6, "PRI6", "incompressible"),
-        _solid("IC15", _VOLUME, 21, 21, "PR15", "incompressible"),
-        _solid("ICY5", _VOLUME, 8, 8, "PYR5", "incompressible"),
-        _solid("IC13", _VOLUME, 27, 27, "PY13", "incompressible"),
-        _solid("ICC8", _VOLUME, 8, 8, "CUB8", "incompressible"),
-        _solid("IC20", _VOLUME, 27, 27, "CU20", "incompressible"),
+        _element("TRI3", SECTION_MODES, 1, 3),
+        _element("TRI6", SECTION_MODES, 3, 7),
+        _element("QUA4", SECTION_MODES, 4),
+        _element("QUA8", SECTION_MODES, 9),
+        *(_element(name, SECTION_MODES, n, 3 * n) for name, n in SIDES.items()),
+        _element("Q4RI", SECTION_MODES, 1, 4, "QUA4", "one point"),
+        _element("Q8RI", SECTION_MODES, 4, 9, "QUA8"),
+        _element("TET4", _VOLUME, 1, 4),
+        _element("TE10", _VOLUME, 4, 27),
+        _element("PRI6", _VOLUME, 6),
+        _element("PR15", _VOLUME, 21),
+        _element("P15R", _VOLUME, 6, 21, "PR15"),
+        _element("PYR5", _VOLUME, 8),
+        _element("PY13", _VOLUME, 27),
+        _element("CUB8", _VOLUME, 8),
+        _element("CU20", _VOLUME, 27),
+        _element("C20R", _VOLUME, 8, 27, "CU20"),
+        _element("ICT3", SECTION_MODES, 3, 3, "TRI3", "incompressible"),
+        _element("ICT6", SECTION_MODES, 3, 7, "TRI6", "incompressible"),
+        _element("ICQ4", SECTION_MODES, 4, 4, "QUA4", "incompressible"),
+        _element("ICQ8", SECTION_MODES, 9, 9, "QUA8", "incompressible"),
+        _element("ICT4", _VOLUME, 1, 4, "TET4", "incompressible"),
+        _element("IC10", _VOLUME, 4, 27, "TE10", "incompressible"),
+        _element("ICP6", _VOLUME, 6, 6, "PRI6", "incompressible"),
+        _element("IC15", _VOLUME, 21, 21, "PR15", "incompressible"),
+        _element("ICY5", _VOLUME, 8, 8, "PYR5", "incompressible"),
+        _element("IC13", _VOLUME, 27, 27, "PY13", "incompressible"),
+        _element("ICC8", _VOLUME, 8, 8, "CUB8", "incompressible"),
+        _element("IC20", _VOLUME, 27, 27, "CU20", "incompressible"),
         ElementKind("M1D2", "SEG2", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 2}),
         ElementKind("M1D3", "SEG3", "solid", (Mode.UNIDIMENSIONAL,), {"RIGIDITE": 3}),
         ElementKind("BARR", "SEG2", "bar", FRAME_MODES, _ROD),
         ElementKind("BAR3", "SEG3", "bar", FRAME_MODES, _ROD),
-        ElementKind("POI1", "POI1", "across", PLANE_MODES[2:], {"RIGIDITE": 1}, default=False),
-        ElementKind("CERC", "POI1", "hoop", SECTION_MODES[-2:], {"RIGIDITE": 1}, default=False),
-        ElementKind("POUT", "SEG2", "beam", FRAME_MODES, {"RIGIDITE": 2}, default=False),
-        ElementKind(
-            "TIMO", "SEG2", "timoshenko", FRAME_MODES, {"RIGIDITE": 1, "MASSE": 2}, default=False
-        ),
-        ElementKind("POJS", "POI1", "fibre", FRAME_MODES, {"RIGIDITE": 1}, default=False),
-        ElementKind("TRIS", "TRI3", "fibre", FRAME_MODES, {"RIGIDITE": 3}, default=False),
-        ElementKind("QUAS", "QUA4", "fibre", FRAME_MODES, {"RIGIDITE": 4}, default=False),
-        ElementKind("TUYA", "SEG2", "pipe", _VOLUME, {"RIGIDITE": 2}, default=False),
-        ElementKind("DKT", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3}, default=False),
+        _element("POI1", PLANE_MODES[2:], 1, 0, "POI1", "across"),
+        _element("CERC", SECTION_MODES[-2:], 1, 0, "POI1", "hoop"),
+        _element("POUT", FRAME_MODES, 2, 0, "SEG2", "beam"),
+        _element("TIMO", FRAME_MODES, 1, 2, "SEG2", "timoshenko"),
+        _element("POJS", FRAME_MODES, 1, 0, "POI1", "fibre"),
+        _element("TRIS", FRAME_MODES, 3, 0, "TRI3", "fibre"),
+        _element("QUAS", FRAME_MODES, 4, 0, "QUA4", "fibre"),
+        _element("TUYA", _VOLUME, 2, 0, "SEG2", "pipe"),
+        _element("DKT", _VOLUME, 3, 0, "TRI3", "plate"),
         ElementKind(
             "COQ3", "TRI3", "plate", _VOLUME, {"RIGIDITE": 3, "STRESSES": 1}, default=False
         ),
-        ElementKind("SEG2", "SEG2", "pressure", SECTION_MODES, {"RIGIDITE": 2}, default=False),
-        ElementKind("SEG3", "SEG3", "pressure", SECTION_MODES, {"RIGIDITE": 2}, default=False),
-        ElementKind(
-            "SHB8", "CUB8", "solid shell", _VOLUME, {"RIGIDITE": 5, "MASSE": 8}, default=False
-        ),
-        ElementKind("DST", "TRI3", "mindlin", _VOLUME, {"RIGIDITE": 3}, default=False),
-        ElementKind("COQ4", "QUA4", "mindlin", _VOLUME, {"RIGIDITE": 4}, default=False),
+        _element("SEG2", SECTION_MODES, 2, 0, "SEG2", "pressure"),
+        _element("SEG3", SECTION_MODES, 2, 0, "SEG3", "pressure"),
+        _element("SHB8", _VOLUME, 5, 8, "CUB8", "solid shell"),
+        _element("DST", _VOLUME, 3, 0, "TRI3", "mindlin"),
+        _element("COQ4", _VOLUME, 4, 0, "QUA4", "mindlin"),
         ElementKind(
             "COQ6", "TRI6", "thick", _VOLUME, {"RIGIDITE": 3, "MASSE": 7}, default=False, layers=2
         ),
         ElementKind(
             "COQ8", "QUA8", "thick", _VOLUME, {"RIGIDITE": 4, "MASSE": 9}, default=False, layers=2
         ),
-        ElementKind(
-            "COQ2", "SEG2", "meridian", SECTION_MODES, {"RIGIDITE": 3, "MASSE": 4}, default=False
-        ),
+        _element("COQ2", SECTION_MODES, 3, 4, "SEG2", "meridian"),
         ElementKind("JOI1", "SEG2", "joint", FRAME_MODES, {"RIGIDITE": 1}, False, "POI1"),
         _joint("JOI2", "RAC2", "SEG2"),
         _joint("JOI3", "RAC3", "SEG3"),
@@ -201,14 +191,14 @@ ELEMENTS: dict[str, ElementKind] = {
         _joint("JNO3", "RAC3", "SEG3", True),
         _joint("JNT3", "LIA3", "TRI3", True),
         _joint("JNO4", "LIA4", "QUA4", True),
-        _anywhere("IMP1", "POI1", "impedance"),
-        _anywhere("IMP2", "SEG2", "impedance"),
-        _anywhere("MODAL", "POI1", "shape"),
-        _anywhere("STATIQUE", "POI1", "shape"),
-        _anywhere("LIAI", "POI1", "link"),
-        _anywhere("COS2", "SEG2", "contact", 2),
-        _anywhere("COT3", "TRI3", "contact", 1),
-        _anywhere("COQU", "QUA4", "contact", 4),
+        _element("IMP1", tuple(Mode), 1, 0, "POI1", "impedance"),
+        _element("IMP2", tuple(Mode), 1, 0, "SEG2", "impedance"),
+        _element("MODAL", tuple(Mode), 1, 0, "POI1", "shape"),
+        _element("STATIQUE", tuple(Mode), 1, 0, "POI1", "shape"),
+        _element("LIAI", tuple(Mode), 1, 0, "POI1", "link"),
+        _element("COS2", tuple(Mode), 2, 0, "SEG2", "contact"),
+        _element("COT3", tuple(Mode), 1, 0, "TRI3", "contact"),
+        _element("COQU", tuple(Mode), 4, 0, "QUA4", "contact"),
     )
 }
 

@@ -132,6 +132,12 @@ class ElementFamily(ABC):
         for cells in chunks(n):
             operator = self.strain_operator(zone, parameters, "RIGIDITE", cells)
             values[cells] = contract(operator, per_cell(moduli, cells))
+        return self.held_about_normals(zone, values, moduli, parameters)
+
+    def held_about_normals(
+        self, zone: Zone, values: FloatArray, moduli: FloatArray, parameters: ZoneField
+    ) -> FloatArray:
+        """Stiffness matrices with a small term about the normals of shells, which they lack."""
         return values
 
     def strain_values(

@@ -217,23 +217,17 @@ def dynamic_stiffness(
         for name, parts in curves.items():
             values = [np.interp(frequency, p.abscissas, p.ordinates) for p in parts.values()]
             moving[[*parts]] += np.multiply(1.0 if name == "RAID" else 1j * pulsation, values)
-        return spread_complex(zone, layout, moving, parameters), layout
+        turning = moving
+        if "CPLE" in parameters:
+            turning = _values(zone, parameters, "RIGIDITE")[1].astype(complex)
+        return _complex(zone, layout, moving, turning), layout
     return None
-
-
-def spread_complex(
-    zone: Zone, layout: Layout, moving: ComplexArray, parameters: ZoneField
-) -> ComplexArray:
-    """`spread` of complex numbers; rotations have CPLE where it is given."""
-    turning = moving
-    if "CPLE" in parameters:
-        turning = _values(zone, parameters, "RIGIDITE")[1].astype(complex)
-    return _complex(zone, layout, moving, turning)
 
 
 def _complex(
     zone: Zone, layout: Layout, moving: ComplexArray, turning: ComplexArray
 ) -> ComplexArray:
+    """`spread` of complex numbers."""
     real = spread(zone, layout, (moving.real, turning.real))
     return real + 1j * spread(zone, layout, (moving.imag, turning.imag))
 

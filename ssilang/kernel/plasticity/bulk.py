@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.elements.catalog import FLAT_SHELLS, family_name
+from ssilang.kernel.elements.catalog import SHELLS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import element_matrices
+from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.assembly import Numbering, assemble_terms, block_indices
 from ssilang.kernel.matrices.matrix import ElementMatrices
-from ssilang.kernel.plasticity.layered_points import drilling_stiffness
 from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState
 from ssilang.kernel.plasticity.solving.blocks import ZonePass
 from ssilang.kernel.plasticity.zone_points import plastic_points, zone_pass
@@ -325,8 +325,12 @@ def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numb
 
 def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:
     """What of a plastic zone's stiffness is not its law's: that about the normals of shells."""
-    drilled = family_name(zone) in (*FLAT_SHELLS, "thick")
-    return drilling_stiffness(zone, characteristics) if drilled else without_stiffness(zone)
+    blank, family = without_stiffness(zone), family_of(zone)
+    if family_name(zone) not in SHELLS:
+        return blank
+    given = zone_field(zone, characteristics)
+    moduli = family.moduli(zone, given, "RIGIDITE")
+    return replace(blank, values=family.held_about_normals(zone, blank.values, moduli, given))
 
 
 def without_stiffness(zone: Zone) -> ElementMatrices:

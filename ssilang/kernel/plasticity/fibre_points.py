@@ -89,15 +89,9 @@ def fibre_groups(section: fibre_section.FibreSection) -> tuple[FibreGroup, ...]:
     groups = []
     for part in section.zones:
         law = plastic_law(part.zone.behaviour) or ELASTIC
-        count = part.rows.stop - part.rows.start
-        shape = (len(part.zone.cells), count // len(part.zone.cells))
         plane = 0.0 if part.zone.mode.dimension == 2 else None
-        columns = [
-            np.broadcast_to(part.parameters.at(name, "STRESSES", default), shape).ravel()
-            for name, default in (("ALPY", None), ("ALPZ", plane))
-        ]
-        parameters = law_parameters(part.zone, law, part.parameters)
-        groups.append(FibreGroup(part, law, parameters, np.stack(columns, axis=1)))
+        shear = np.stack([part.each("ALPY"), part.each("ALPZ", plane)], axis=1)
+        groups.append(FibreGroup(part, law, law_parameters(part.zone, law, part.parameters), shear))
     return tuple(groups)
 
 

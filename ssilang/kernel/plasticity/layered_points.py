@@ -12,20 +12,12 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.family import cell_block, element_matrices
-from ssilang.kernel.elements.shells.flat_shell import FlatShell
-from ssilang.kernel.elements.shells.shell_section import (
-    SHEAR_FACTOR,
-    drilled,
-    material_moduli,
-    section_moduli,
-)
-from ssilang.kernel.elements.shells.thick_shell import fibres
+from ssilang.kernel.elements.family import cell_block
+from ssilang.kernel.elements.shells.shell_section import SHEAR_FACTOR
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.materials.plastic.laws import plastic_law
-from ssilang.kernel.matrices.matrix import ElementMatrices
 from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState, law_parameters
 
 OPTION = "INTEGRE"
@@ -139,18 +131,3 @@ def layered_points(zone: Zone, characteristics: CellField) -> LayeredPoints:
         zone, law, family.layout(zone), B, weights, None, COMPONENTS, HELD, parameters,
         heights, shares, count,
     )  # fmt: skip
-
-
-def drilling_stiffness(zone: Zone, characteristics: CellField) -> ElementMatrices:
-    """The small stiffness about the normals that the layers lack, as that of elastic shells."""
-    parameters, family = zone_field(zone, characteristics), family_of(zone)
-    layout = family.layout(zone)
-    values = np.zeros((len(zone.cells), len(layout.unknowns), len(layout.unknowns)))
-    if isinstance(family, FlatShell):
-        bending = section_moduli(zone, parameters, "RIGIDITE")[:, :, 3, 3].mean(axis=1)
-        values = family.held_about_normals(zone, values, bending)
-    else:
-        h = parameters.at("EPAI", "GRAVITE")[:, 0]
-        bending = material_moduli(zone, parameters, "RIGIDITE")[:, :, 0, 0].mean(axis=1) * h**3 / 12
-        values = drilled(zone, values, bending, fibres(zone))
-    return element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)

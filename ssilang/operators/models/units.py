@@ -59,12 +59,11 @@ def _of_matter(call: Call, given: Mapping[str, Given]) -> UnitSystem | None:
     if len(known) < len(MATTER[0]) or not all(known.values()):
         return None
     fits = [all(v in usual[n] for n in usual for v in known[n]) for usual in MATTER]
+    told = {n.lower(): max(ends) for n, ends in known.items()}
     if not any(fits):
-        told = {n.lower(): max(ends) for n, ends in known.items()}
         call.warn("operators.models.no-units", given["RHO"][1], **told)
     hard = all(v in _HARD for v in known["RHO"]) and all(v in _SOFT for v in known["YOUN"])
     if hard and fits[0]:
-        told = {n.lower(): max(ends) for n, ends in known.items()}
         call.warn("operators.models.soft-for-its-density", given["YOUN"][1], **told)
     first = next((s for s, there in zip(SYSTEMS.values(), fits, strict=False) if there), None)
     return first if sum(fits) == 1 else None

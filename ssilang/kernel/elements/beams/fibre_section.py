@@ -18,7 +18,7 @@ from ssilang.kernel.base.errors import FieldError, MaterialError
 from ssilang.kernel.elements.catalog import family_name, support_rule
 from ssilang.kernel.elements.family import ElementFamily, Layout, StrainOperator
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
-from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, zone_field
+from ssilang.kernel.elements.zone_fields import ZoneField, missing_parameter, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField, Support
 from ssilang.kernel.materials.elasticity import check_isotropic
 from ssilang.kernel.materials.model import Model, Zone
@@ -99,6 +99,11 @@ class SectionZone:
     parameters: ZoneField
     rows: slice
 
+    def each(self, name: str, default: float | None = None) -> FloatArray:
+        """A parameter (n_fibres,) of the zone's fibres."""
+        shape = (len(self.zone.cells), n_points(self.zone.element, "STRESSES"))
+        return np.broadcast_to(self.parameters.at(name, "STRESSES", default), shape).ravel()
+
 
 @dataclass(frozen=True, eq=False)
 class FibreSection:
@@ -128,14 +133,9 @@ class FibreSection:
     @property
     def mass(self) -> FloatArray:
         """Mass per length (6, 6) of translations and rotations about the line."""
-        rho = np.concatenate([self._density(z) for z in self.zones])
+        rho = np.concatenate([z.each("RHO") for z in self.zones])
         N = self.operator  # velocities follow as strains do
         return np.einsum("f,fsi,fsj->ij", rho * self.areas, N, N)
-
-    def _density(self, part: SectionZone) -> FloatArray:
-        n = part.rows.stop - part.rows.start
-        shape = (len(part.zone.cells), n // len(part.zone.cells))
-        return np.broadcast_to(part.parameters.at("RHO", "STRESSES"), shape).ravel()
 
     @property
     def squared_radii(self) -> FloatArray:

@@ -11,18 +11,16 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.elements.boundary import face_rule
+from ssilang.kernel.elements.boundary import face_geometry, face_rule
 from ssilang.kernel.elements.family import element_matrices, node_major_layout
 from ssilang.kernel.elements.shapes.reference import shape_functions, shape_gradients
 from ssilang.kernel.elements.solids.kinematics import NODE_TRANSLATIONS, harmonic
-from ssilang.kernel.elements.solids.solid import circumference
+from ssilang.kernel.elements.solids.solid import REVOLUTION, circumference
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices
-
-REVOLUTION = (Mode.AXISYMMETRIC, Mode.FOURIER)
 
 
 def pressure_stiffness(
@@ -64,29 +62,19 @@ def gradient_stiffness(
         For cells that are no sides.
     """
     dim = _dimension(zone)
-    N, dN, x = _shapes(zone)
-    w = np.broadcast_to(face_rule(zone.cells.cell_type).weights, (len(x), len(N)))
-    tangents = np.einsum("pki,ckj->cpij", dN, x)
-    if dim == 3:
-        area = np.cross(tangents[:, :, 0], tangents[:, :, 1])
-    else:
-        t = tangents[:, :, 0]
-        area = np.stack([-t[..., 1], t[..., 0]], axis=-1)
-        if zone.mode in REVOLUTION:
-            w = w * circumference(zone) * (x[..., 0] @ N.T)
-    size = np.linalg.norm(area, axis=-1, keepdims=True)
-    along = area / size if direction is None else direction[:dim] / np.linalg.norm(direction[:dim])
+    face = face_geometry(zone.cells, zone.mode, harmonic(zone))
+    N, area = face.shapes, face.normals if dim == 3 else -face.normals  # a quarter turn from a line
+    unit = area / face.measures[..., None]
+    along = unit if direction is None else direction[:dim] / np.linalg.norm(direction[:dim])
     along = np.broadcast_to(along, area.shape)
-    d = len(NODE_TRANSLATIONS[zone.mode])
-    values = np.zeros((*x.shape[:2], d, x.shape[1], d))
-    values[:, :, :dim, :, :dim] = np.einsum(
-        "cp,pa,cpi,pb,cpj->caibj", modulus * w, N, area, N, along
-    )
+    k, d = N.shape[1], len(NODE_TRANSLATIONS[zone.mode])
+    values = np.zeros((len(area), k, d, k, d))
+    values[:, :, :dim, :, :dim] = np.einsum("pa,cpi,pb,cpj->caibj", N, modulus * area, N, along)
     return _matrices(zone, _joined(values), unsymmetric)
 
 
 def _dimension(zone: Zone) -> int:
-    dim = 3 if zone.mode is Mode.THREE_DIMENSIONAL else zone.mode.dimension
+    dim = zone.mode.dimension
     if zone.cells.kind.dimension != dim - 1 or zone.cells.kind.joint:
         raise MeshError("kernel.elements.cells-carry-no-pressure", cell_type=zone.cells.cell_type)
     return dim

@@ -22,7 +22,7 @@ from ssilang.kernel.elements.solids.gradients import gradient_names
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Zone
 
 _SHELL_FORCES = np.array([[0, 2], [2, 1]])
 """Place of N11 N12, N12 N22 among N11 N22 N12."""
@@ -36,7 +36,7 @@ def is_structural(zone: Zone) -> bool:
 
 def structural_names(zone: Zone) -> tuple[str, ...]:
     """Components of the gradient."""
-    moves = ("UX", "UY", "UZ")[: 3 if zone.mode is Mode.THREE_DIMENSIONAL else 2]
+    moves = ("UX", "UY", "UZ")[: zone.mode.dimension]
     axes = "XY" if family_name(zone) in FLAT_SHELLS else "X"
     return tuple(f"{u},{a}" for u in moves for a in axes)
 

@@ -108,19 +108,16 @@ class FlatShell(TurningFamily):
         rule = support_rule(zone.element, support)
         return surface_slopes(zone, flat_frames(zone)[1], rule)[1]
 
-    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
-        """The usual stiffness and a small one about the normal, which the element lacks."""
-        values = super().stiffness_values(zone, moduli, parameters)
-        return self.held_about_normals(zone, values, moduli[:, :, 3, 3].mean(axis=1))
-
-    def held_about_normals(self, zone: Zone, values: FloatArray, bending: FloatArray) -> FloatArray:
-        """Matrices with a stiffness about the normals, by that in bending (n,)."""
+    def held_about_normals(
+        self, zone: Zone, values: FloatArray, moduli: FloatArray, parameters: ZoneField
+    ) -> FloatArray:
+        """By the stiffness in bending, and the warp of cells."""
         frames, local = flat_frames(zone)
         slopes, _ = surface_slopes(zone, local, support_rule(zone.element, "RIGIDITE"))
         steep = (rises(zone, slice(None), frames, slopes) ** 2).sum(axis=2).mean(axis=1)
         turned = np.clip(WARPED * steep / DRILLING, 1.0, 0.1 / DRILLING)
         normals = _normals(frames, zone.cells.kind.n_nodes)
-        return drilled(zone, values, bending * turned, normals)
+        return drilled(zone, values, moduli[:, :, 3, 3].mean(axis=1) * turned, normals)
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """By the shapes of the cell: RHO EPAI of translations, RHO EPAI^3 / 12 of rotations."""

@@ -138,9 +138,10 @@ class ThickShell(family.TurningFamily):
         )
         return family.StrainOperator(B.reshape(n, 5, p, 6 * k), weights)
 
-    def stiffness_values(self, zone: Zone, moduli: FloatArray, parameters: ZoneField) -> FloatArray:
-        """The usual stiffness and a small one about the fibres, which the element lacks."""
-        values = super().stiffness_values(zone, moduli, parameters)
+    def held_about_normals(
+        self, zone: Zone, values: FloatArray, moduli: FloatArray, parameters: ZoneField
+    ) -> FloatArray:
+        """By the stiffness in bending."""
         bending = moduli[:, :, 0, 0].mean(axis=1) * parameters.each("EPAI") ** 3 / 12
         return shell_section.drilled(zone, values, bending, fibres(zone))
 
