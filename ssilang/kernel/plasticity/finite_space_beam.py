@@ -21,6 +21,7 @@ from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import BeamFrame, beam_frame
 from ssilang.kernel.elements.catalog import STRAIGHT_BEAMS, family_name
 from ssilang.kernel.elements.families import stiffness
+from ssilang.kernel.elements.solids.kinematics import on_diagonal
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -229,7 +230,7 @@ class FiniteSpaceBeam(Carried):
         small: list[Array],
     ) -> Array:  # fmt: skip
         n = len(u)
-        T = np.kron(np.eye(4)[None], frame)
+        T = on_diagonal(frame, 4)
         for k in (3, 9):
             T[:, k : k + 3, k : k + 3] = frame @ spin_of(u[:, k : k + 3])
         q = np.einsum("cij,cj->ci", frame, mean)

@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError, MeshError
+from ssilang.kernel.elements.solids.kinematics import on_diagonal
 from ssilang.kernel.elements.zone_fields import ZoneField
 from ssilang.kernel.materials.model import Mode, Zone
 
@@ -28,7 +29,7 @@ class BeamFrame:
 
     def rotation(self, zone: Zone) -> FloatArray:
         """Matrix (n_cells, m, m) from global to local unknowns of both nodes."""
-        return np.kron(np.eye(4 if zone.mode is Mode.THREE_DIMENSIONAL else 2)[None], self.axes)
+        return on_diagonal(self.axes, 4 if zone.mode is Mode.THREE_DIMENSIONAL else 2)
 
 
 def _default_side(along: FloatArray) -> FloatArray:

@@ -18,7 +18,7 @@ from ssilang.kernel.elements.beams.beam import keep, to_global
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import element_matrices
-from ssilang.kernel.elements.solids.kinematics import cross_matrix
+from ssilang.kernel.elements.solids.kinematics import cross_matrix, on_diagonal
 from ssilang.kernel.elements.zone_fields import ZoneField, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
@@ -126,7 +126,7 @@ def corotational(zone: Zone, damping: ElementMatrices, material: CellField) -> E
     parameters = zone_field(zone, material)
     axes = beam_frame(zone, parameters).axes
     W = cross_matrix(parameters.each("OMEG", 1.0)[:, None] * axes[:, 0])
-    values = -damping.values @ np.kron(np.eye(damping.values.shape[1] // 3)[None], W)
+    values = -damping.values @ on_diagonal(W, damping.values.shape[1] // 3)
     return replace(damping, values=values, kind="RIGIDITE", zone=None, symmetric=False)
 
 

@@ -5,9 +5,10 @@ space XX YY ZZ XY XZ YZ. Shear strains are engineering strains (GAXY = 2 EPXY).
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MeshError
@@ -129,6 +130,11 @@ def as_components(T: FloatArray, n_components: int, strains: bool) -> FloatArray
 def cross_matrix(w: FloatArray) -> FloatArray:
     """W (..., 3, 3) with W u = w x u, w (..., 3)."""
     return np.cross(np.eye(3), w[..., None, :])
+
+
+def on_diagonal(frames: NDArray[Any], count: int) -> NDArray[Any]:
+    """Matrices (n, 3 count, 3 count) that have those (n, 3, 3) so often on their diagonal."""
+    return np.kron(np.eye(count)[None], frames)
 
 
 def harmonic(zone: Zone) -> int:

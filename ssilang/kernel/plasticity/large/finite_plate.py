@@ -14,6 +14,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.elements.catalog import family_name
 from ssilang.kernel.elements.families import stiffness
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
+from ssilang.kernel.elements.solids.kinematics import on_diagonal
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.materials.model import Mode, Zone
 from ssilang.kernel.plasticity.finite_space_beam import rotation, skew, spin_of, vector_of
@@ -81,7 +82,7 @@ class FinitePlate(CarriedShell):
 def finite_plate(zone: Zone, material: CellField, points: int) -> FinitePlate:
     """A zone of flat triangular shells without stress."""
     axes, _ = flat_frames(zone)
-    T = np.kron(np.eye(6)[None], axes)
+    T = on_diagonal(axes, 6)
     back = np.swapaxes(T, 1, 2)
     seen, held = seen_and_held(zone, material, points, back)
     local = T @ stiffness(zone, material).values @ back
