@@ -3,6 +3,7 @@
 These absorb normally incident waves (Lysmer and Kuhlemeyer 1969).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import BODY_FAMILIES, family_name
-from ssilang.kernel.elements.family import Layout, element_matrices
+from ssilang.kernel.elements.family import element_matrices, node_major_layout
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, surface_geometry
 from ssilang.kernel.elements.shapes.quadrature import Rule, quadrature
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
@@ -95,13 +96,18 @@ def outward(faces: CellBlock, geometry: SurfaceGeometry, model: Model, of: Paren
     return geometry.normals * side[:, None, None]
 
 
-def zones_of_faces(of: Parents, model: Model) -> list[tuple[Zone, IntArray]]:
-    """Zones that own faces, with the faces of each."""
-    return [
-        (zone, np.flatnonzero(of.zone == number))
-        for number, zone in enumerate(model.zones)
-        if (of.zone == number).any()
-    ]
+def sides_of_zones(
+    faces: Mesh, model: Model
+) -> Iterator[tuple[Zone, CellBlock, SurfaceGeometry, Parents]]:
+    """The faces on each zone of continuous elements, with the cells that they bound."""
+    for block in regenerate(faces).blocks:
+        of = require_parents(block, model)
+        for number, zone in enumerate(model.zones):
+            rows = np.flatnonzero(of.zone == number)
+            if len(rows):
+                part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
+                geometry = face_geometry(part, zone.mode, harmonic(zone))
+                yield zone, part, geometry, Parents(of.zone[rows], of.cell[rows])
 
 
 def is_solid(zone: Zone) -> bool:
@@ -122,11 +128,8 @@ def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Mat
         YOUN, NU, RHO.
     """
     blocks = [
-        _damping(zone, faces, rows, of_cells, material)
-        for faces in regenerate(boundary).blocks
-        for of in (require_parents(faces, model),)
-        for zone, rows in zones_of_faces(of, model)
-        for of_cells in (of.cell[rows],)
+        _damping(zone, part, geometry, of.cell, material)
+        for zone, part, geometry, of in sides_of_zones(boundary, model)
     ]
     return Matrix(boundary.nodes, tuple(blocks), (), "AMORTISSEMENT")
 
@@ -144,11 +147,9 @@ def wave_speeds(zone: Zone, material: CellField) -> tuple[FloatArray, FloatArray
 
 
 def _damping(
-    zone: Zone, faces: CellBlock, rows: IntArray, cells: IntArray, material: CellField
+    zone: Zone, part: CellBlock, geometry: SurfaceGeometry, cells: IntArray, material: CellField
 ) -> ElementMatrices:
     primary, shear, density = (of[cells] for of in wave_speeds(zone, material))
-    part = CellBlock.make(faces.nodes, faces.cell_type, faces.raw[rows])
-    geometry = face_geometry(part, zone.mode, harmonic(zone))
     normal = geometry.normals / geometry.measures[..., None]
     names = NODE_TRANSLATIONS[zone.mode]
     d, k = len(names), part.kind.n_nodes
@@ -159,6 +160,6 @@ def _damping(
     D = across[:, None, None, None] * (np.eye(d) - outer) + along[:, None, None, None] * outer
     N = geometry.shapes
     values = np.einsum("cp,pa,pb,cpij->caibj", geometry.measures, N, N, D, optimize=True)
-    layout = Layout(part.nodes, part.raw, np.repeat(np.arange(k), d), names * k)
+    layout = node_major_layout(part, names)
     flat = values.reshape(len(part), k * d, k * d)
     return element_matrices(zone, layout, flat, "AMORTISSEMENT", keep_zone=False)

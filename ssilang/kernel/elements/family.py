@@ -21,6 +21,7 @@ from ssilang.kernel.fields.cell_field import CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, dual_of
+from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 
 
@@ -92,7 +93,7 @@ class ElementFamily(ABC):
 
     def layout(self, zone: Zone) -> Layout:
         """Rows of the element vectors: translations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+        return node_major_layout(zone.cells, NODE_TRANSLATIONS[zone.mode])
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """Components that EPSI gives."""
@@ -214,11 +215,10 @@ def contract(operator: StrainOperator, moduli: FloatArray) -> FloatArray:
     return np.matmul(left.transpose(0, 2, 1), right)
 
 
-def node_major_layout(zone: Zone, unknowns: tuple[str, ...]) -> Layout:
+def node_major_layout(cells: CellBlock, unknowns: tuple[str, ...]) -> Layout:
     """Rows node by node, the same unknowns at each."""
-    k = zone.cells.kind.n_nodes
-    local = np.repeat(np.arange(k), len(unknowns))
-    return Layout(zone.cells.nodes, zone.cells.raw, local, unknowns * k)
+    k = cells.kind.n_nodes
+    return Layout(cells.nodes, cells.raw, np.repeat(np.arange(k), len(unknowns)), unknowns * k)
 
 
 def element_matrices(
@@ -242,4 +242,5 @@ class TurningFamily(ElementFamily):
 
     def layout(self, zone: Zone) -> Layout:
         """Translations then rotations, node by node."""
-        return node_major_layout(zone, NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode])
+        unknowns = NODE_TRANSLATIONS[zone.mode] + NODE_ROTATIONS[zone.mode]
+        return node_major_layout(zone.cells, unknowns)

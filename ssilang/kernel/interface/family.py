@@ -100,7 +100,7 @@ class JointFamily(ElementFamily):
         names = displacement_names(zone)
         if has_rotations(zone):
             names += ROTATIONS[zone.mode.dimension]
-        return node_major_layout(zone, names)
+        return node_major_layout(zone.cells, names)
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """DRSN DRN; DRS1 DRS2 DRN; EXX GXY [GXZ] and CXX CXY CXZ for JOI1."""

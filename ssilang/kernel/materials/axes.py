@@ -7,7 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import MaterialError
 from ssilang.kernel.elements.catalog import family_name
-from ssilang.kernel.elements.results.frames import has_shell_frames, points_of, shell_frames
+from ssilang.kernel.elements.results.frames import is_thin_shell, points_of, shell_frames
 from ssilang.kernel.fields.cell_field import Support
 from ssilang.kernel.materials.elasticity import two_axes
 from ssilang.kernel.materials.model import Mode, Zone
@@ -45,7 +45,7 @@ def axis_parameters(zone: Zone, given: Directions) -> tuple[dict[str, FloatArray
     MaterialError
         If a vector is missing, zero or parallel to the other.
     """
-    if has_shell_frames(zone):
+    if is_thin_shell(zone):
         return _on_shell(zone, given), "GRAVITE"
     if family_name(zone) == "joint" and zone.element != "JOI1" and given.second is None:
         return _on_joint(zone, given), "GRAVITE"

@@ -200,7 +200,7 @@ def _blocks(
     inertia = _inertia(zone, parameters, stretching)
     histories = _Histories.of(zone, parameters, stretching)
     kinds = ("RIGIDITE", "MASSE", "AMORTISSEMENT")
-    layout = node_major_layout(zone, SOLID_KINEMATICS[zone.mode].unknowns)
+    layout = node_major_layout(zone.cells, SOLID_KINEMATICS[zone.mode].unknowns)
     found: list[list[ElementMatrices]] = []
     for kind, of_nodes, of_histories in zip(kinds, inertia, histories.values(), strict=True):
         block = element_matrices(zone, layout, of_nodes, kind, keep_zone=False)

@@ -2,9 +2,10 @@
 
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.boundary import is_solid
-from ssilang.kernel.elements.catalog import support_rule
+from ssilang.kernel.elements.catalog import SHELLS, family_name, support_rule
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results import skin, structural_gradients, tensors
+from ssilang.kernel.elements.results.frames import is_thin_shell
 from ssilang.kernel.elements.results.integrals import integrals
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.solids.gradients import (
@@ -45,7 +46,7 @@ def _equivalent(
 
     def make(zone: Zone) -> CellFieldBlock:
         plain = is_solid(zone) or skin.is_thick_shell(zone)
-        if plain or (skin.is_shell(zone) and (what != "VMIS" or material is None)):
+        if plain or (is_thin_shell(zone) and (what != "VMIS" or material is None)):
             T, support = _tensor(zone, field, material, side)
             return zone.block({"SCAL": compute(T)}, support)
         if what == "VMIS":
@@ -68,7 +69,7 @@ def _tensor(
         if side != "MOYE":
             raise FieldError("operators.fields.no-side-of-thick-shell", element=zone.element)
         return skin.thick_tensor(zone, field)
-    if not skin.is_shell(zone) or material is None:
+    if not is_thin_shell(zone) or material is None:
         raise FieldError("operators.fields.no-stress-tensor", element=zone.element)
     return skin.shell_tensor(zone, field, material, side)
 
@@ -105,7 +106,7 @@ def prin(
         if skin.is_thick_shell(zone):  # its frames turn from point to point
             raise FieldError("operators.fields.no-directions-of-thick-shell", element=zone.element)
         T, support = _tensor(zone, field, material, side)
-        if skin.is_shell(zone):
+        if is_thin_shell(zone):
             T = skin.in_global_axes(zone, T)
         values = tensors.principal(zone, T, ordered and is_solid(zone))
         return cell_block(zone, tensors.PRINCIPAL, values, support)
@@ -233,7 +234,7 @@ def jaco(model: Model = MODEL) -> CellField:
             geometry = zone_geometry(zone, "RIGIDITE", slice(0, len(zone.cells)))
             weights = support_rule(zone.element, "RIGIDITE").weights
             return zone.block({"SCAL": geometry.volumes / weights}, "RIGIDITE")
-        shell = skin.is_shell(zone) or skin.is_thick_shell(zone)
+        shell = family_name(zone) in SHELLS
         if not (shell or structural_gradients.is_structural(zone)):
             raise FieldError("operators.fields.jaco-of-solids-only", element=zone.element)
         points = support_rule(zone.element, "RIGIDITE").points

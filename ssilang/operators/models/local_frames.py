@@ -8,18 +8,18 @@ from ssilang.kernel.elements.results.frames import (
     cylindrical_frames,
     fixed_frame,
     given_rotations,
-    has_shell_frames,
     is_flat_shell,
+    is_thin_shell,
     material_frames,
     points_of,
     polar_frames,
     seen_in,
     shell_in_axes,
-    shell_support,
     spherical_frames,
+    strains_or_stresses,
     torus_frames,
 )
-from ssilang.kernel.elements.results.skin import SIDES, is_shell, shell_skin, skin_stress
+from ssilang.kernel.elements.results.skin import SIDES, shell_skin, skin_stress
 from ssilang.kernel.elements.results.tensors import tensor
 from ssilang.kernel.elements.shapes.reference import shape_gradients
 from ssilang.kernel.elements.zone_fields import n_points
@@ -84,7 +84,7 @@ def rten(
     def make(zone: Zone) -> CellFieldBlock:
         thick = family_name(zone) == "thick" and material is not None
         if surface is not None and (thick or is_flat_shell(zone)):
-            axes = surface(zone, shell_support(zone, field))
+            axes = surface(zone, strains_or_stresses(zone, field)[2])
             return shell_in_axes(zone, field, axes, material)
         if not is_solid(zone):
             raise FieldError("operators.models.rten-of-solids-only", element=zone.element)
@@ -167,7 +167,7 @@ def vloc(
     def make(zone: Zone) -> CellFieldBlock:
         axes = material_frames(zone, material, "RIGIDITE")
         full = np.broadcast_to(axes, (len(zone.cells), n_points(zone.element, "RIGIDITE"), 3, 3))
-        space = zone.mode is Mode.THREE_DIMENSIONAL or has_shell_frames(zone)
+        space = zone.mode is Mode.THREE_DIMENSIONAL or is_thin_shell(zone)
         letters = "RZT" if zone.mode in (Mode.AXISYMMETRIC, Mode.FOURIER) else "XYZ"
         kept = 3 if space else 2
         names = tuple(f"V{i + 1}{letters[k]}" for i in range(kept) for k in range(kept))
@@ -196,7 +196,7 @@ def calp(
         raise call.missing(("MCHAML",))
 
     def make(zone: Zone) -> CellFieldBlock:
-        if not is_shell(zone):
+        if not is_thin_shell(zone):
             return skin_stress(zone, field, material)
         parts, support = shell_skin(zone, field, material, side)
         return zone.block(parts, support)

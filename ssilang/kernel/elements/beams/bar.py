@@ -76,7 +76,7 @@ def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
     d = zone.mode.dimension
     x = zone.cells.coordinates[..., :d]
     speed = np.linalg.norm(np.einsum("pk,ckd->cpd", reference, x), axis=-1)
-    layout = family.node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+    layout = family.node_major_layout(zone.cells, NODE_TRANSLATIONS[zone.mode])
     u = layout.gather(displacement).reshape(len(zone.cells), -1, d)
     slopes = np.einsum("pk,ckd->cpd", reference, u) / speed[..., None]
     return np.linalg.norm(slopes, axis=-1)
@@ -130,7 +130,7 @@ class Across(Bar):
 
     def layout(self, zone: Zone) -> family.Layout:
         """What the section's node has, its displacement and rotations."""
-        return with_section(zone, family.node_major_layout(zone, ()))
+        return with_section(zone, family.node_major_layout(zone.cells, ()))
 
     def strain_operator(
         self, zone: Zone, parameters: ZoneField, support: Support, cells: slice
@@ -144,7 +144,7 @@ class Across(Bar):
         """RHO SECT in the plane, for a length of 1."""
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
         scalar = np.broadcast_to(density[..., None], (len(zone.cells), 1, 1))
-        return spread(scalar, 2), family.node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+        return spread(scalar, 2), family.node_major_layout(zone.cells, NODE_TRANSLATIONS[zone.mode])
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """None: the bar stays straight."""

@@ -83,7 +83,7 @@ def _dimension(zone: Zone) -> int:
 def _matrices(zone: Zone, values: FloatArray, unsymmetric: bool) -> ElementMatrices:
     if not unsymmetric:
         values = 0.5 * (values + np.swapaxes(values, 1, 2))
-    layout = node_major_layout(zone, NODE_TRANSLATIONS[zone.mode])
+    layout = node_major_layout(zone.cells, NODE_TRANSLATIONS[zone.mode])
     made = element_matrices(zone, layout, values, "RIGIDITE", keep_zone=False)
     return replace(made, symmetric=not unsymmetric)
 

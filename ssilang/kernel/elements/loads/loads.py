@@ -1,6 +1,6 @@
 """Nodal forces of pressures, tractions, body forces, and of what is spread along beams and bars."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from ssilang.kernel.elements import boundary, catalog
 from ssilang.kernel.elements.beams.beam_frame import beam_frame
 from ssilang.kernel.elements.beams.pipe import pressure_forces
 from ssilang.kernel.elements.families import family_of
-from ssilang.kernel.elements.family import Layout, node_major_layout
+from ssilang.kernel.elements.family import node_major_layout
 from ssilang.kernel.elements.results.supports import nodal_of_cells
 from ssilang.kernel.elements.shapes.geometry import SurfaceGeometry, chunks
 from ssilang.kernel.elements.shells.meridian_shell import meridian_forces
@@ -22,7 +22,6 @@ from ssilang.kernel.fields.node_field import NodeField, NodeValues
 from ssilang.kernel.materials.model import Mode, Model, Zone
 from ssilang.kernel.matrices.matrix import dual_of
 from ssilang.kernel.mesh.boundary import contour, envelope
-from ssilang.kernel.mesh.changes.merge import regenerate
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -89,7 +88,7 @@ def _on_zone(
     columns = [(0, "XYZ".index(u[1])) for u in translations]
     columns += [(1, "XYZ".index(u[1])) for u in rotations]
     vectors = np.stack([turned[:, :, t, axis] for t, axis in columns], axis=2)
-    layout = node_major_layout(zone, translations + rotations)
+    layout = node_major_layout(zone.cells, translations + rotations)
     return layout.scatter(vectors.reshape(len(vectors), -1))
 
 
@@ -129,24 +128,12 @@ def pressure(model: Model, faces: Mesh, value: float | NodeField | CellField) ->
         Absent values count as zero.
     """
     out = []
-    for zone, part, geometry, mine in _on_sides(faces, model):
+    for zone, part, geometry, mine in boundary.sides_of_zones(faces, model):
         vectors = boundary.outward(part, geometry, model, mine)
         p = _face_values(part, geometry, value)
         forces = -np.einsum("cp,cpd,pk->ckd", p, vectors, geometry.shapes)
         out.append(_scatter(zone, part, forces))
     return total(faces.nodes, out)
-
-
-def _on_sides(
-    faces: Mesh, model: Model
-) -> Iterator[tuple[Zone, CellBlock, SurfaceGeometry, boundary.Parents]]:
-    """The faces on each zone of continuous elements, with the cells that they bound."""
-    for block in regenerate(faces).blocks:
-        of = boundary.require_parents(block, model)
-        for zone, rows in boundary.zones_of_faces(of, model):
-            part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
-            geometry = boundary.face_geometry(part, zone.mode, harmonic(zone))
-            yield zone, part, geometry, boundary.Parents(of.zone[rows], of.cell[rows])
 
 
 def _face_values(
@@ -217,7 +204,7 @@ def traction(
         Gives the thickness DIM3 in plane stress.
     """
     out = []
-    for zone, part, geometry, mine in _on_sides(faces, model):
+    for zone, part, geometry, mine in boundary.sides_of_zones(faces, model):
         w = geometry.measures * _thickness(zone, mine.cell, material)
         vectors = _vector_values(part, geometry, zone, value)
         forces = np.einsum("cp,cpd,pk->ckd", w, vectors, geometry.shapes)
@@ -254,10 +241,8 @@ def _vector_values(
 
 def _scatter(zone: Zone, part: CellBlock, forces: FloatArray) -> NodeField:
     """Sum element vectors (n, k, d) at nodes."""
-    n, k, d = forces.shape
-    names = NODE_TRANSLATIONS[zone.mode][:d]
-    layout = Layout(part.nodes, part.raw, np.repeat(np.arange(k), d), names * k)
-    return layout.scatter(forces.reshape(n, k * d))
+    layout = node_major_layout(part, NODE_TRANSLATIONS[zone.mode][: forces.shape[2]])
+    return layout.scatter(forces.reshape(len(forces), -1))
 
 
 def loaded_faces(model: Model, field: NodeField | CellField) -> Mesh:

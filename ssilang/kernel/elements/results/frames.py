@@ -22,7 +22,13 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.base.scientific import spatial
-from ssilang.kernel.elements.catalog import BEAMS, FLAT_SHELLS, family_name, support_shapes
+from ssilang.kernel.elements.catalog import (
+    BEAMS,
+    FLAT_SHELLS,
+    THIN_SHELLS,
+    family_name,
+    support_shapes,
+)
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.results import tensors
@@ -118,9 +124,9 @@ def given_rotations(
     return np.swapaxes(R, -1, -2) if transposed else R
 
 
-def has_shell_frames(zone: Zone) -> bool:
-    """True for shells whose axes of orthotropy are given in their own frames."""
-    return is_flat_shell(zone) or zone.element == "COQ2"
+def is_thin_shell(zone: Zone) -> bool:
+    """True for shells of section forces, whose axes of orthotropy are given in their own frames."""
+    return family_name(zone) in THIN_SHELLS
 
 
 def shell_frames(zone: Zone) -> FloatArray:
@@ -135,7 +141,7 @@ def shell_frames(zone: Zone) -> FloatArray:
 def material_frames(zone: Zone, material: CellField, support: Support) -> FloatArray:
     """Axes of orthotropy (n_cells or 1, n_points or 1, 3, 3), global components."""
     parameters = zone_field(zone, material)
-    if not has_shell_frames(zone):
+    if not is_thin_shell(zone):
         return material_axes(parameters, support)
     frames = shell_frames(zone)[:, None]
     c, s = (parameters.at(n, support)[..., None] for n in ("V1X", "V1Y"))
@@ -174,11 +180,6 @@ class SurfaceAxes:
 def is_flat_shell(zone: Zone) -> bool:
     """True for shells of flat cells."""
     return family_name(zone) in FLAT_SHELLS
-
-
-def shell_support(zone: Zone, field: CellField) -> Support:
-    """Where a field of forces or strains stands."""
-    return strains_or_stresses(zone, field)[2]
 
 
 def shell_in_axes(

@@ -5,7 +5,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.beams.beam_frame import kept_rows
-from ssilang.kernel.elements.catalog import STRAIGHT_BEAMS, THIN_SHELLS, family_name
+from ssilang.kernel.elements.catalog import STRAIGHT_BEAMS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.results.frames import shell_frames, strains_or_stresses
 from ssilang.kernel.elements.results.tensors import components_at_home
@@ -20,11 +20,6 @@ _SKIN_NAMES = {
     "EPSS": "EPXX", "EPTT": "EPYY", "GAST": "GAXY",
 }  # fmt: skip
 """Components of a solid, x and y being the axes of the shell's own frame."""
-
-
-def is_shell(zone: Zone) -> bool:
-    """True for shells described by section forces."""
-    return family_name(zone) in THIN_SHELLS
 
 
 def shell_skin(

@@ -13,7 +13,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.elements import families
 from ssilang.kernel.elements.beams.pipe import pipe_parameters
-from ssilang.kernel.elements.catalog import LINES, THIN_SHELLS, family_name
+from ssilang.kernel.elements.catalog import BARS, BEAMS, THIN_SHELLS, family_name
 from ssilang.kernel.elements.families import family_of
 from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.solids.kinematics import as_tensor
@@ -167,7 +167,7 @@ def section_form(zone: Zone, given: ZoneField, support: Support) -> FloatArray:
             rows = slice(start, start + half)
             P[..., rows, rows] = (weight**2)[..., None, None] * _PLANE[:half, :half]
         return P
-    if family not in LINES:
+    if family not in (*BEAMS, *BARS):
         raise FieldError("kernel.elements.element-no-equivalent-stress", element=zone.element)
     per_force = (_of_pipe if family == "pipe" else _of_beam)(zone, given)
     factors = np.broadcast_arrays(*(per_force.get(n, np.zeros((1, 1))) for n in names))

@@ -121,7 +121,7 @@ def gradient_forces(
     )
     P = np.einsum("npij,npki->npkj", sigma, H)
     nu, d = len(table.unknowns), table.dimension
-    layout = node_major_layout(zone, table.unknowns)
+    layout = node_major_layout(zone.cells, table.unknowns)
     vectors = np.zeros((len(zone.cells), zone.cells.kind.n_nodes, nu))
     for cells in chunks(len(zone.cells)):
         geometry = solid.zone_geometry(zone, "STRESSES", cells)

@@ -22,7 +22,7 @@ def gradient_values(zone: Zone, displacement: NodeField) -> FloatArray:
     """Displacement gradients (n_cells, n_components, n_points) at the points of 'STRESSES'."""
     table = kinematics(zone)
     nu, d = len(table.unknowns), table.dimension
-    vectors = node_major_layout(zone, table.unknowns).gather(displacement)
+    vectors = node_major_layout(zone.cells, table.unknowns).gather(displacement)
     parts = []
     for cells in chunks(len(zone.cells)):
         geometry = zone_geometry(zone, "STRESSES", cells)

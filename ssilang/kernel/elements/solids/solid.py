@@ -113,7 +113,7 @@ class Solid(family.ElementFamily):
 
     def layout(self, zone: Zone) -> family.Layout:
         """Node by node; in generalised plane strain the section's node comes last."""
-        return with_section(zone, family.node_major_layout(zone, kinematics(zone).unknowns))
+        return with_section(zone, family.node_major_layout(zone.cells, kinematics(zone).unknowns))
 
     def strain_names(self, zone: Zone) -> tuple[str, ...]:
         """EPXX ... or EPRR ..."""
@@ -155,7 +155,7 @@ class Solid(family.ElementFamily):
         """Integral of RHO N N^T for each unknown."""
         names = kinematics(zone).unknowns
         density = parameters.at("RHO", "MASSE")
-        return self.inertia(zone, parameters, density), family.node_major_layout(zone, names)
+        return self.inertia(zone, parameters, density), family.node_major_layout(zone.cells, names)
 
     def inertia(self, zone: Zone, parameters: ZoneField, density: FloatArray) -> FloatArray:
         """Integral of density N N^T, the same for each unknown of a node."""

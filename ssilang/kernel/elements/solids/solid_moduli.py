@@ -34,9 +34,6 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
     return np.stack([v1, v2, np.cross(v1, v2)], axis=-2)
 
 
-_PLANE_DEFAULTS = {"G23": "G12", "G13": "G12"}
-
-
 def _isotropic_pair(
     zone: Zone, parameters: ZoneField, support: Support
 ) -> tuple[FloatArray, FloatArray]:
@@ -52,16 +49,14 @@ def _orthotropic_pair(
 ) -> tuple[FloatArray, FloatArray]:
     # the nine constants; those that a hypothesis does not use get harmless values
     constants = {name: parameters.at(name, support) for name in ("YG1", "YG2", "NU12", "G12")}
-    plane_stress = zone.mode is Mode.PLANE_STRESS
-    for name, default in (("YG3", constants["YG2"]), ("NU23", 0.0), ("NU13", 0.0)):
-        given = name in parameters or not plane_stress
-        constants[name] = (
-            parameters.at(name, support) if given else np.broadcast_to(default, (1, 1))
-        )
-    needs_shear = zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER)
-    for name, default_name in _PLANE_DEFAULTS.items():
-        given = name in parameters or needs_shear
-        constants[name] = parameters.at(name, support) if given else constants[default_name]
+    shears = {"G23": constants["G12"], "G13": constants["G12"]}
+    spared = {} if zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER) else shears
+    if zone.mode is Mode.PLANE_STRESS:
+        nothing = np.zeros((1, 1))
+        spared |= {"YG3": constants["YG2"], "NU23": nothing, "NU13": nothing}
+    for name in ("YG3", "NU23", "NU13", "G23", "G13"):
+        given = name in parameters or name not in spared
+        constants[name] = parameters.at(name, support) if given else spared[name]
     local = elasticity.orthotropic_compliance(constants)
     axes = material_axes(parameters, support)
     moduli = elasticity.rotated_moduli(np.linalg.inv(local).astype(np.float64), axes)

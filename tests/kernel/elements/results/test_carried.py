@@ -12,7 +12,7 @@ from ssilang.kernel.elements.results.frames import (
     is_flat_shell,
     points_of,
     shell_in_axes,
-    shell_support,
+    strains_or_stresses,
 )
 from ssilang.kernel.elements.results.projection import by_least_squares, on_mesh, on_model
 from ssilang.kernel.elements.shells.flat_shell import flat_frames
@@ -133,7 +133,7 @@ def test_forces_and_strains_of_shells_turn_with_the_axes(first, strains, said, e
         "otherwise": SurfaceAxes(first, toward=up, otherwise=OTHER),
     }[said]  # fmt: skip
     assert is_flat_shell(zone)
-    assert shell_support(zone, field) == "GRAVITE"
+    assert strains_or_stresses(zone, field)[2] == "GRAVITE"
     found = shell_in_axes(zone, field, axes).components
     half = 0.5 if strains else 1.0
     flat = first - first @ up * up
