@@ -42,7 +42,7 @@ class Stage:
 
     first: int
     P: FloatArray  # (q, r) orthonormal
-    cores: FloatArray  # (m, r, r)
+    sums: FloatArray  # (m, r, r)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,8 +161,8 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
         elif P.shape[1]:
             seen = P.T @ probes[:, :count]
             back = la.solve(seen @ seen.T, seen, assume_a="pos").T
-            cores = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
-            stages.append(Stage(first, P.astype(SINGLE), cores))
+            sums = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
+            stages.append(Stage(first, P.astype(SINGLE), sums))
         first += len(part)
     none = np.zeros((1, q, q), SINGLE)
     ended = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])

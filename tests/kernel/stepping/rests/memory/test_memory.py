@@ -162,7 +162,7 @@ def _sums(kernels, steps):
     found = np.zeros((steps, kernels.size, kernels.size))
     found[:whole] = np.cumsum(kernels.whole[:whole].astype(float), axis=0)[:steps]
     for stage in kernels.stages:
-        for k, core in enumerate(stage.cores, stage.first):
+        for k, core in enumerate(stage.sums, stage.first):
             found[k:] = stage.P.astype(float) @ core @ stage.P.T
     return found
 
