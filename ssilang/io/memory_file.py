@@ -53,7 +53,7 @@ class MemoryFile:
                     raise ValueError("packed")
                 given = {name: f[name] for name in f.files}
                 stages = tuple(
-                    Stage(int(first), given.pop(f"P{i}"), given.pop(f"cores{i}"))
+                    Stage(int(first), given.pop(f"P{i}"), given.pop(f"sums{i}"))
                     for i, first in enumerate(given.pop("firsts").tolist())
                 )
                 for name, kind in _NUMBERS.items():
@@ -79,7 +79,7 @@ class MemoryFile:
         k = kernels
         parts = {f.name: getattr(k, f.name) for f in fields(k) if f.name != "stages"}
         for i, stage in enumerate(k.stages):
-            parts |= {f"P{i}": stage.P, f"cores{i}": stage.cores}
+            parts |= {f"P{i}": stage.P, f"sums{i}": stage.sums}
         with replacing(self.path) as stream:
             np.savez(stream, firsts=[s.first for s in k.stages], **parts)
 
@@ -97,11 +97,11 @@ def _check(k: Kernels) -> None:
     shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:
         r = stage.P.shape[-1]
-        shapes += [(stage.P, SINGLE, (q, r)), (stage.cores, SINGLE, (len(stage.cores), r, r))]
+        shapes += [(stage.P, SINGLE, (q, r)), (stage.sums, SINGLE, (len(stage.sums), r, r))]
     for part, kind, shape in shapes:
         if part.dtype != kind or part.shape != shape or not np.isfinite(part).all():
             raise ValueError(f"{part.shape} {part.dtype}")
-    ends = [len(k.whole) - 1, *(s.first + len(s.cores) for s in k.stages)]
+    ends = [len(k.whole) - 1, *(s.first + len(s.sums) for s in k.stages)]
     if len(k.whole) < WHOLE or any(s.first < end for s, end in zip(k.stages, ends, strict=False)):
         raise ValueError(f"{len(k.whole)} kernels")
 

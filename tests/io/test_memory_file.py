@@ -17,9 +17,9 @@ from ssilang.io.memory_file import MemoryFile
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 
 F = np.float32
-WHOLE, P, CORES = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
+WHOLE, P, SUMS = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
 SOUND = Kernels(
-    np.full(3, 6.0), 5e-3, 1e-2, WHOLE, (Stage(16, P, CORES),), 0, np.ones((3, 6, 2), F),
+    np.full(3, 6.0), 5e-3, 1e-2, WHOLE, (Stage(16, P, SUMS),), 0, np.ones((3, 6, 2), F),
     np.ones(10), 0,
 )  # fmt: skip
 
@@ -73,7 +73,7 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
         ({"mark": npy(np.ones(3))}, ""),
         ({"mark": npy(np.full((3, 1), 6.0))}, ""),
         ({"P0": npy(np.eye(6, 3, dtype=F))}, ""),
-        ({"cores0": npy(CORES[:, :1])}, ""),
+        ({"sums0": npy(SUMS[:, :1])}, ""),
         ({"firsts": npy(np.zeros(0, int))}, ""),
         ({"firsts": npy(np.array([16, 32]))}, ""),
         ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),
@@ -90,7 +90,7 @@ def test_arrays_that_no_run_wrote_are_damage(
     monkeypatch.chdir(tmp_path)
     found = made(tmp_path / "sound.npz").read()
     assert found is not None
-    assert np.array_equal(found.stages[0].cores, SOUND.stages[0].cores)
+    assert np.array_equal(found.stages[0].sums, SOUND.stages[0].sums)
     with pytest.raises(InputError, match=f"other.npz is damaged.*{told}"):
         made(tmp_path / "other.npz", **arrays).read()
     assert not (tmp_path / "ran").exists()

@@ -42,7 +42,7 @@ class Stage:
 
     first: int
     P: FloatArray  # (q, r) orthonormal
-    cores: FloatArray  # (m, r, r)
+    sums: FloatArray  # (m, r, r)
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,10 +144,7 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     """
     own, q = ground.steps, ground.J.shape[0]
     probes, steps = _probes(q), max(steps, WHOLE)
-    little = QUIETER * tolerance
-    (first_answers, reach), (loads, loads_reach) = _answers(
-        own, [(own.J.T @ probes[:, :PROBES], little), (own.forces, CLOSER * tolerance)], steps
-    )
+    first_answers, loads, reach = _first_answers(own, probes[:, :PROBES], tolerance, steps)
     answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance)
     whole, stages = list[FloatArray](), list[Stage]()
     first, least = 0, CLOSER * tolerance * _norm(answers[0])
@@ -161,14 +158,14 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
         elif P.shape[1]:
             seen = P.T @ probes[:, :count]
             back = la.solve(seen @ seen.T, seen, assume_a="pos").T
-            cores = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
-            stages.append(Stage(first, P.astype(SINGLE), cores))
+            sums = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
+            stages.append(Stage(first, P.astype(SINGLE), sums))
         first += len(part)
     none = np.zeros((1, q, q), SINGLE)
     ended = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
     return Kernels(
         ground.mark, ground.dt, tolerance, ended, tuple(stages), reach, loads, ground.loads_mark,
-        loads_reach,
+        reach,
     )  # fmt: skip
 
 
@@ -177,6 +174,17 @@ def _probes(q: int) -> FloatArray:
     random = np.random.default_rng(0)
     cosines = fft.dct(np.diag(random.choice([-1.0, 1.0], q)), axis=0, norm="ortho")
     return np.asarray(cosines.T[:, random.permutation(q)], SINGLE)
+
+
+def _first_answers(
+    ground: GroundSteps, probes: FloatArray, tolerance: float, steps: int
+) -> tuple[FloatArray, FloatArray, int]:
+    """Answers to probes (q, c) and to the loads, beside each other, and the steps described."""
+    forces = np.hstack([ground.J.T @ probes, ground.forces])
+    little = np.full(forces.shape[1], CLOSER * tolerance)
+    little[: probes.shape[1]] = QUIETER * tolerance
+    rows, reach = _answers(ground, forces, steps, little)
+    return rows[:, :, : probes.shape[1]], rows[:, :, probes.shape[1] :], reach
 
 
 def _answers_to_probes(
@@ -193,7 +201,7 @@ def _answers_to_probes(
             range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
         forces = ground.J.T @ probes[:, count : count + max(count // 2, PROBES)]
-        ((rows, _),) = _answers(ground, [(forces, 0.0)], end)
+        rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]))
         for k, row in enumerate(np.cumsum(rows, axis=0)):
             found[k] = np.hstack([found[k], row])
     return found
@@ -228,32 +236,26 @@ def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
 
 
 def _answers(
-    ground: GroundSteps, several: Sequence[tuple[FloatArray, float]], steps: int
-) -> list[tuple[FloatArray, int]]:
+    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray
+) -> tuple[FloatArray, int]:
     """Increments (k, q, c) of the jumps after forces (r, c) in the first step, until quiet.
 
-    Quiet: for `QUIET` steps no more than a tolerance of what was largest, of each of `several`.
-    With each the steps that these describe, 0: all.
+    Quiet: for `QUIET` steps no more than `tolerance` (c,) of what was largest. With the steps that
+    these describe, 0: all.
     """
-    counts = [-(-F.shape[1] // COLUMNS) for F, _ in several]
-    pieces = [
-        _until_quiet(ground, np.ascontiguousarray(part), steps, tolerance)
-        for (F, tolerance), count in zip(several, counts, strict=True)
-        for part in np.array_split(F, count or 1, axis=1)[:count]
-    ]
-    drained, found = iter(side_by_side(pieces)), list[tuple[FloatArray, int]]()
-    for count in counts:
-        part = [next(drained) for _ in range(count)]
-        longest = max(map(len, part), default=0)
-        padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in part]
-        none = np.zeros((0, ground.J.shape[0], 0), SINGLE)
-        joined = np.concatenate(padded or [none], axis=2)
-        found.append((joined, 0 if longest < steps else steps))
-    return found
+    c = forces.shape[1]
+    count = 2 * -(-c // (2 * COLUMNS)) if c > COLUMNS else 1  # an even number keeps two busy
+    pieces = zip(*(np.array_split(x, count, axis=-1) for x in (forces, tolerance)), strict=True)
+    found = side_by_side(
+        [_until_quiet(ground, np.ascontiguousarray(F), steps, little) for F, little in pieces]
+    )
+    longest = max(map(len, found))
+    padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in found]
+    return np.concatenate(padded, axis=2), 0 if longest < steps else steps
 
 
 def _until_quiet(
-    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: float
+    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray
 ) -> Iterator[FloatArray]:
     largest, quiet = np.zeros(forces.shape[1]), 0
     for row in increments(ground, impulse(forces, steps)):
@@ -267,5 +269,6 @@ def _until_quiet(
 
 def loads_of(ground: Ground, tolerance: float, steps: int) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
-    ((found, reach),) = _answers(ground.steps, [(ground.steps.forces, CLOSER * tolerance)], steps)
-    return found, ground.loads_mark, reach
+    own = ground.steps
+    _, loads, reach = _first_answers(own, np.zeros((own.J.shape[0], 0), SINGLE), tolerance, steps)
+    return loads, ground.loads_mark, reach

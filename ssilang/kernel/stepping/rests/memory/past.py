@@ -22,7 +22,7 @@ class Past:
     def __init__(self, kernels: Kernels, loads: FloatArray, steps: int) -> None:
         self.kernels, self.loads, q = kernels, loads, kernels.size
         k = kernels
-        self.pad = max([len(k.whole), *(s.first + len(s.cores) for s in k.stages)])
+        self.pad = max([len(k.whole), *(s.first + len(s.sums) for s in k.stages)])
         self.forces = np.zeros((self.pad + steps + 1, q), SINGLE)
         self.parts = [np.zeros((len(self.forces), s.P.shape[1]), SINGLE) for s in k.stages]
         self.near = [k.whole[0] + k.whole[1], *k.whole[2 : BLOCK + 1]]
@@ -69,12 +69,12 @@ class Past:
         far = np.zeros((steps, len(self.far[0])), SINGLE)
         for stage, part in zip(k.stages, self.parts, strict=True):
             found = np.zeros((steps, part.shape[1]), SINGLE)
-            for j, core in enumerate(stage.cores, stage.first):
+            for j, core in enumerate(stage.sums, stage.first):
                 found += part[at - j : at - j + steps] @ core
             if stage is k.stages[-1]:
-                j = at - stage.first - len(stage.cores)
+                j = at - stage.first - len(stage.sums)
                 gone = self.gone + np.cumsum(part[j : j + steps], axis=0)
-                found, self.gone = found + gone @ stage.cores[-1], gone[-1]
+                found, self.gone = found + gone @ stage.sums[-1], gone[-1]
             far += found @ stage.P.T
         self.ahead -= np.diff(far, axis=0, prepend=self.far)
         self.far = far[-1:]

@@ -15,7 +15,8 @@ from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import closed_stiffness
-from ssilang.kernel.stepping.rests.memory import run
+from ssilang.kernel.stepping.rests.memory import kernels, run
+from ssilang.kernel.stepping.rests.memory.ground import parts_of
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC
@@ -153,6 +154,35 @@ def test_truncated_kernels_are_as_good_as_they_say(truncated):
     assert 0.5 * (error - rounding) < told < 2.0 * (error + rounding)
     assert max(errors(whole, found)[:3]) <= TRUNCATED
     assert history.reduction.vectors == kept.size + sum(s.P.shape[1] for s in kept.stages)
+
+
+def _sums(kernels, steps):
+    """How far impulses have moved the jumps (steps, q, q), as the memory has it."""
+    whole = len(kernels.whole) - bool(kernels.stages)
+    found = np.zeros((steps, kernels.size, kernels.size))
+    found[:whole] = np.cumsum(kernels.whole[:whole].astype(float), axis=0)[:steps]
+    for stage in kernels.stages:
+        for k, core in enumerate(stage.sums, stage.first):
+            found[k:] = stage.P.astype(float) @ core @ stage.P.T
+    return found
+
+
+@pytest.mark.parametrize("probes", [4, 64])
+def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, probes):
+    """Against columns of the identity; something is left out of sums, and no more than said."""
+    monkeypatch.setattr(kernels, "PROBES", probes)
+    problem = record(**WIDE)
+    ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
+    made = kernels.kernels_of(ground, 1e-2, STEPS)
+    forces = np.ascontiguousarray(ground.steps.J.T.todense())
+    moved = kernels.increments(ground.steps, kernels.impulse(forces, STEPS))
+    exact = np.cumsum(np.array(list(moved), float), axis=0)
+    assert len(made.stages) > 1
+    assert made.stages[0].P.shape[1] < made.size
+    left = np.linalg.norm(_sums(made, STEPS) - exact, 2, axis=(1, 2))
+    size = np.linalg.norm(exact[0], 2)
+    assert left[: len(made.whole) - 1].max() < 1e-4 * size
+    assert 1e-4 * size < left.max() < 1e-2 * size
 
 
 @pytest.mark.parametrize("elsewhere", [True, False], ids=["another process", "the same"])
