@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements.catalog import ELEMENTS, NODAL_WEIGHTS
-from ssilang.kernel.materials.model import Mode, Zone
+from ssilang.kernel.materials.model import Zone
 
 
 @dataclass(frozen=True)
@@ -17,31 +17,22 @@ class JointElement:
     """One joint element."""
 
     name: str
-    cell_type: str
     face: str  # cell type of one side ('POI1' for two points)
     dimension: int  # of space; the jump has as many components
     strains: tuple[str, ...]  # of the jump, shear first, normal last
     stresses: tuple[str, ...]  # of the traction
 
 
-_LINE = (("DRSN", "DRN"), ("SMSN", "SMN"))
-_SURFACE = (("DRS1", "DRS2", "DRN"), ("SMS1", "SMS2", "SMN"))
+_SURFACES = {
+    2: (("DRSN", "DRN"), ("SMSN", "SMN")),
+    3: (("DRS1", "DRS2", "DRN"), ("SMS1", "SMS2", "SMN")),
+}
 _POINTS = {
     2: (("GXY", "EXX"), ("EFFY", "EFFX")),
     3: (("GXY", "GXZ", "EXX"), ("EFFY", "EFFZ", "EFFX")),
 }
 
-_SURFACES = {
-    k.name: JointElement(
-        k.name,
-        k.cell_type,
-        k.reference,
-        *((3, *_SURFACE) if Mode.THREE_DIMENSIONAL in k.modes else (2, *_LINE)),
-    )
-    for k in ELEMENTS.values()
-    if k.family == "joint" and k.name != "JOI1"
-}
-JOINT_NAMES = ("JOI1", *_SURFACES)
+JOINT_NAMES = tuple(k.name for k in ELEMENTS.values() if k.family == "joint")
 
 
 def with_rule(element: str, rule: str) -> str:
@@ -60,7 +51,7 @@ def with_rule(element: str, rule: str) -> str:
     if element == "JOI1":  # one pair of points: both rules are the same
         return element
     here, at_nodes = ELEMENTS[element], rule == "LOBATTO"
-    for other in (ELEMENTS[name] for name in _SURFACES):
+    for other in (ELEMENTS[name] for name in JOINT_NAMES):
         if other.cell_type == here.cell_type and bool(other.nodal) == at_nodes:
             return other.name
     told = {"element": element, "nodal_weights": NODAL_WEIGHTS}
@@ -68,12 +59,10 @@ def with_rule(element: str, rule: str) -> str:
 
 
 def joint_element(zone: Zone) -> JointElement:
-    """The joint element of a zone (JOI1 exists in 2D and 3D)."""
-    if zone.element == "JOI1":
-        return JointElement(
-            "JOI1", "SEG2", "POI1", zone.mode.dimension, *_POINTS[zone.mode.dimension]
-        )
-    return _SURFACES[zone.element]
+    """The joint element of a zone."""
+    face, dimension = ELEMENTS[zone.element].reference, zone.mode.dimension
+    names = (_POINTS if face == "POI1" else _SURFACES)[dimension]
+    return JointElement(zone.element, face, dimension, *names)
 
 
 def is_joint(zone: Zone) -> bool:

@@ -317,10 +317,12 @@ def _pass_of(points: PlasticPoints, places: NDArray[np.int32], least: int) -> Zo
 def bulk_of(zones: tuple[Zone, ...], characteristics: CellField, numbering: Numbering) -> Bulk:
     """Plastic zones placed on a numbering."""
     points = tuple(plastic_points(z, characteristics) for z in zones)
-    places = tuple(
-        block_indices(without_stiffness(p.zone), numbering).astype(np.int32) for p in points
-    )
-    return Bulk(points, places, numbering.size)
+    return Bulk(points, tuple(zone_places(z, numbering) for z in zones), numbering.size)
+
+
+def zone_places(zone: Zone, numbering: Numbering) -> NDArray[np.int32]:
+    """Unknown (n_cells, n_rows) of each row of each element vector of a zone."""
+    return block_indices(without_stiffness(zone), numbering).astype(np.int32)
 
 
 def stiffness_beside(zone: Zone, characteristics: CellField) -> ElementMatrices:

@@ -152,14 +152,9 @@ class Solid(family.ElementFamily):
         return super().stiffness_values(zone, moduli, parameters) if found is None else found
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, family.Layout]:
-        """Integral of RHO N N^T for each unknown."""
-        names = kinematics(zone).unknowns
-        density = parameters.at("RHO", "MASSE")
-        return self.inertia(zone, parameters, density), family.node_major_layout(zone.cells, names)
-
-    def inertia(self, zone: Zone, parameters: ZoneField, density: FloatArray) -> FloatArray:
-        """Integral of density N N^T, the same for each unknown of a node."""
-        nu, k = len(kinematics(zone).unknowns), zone.cells.kind.n_nodes
+        """Integral of RHO N N^T, the same for each unknown of a node."""
+        names, density = kinematics(zone).unknowns, parameters.at("RHO", "MASSE")
+        nu, k = len(names), zone.cells.kind.n_nodes
         values = np.zeros((len(zone.cells), k * nu, k * nu))
         for cells in chunks(len(zone.cells)):
             geometry = zone_geometry(zone, "MASSE", cells)
@@ -169,7 +164,7 @@ class Solid(family.ElementFamily):
             scalar = (w @ products.reshape(len(products), k * k)).reshape(-1, k, k)
             for i in range(nu):
                 values[cells, i::nu, i::nu] = scalar
-        return values
+        return values, family.node_major_layout(zone.cells, names)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Integral of grad(N)^T sigma grad(N); hoop stress acts through `hoop_weights`."""

@@ -260,11 +260,10 @@ def _shape(lode: FloatArray, sine: FloatArray) -> tuple[FloatArray, FloatArray, 
     cos3 = 3 * np.cos(3 * a)
     k1 = first / cos3
     k2 = (-k + 3 * np.tan(3 * a) * first) / cos3**2
-    zero = np.zeros_like(lode)
     return (
         np.where(inside, k, A - B * lode),
         np.where(inside, k1, -B),
-        np.where(inside, k2 * 1.0, zero),
+        np.where(inside, k2, 0.0),
     )
 
 

@@ -21,8 +21,8 @@ from ssilang.kernel.elements.family import cell_block
 from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.materials.model import Zone
-from ssilang.kernel.matrices.assembly import Numbering, block_indices
-from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, without_stiffness
+from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.plasticity.bulk import Answer, Bulk, State, zone_places
 from ssilang.kernel.plasticity.finite import FiniteSolid, FiniteZone, finite_zone
 from ssilang.kernel.plasticity.points import Fields, PlasticPoints, PointState
 from ssilang.kernel.plasticity.zone_points import plastic_points
@@ -198,12 +198,9 @@ def finite_bulk(
         For elements and hypotheses that have none; where zones yield for elements other than
         continuous ones, and creep.
     """
-
-    def place(zone: Zone) -> NDArray[np.int32]:
-        return block_indices(without_stiffness(zone), numbering).astype(np.int32)
-
     bodies, zones, states = [], [], []
-    places, at = [place(z) for z in elastic], [place(z) for z in plastic]
+    places = [zone_places(z, numbering) for z in elastic]
+    at = [zone_places(z, numbering) for z in plastic]
     for zone, own in zip(elastic, places, strict=True):
         finite = finite_zone(zone, material)
         if given[0] is not None:
