@@ -18,7 +18,7 @@ from ssilang.kernel.plasticity.newton import TOLERANCE, TURNS, BulkSolver, BulkT
 from ssilang.kernel.plasticity.run import BulkRun
 from ssilang.kernel.solvers.backends import factorise
 from ssilang.kernel.stepping.problem.problem import Problem
-from ssilang.kernel.stepping.state import EXTERNAL, Motion
+from ssilang.kernel.stepping.state import Motion
 
 SOFT = 1e7
 """Displacement under a unit of load over that of the first state, beyond which it is a collapse."""
@@ -258,23 +258,11 @@ class PathRun:
         self.solver.since = time
         r = -run.imbalance(self.solver.force, factors)
         dd = p.loading.imposed @ factors - p.constraints.C @ m.u
-        stored, old = run.bulk.stored(run.state), m.reaction.copy()
-        driven = run.bulk.pushed(run.state)
         found = self.solver.follow(m, r, dd, self.way(change), control, share, most)
         if found.turns <= 0 or not np.isfinite(found.du).all():
             return None
         self.solver.last = found.du / share
-        m.u[:] += found.du
-        run.state = self.solver.state
-        end = factors + found.x * change
-        m.reaction[:] = run.imbalance(self.solver.force, end)
-        mean = factors + 0.5 * found.x * change
-        driven = 0.5 * (driven + run.bulk.pushed(run.state))
-        m.energies[EXTERNAL] += found.du @ (p.loading.forces @ mean + driven)
-        moved = p.constraints.C @ found.du
-        if moved.any():
-            m.energies[EXTERNAL] += moved @ p.constraints.multipliers(0.5 * (old + m.reaction))
-        run.account(stored, self.solver.work)
+        run.accept(self.solver, found.du, factors, factors + found.x * change, m.contact)
         self.energies.append(m.energies.copy())
         self.turns = found.turns
         self.iterations = max(self.iterations, found.turns)

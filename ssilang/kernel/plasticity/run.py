@@ -110,6 +110,25 @@ class BulkRun:
             )
         m.energies[LOST] += self.lost
 
+    def accept(
+        self, solver: BulkSolver, du: FloatArray, before: FloatArray, after: FloatArray,
+        pushed: FloatArray,
+    ) -> None:  # fmt: skip
+        """Take a step du (n,) between load factors; `pushed` is what contact pushed with before."""
+        p, m = self.problem, self.motion
+        stored, old, driven = self.stored(), m.reaction.copy(), self.bulk.pushed(self.state)
+        m.u[:] += du
+        self.state = solver.state
+        m.reaction[:] = self.imbalance(solver.force, after)
+        driven = 0.5 * (driven + self.bulk.pushed(self.state))
+        m.energies[EXTERNAL] += du @ (p.loading.forces @ (0.5 * (before + after)) + driven)
+        mean, dd = 0.5 * (pushed + m.contact), p.constraints.C @ du
+        reaction = 0.5 * (old + m.reaction)
+        m.energies[EXTERNAL] += support_work(p, reaction, mean, du, dd, after - before)
+        if p.contact:
+            self.lost += p.contact.rubbed(mean, du)
+        self.account(stored, solver.work)
+
     def memory(self) -> dict[str, Any]:
         """What the next step depends on beside the motion."""
         last = None if self.last is None else leaves(self.last)
@@ -224,8 +243,6 @@ def _increment(
     p, m = run.problem, run.motion
     r = -run.imbalance(solver.force, after)
     dd = p.loading.imposed @ after - p.constraints.C @ m.u
-    stored, old = run.stored(), m.reaction.copy()
-    driven = run.bulk.pushed(run.state)
     change = after - before
     solver.guess = _carried_on(run.last, change)
     pushed = m.contact.copy()
@@ -233,16 +250,7 @@ def _increment(
     outcome = solver.solve(m, r, dd, gap)
     if outcome.turns <= 0 or not np.isfinite(outcome.du).all():
         return outcome if outcome.turns <= 0 else StepOutcome(outcome.du, -1, np.inf)
-    m.u[:] += outcome.du
-    run.state = solver.state
-    m.reaction[:] = run.imbalance(solver.force, after)
-    driven = 0.5 * (driven + run.bulk.pushed(run.state))
-    m.energies[EXTERNAL] += outcome.du @ (p.loading.forces @ (0.5 * (before + after)) + driven)
-    mean = 0.5 * (pushed + m.contact)
-    m.energies[EXTERNAL] += support_work(p, 0.5 * (old + m.reaction), mean, outcome.du, dd, change)
-    if p.contact:
-        run.lost += p.contact.rubbed(mean, outcome.du)
-    run.account(stored, solver.work)
+    run.accept(solver, outcome.du, before, after, pushed)
     run.last = (outcome.du, change)
     return outcome
 
