@@ -11,9 +11,8 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import FieldError, MaterialError
-from ssilang.kernel.elements.families import family_of, plastic_strain_names
+from ssilang.kernel.elements.families import family_of, moduli_of, plastic_strain_names
 from ssilang.kernel.elements.family import apply_moduli
-from ssilang.kernel.elements.solids.solid_moduli import moduli_from_field
 from ssilang.kernel.elements.zone_fields import ZoneField, n_points, zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.interface.elements import is_joint
@@ -126,8 +125,7 @@ def probing_step(
 
 def elastic_moduli(zone: Zone, parameters: ZoneField) -> FloatArray:
     """Moduli (n_cells, n_points, s, s) at 'STRESSES', from Hooke matrices or parameters."""
-    given = moduli_from_field(parameters, "STRESSES")
-    found = family_of(zone).moduli(zone, parameters, "STRESSES") if given is None else given
+    found = moduli_of(zone, parameters, "STRESSES")
     shape = (len(zone.cells), n_points(zone.element, "STRESSES"), *found.shape[2:])
     return np.broadcast_to(found, shape)
 
