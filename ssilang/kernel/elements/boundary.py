@@ -136,11 +136,8 @@ def absorbing_boundary(model: Model, boundary: Mesh, material: CellField) -> Mat
 
 def wave_speeds(zone: Zone, material: CellField) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Speeds of pressure and of shear waves, and density, of each cell of a zone (n,)."""
-    parameters, shape = zone_field(zone, material), (len(zone.cells),)
-    young, poisson, density = (
-        np.broadcast_to(parameters.at(name, "GRAVITE").mean(axis=1), shape)
-        for name in ("YOUN", "NU", "RHO")
-    )
+    parameters = zone_field(zone, material)
+    young, poisson, density = (parameters.each(name) for name in ("YOUN", "NU", "RHO"))
     shear = young / (2 * (1 + poisson))
     primary = young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson))
     return np.sqrt(primary / density), np.sqrt(shear / density), density

@@ -215,6 +215,15 @@ def contract(operator: StrainOperator, moduli: FloatArray) -> FloatArray:
     return np.matmul(left.transpose(0, 2, 1), right)
 
 
+def spread(scalar: FloatArray, n_unknowns: int) -> FloatArray:
+    """Matrices (n, k, k) of one unknown repeated for each of several unknowns of a node."""
+    n, k, _ = scalar.shape
+    values = np.zeros((n, k * n_unknowns, k * n_unknowns))
+    for i in range(n_unknowns):
+        values[:, i::n_unknowns, i::n_unknowns] = scalar
+    return values
+
+
 def node_major_layout(cells: CellBlock, unknowns: tuple[str, ...]) -> Layout:
     """Rows node by node, the same unknowns at each."""
     k = cells.kind.n_nodes

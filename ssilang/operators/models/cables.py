@@ -66,8 +66,8 @@ def _zone(
             n: float(seen.at(w, "GRAVITE").flat[0]) for w, n in _ENTRIES.items() if w in seen.names
         }
         losses = Losses(**own) if own else NO_LOSSES
-    section = np.broadcast_to(seen.at("SECT", "GRAVITE")[:, 0], len(cells))
-    stiffness = section * seen.at("YOUN", "GRAVITE")[:, 0]
+    section = seen.each("SECT")
+    stiffness = section * seen.each("YOUN")
     share = force / float(section.min()) / losses.strength
     if losses.relaxation and force > 0.0 and share not in PULLED:
         call.warn("operators.models.cable-strength", force, share=share, strength=losses.strength)

@@ -51,22 +51,13 @@ class Bar(family.ElementFamily):
         shapes, _, lengths = _geometry(zone, "MASSE")
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
         scalar = np.einsum("cp,pi,pj->cij", lengths * density, shapes, shapes)
-        return spread(scalar, zone.mode.dimension), self.layout(zone)
+        return family.spread(scalar, zone.mode.dimension), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """Integral of EFFX N' N'^T in every direction (second-order strain of a line)."""
         _, gradients, lengths = _geometry(zone, "STRESSES")
         scalar = np.einsum("cp,cpdi,cpdj->cij", lengths * stress[:, 0], gradients, gradients)
-        return spread(scalar, zone.mode.dimension)
-
-
-def spread(scalar: FloatArray, n_unknowns: int) -> FloatArray:
-    """Matrices (n, k, k) of one unknown repeated for each of several unknowns of a node."""
-    n, k, _ = scalar.shape
-    values = np.zeros((n, k * n_unknowns, k * n_unknowns))
-    for i in range(n_unknowns):
-        values[:, i::n_unknowns, i::n_unknowns] = scalar
-    return values
+        return family.spread(scalar, zone.mode.dimension)
 
 
 def bar_stretch(zone: Zone, displacement: NodeField) -> FloatArray:
@@ -116,7 +107,7 @@ class Hoop(Bar):
         """RHO SECT times the ring's length, in every direction."""
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
         scalar = (circumference(zone) * _radii(zone) * density)[..., None]
-        return spread(scalar, len(NODE_TRANSLATIONS[zone.mode])), self.layout(zone)
+        return family.spread(scalar, len(NODE_TRANSLATIONS[zone.mode])), self.layout(zone)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """EFFX / r^2 on what changes along the ring: the second-order part of its strain."""
@@ -144,7 +135,8 @@ class Across(Bar):
         """RHO SECT in the plane, for a length of 1."""
         density = parameters.at("RHO", "MASSE") * parameters.at("SECT", "MASSE")
         scalar = np.broadcast_to(density[..., None], (len(zone.cells), 1, 1))
-        return spread(scalar, 2), family.node_major_layout(zone.cells, NODE_TRANSLATIONS[zone.mode])
+        names = NODE_TRANSLATIONS[zone.mode]
+        return family.spread(scalar, 2), family.node_major_layout(zone.cells, names)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
         """None: the bar stays straight."""

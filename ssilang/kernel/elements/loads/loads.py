@@ -215,8 +215,7 @@ def traction(
 def _thickness(zone: Zone, cells: IntArray, material: CellField | None) -> FloatArray:
     if zone.mode is not Mode.PLANE_STRESS or material is None:
         return np.ones((1, 1))
-    values = zone_field(zone, material).at("DIM3", "GRAVITE", 1.0)
-    return np.broadcast_to(values.mean(axis=1, keepdims=True), (len(zone.cells), 1))[cells]
+    return zone_field(zone, material).each("DIM3", 1.0)[cells, None]
 
 
 def force_names(zone: Zone) -> tuple[str, ...]:

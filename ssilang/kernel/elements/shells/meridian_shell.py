@@ -162,9 +162,7 @@ class MeridianShell(TurningFamily):
     ) -> FloatArray:
         if zone.mode in solid.REVOLUTION:
             return m.weights * m.r * solid.circumference(zone)
-        width = parameters.at("DIM3", "GRAVITE", 1.0)
-        part = width if len(width) == 1 else width[cells]
-        return m.weights * part.mean(axis=1, keepdims=True)
+        return m.weights * parameters.each("DIM3", 1.0)[cells, None]
 
     def mass_values(self, zone: Zone, parameters: ZoneField) -> tuple[FloatArray, Layout]:
         """RHO EPAI of the three displacements."""
@@ -204,6 +202,5 @@ def meridian_forces(zone: Zone, pushed: FloatArray, parameters: ZoneField) -> No
     if pushed.shape[-1] == 3:
         work += np.einsum("cp,cpi->ci", pushed[..., 2], m.v)
     if zone.mode is Mode.PLANE_STRESS:
-        width = np.asarray(parameters.at("DIM3", "GRAVITE", 1.0))
-        work *= width.mean(axis=1, keepdims=True)
+        work *= parameters.each("DIM3", 1.0)[:, None]
     return TurningFamily.layout(MeridianShell(), zone).scatter(work)

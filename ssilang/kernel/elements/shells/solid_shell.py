@@ -213,6 +213,5 @@ class SolidShell(family.ElementFamily):
             geometry = cell_geometry("CUB8", brick.nodes, rule)
             spread = np.repeat(stress[cells][:, :6], 4, axis=2)
             scalar = geometric_scalar(zone, geometry, spread, geometry.volumes, cells)[0]
-            for i in range(3):
-                values[cells, i::3, i::3] = scalar
+            values[cells] = family.spread(scalar, 3)
         return values

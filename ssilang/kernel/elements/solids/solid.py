@@ -162,8 +162,7 @@ class Solid(family.ElementFamily):
             w = w * family.per_cell(density, cells)
             products = np.einsum("pi,pj->pij", geometry.shapes, geometry.shapes)
             scalar = (w @ products.reshape(len(products), k * k)).reshape(-1, k, k)
-            for i in range(nu):
-                values[cells, i::nu, i::nu] = scalar
+            values[cells] = family.spread(scalar, nu)
         return values, family.node_major_layout(zone.cells, names)
 
     def geometric_values(self, zone: Zone, stress: FloatArray, parameters: ZoneField) -> FloatArray:
