@@ -17,6 +17,7 @@ from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import closed_stiffness
 from ssilang.kernel.stepping.rests.memory import kernels, run
 from ssilang.kernel.stepping.rests.memory.ground import parts_of
+from ssilang.kernel.stepping.rests.memory.past import Past
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import integrate
 from ssilang.kernel.stepping.state import DAMPED, ELASTIC, EXTERNAL, KINETIC
@@ -183,6 +184,47 @@ def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, probes):
     size = np.linalg.norm(exact[0], 2)
     assert left[: len(made.whole) - 1].max() < 1e-4 * size
     assert 1e-4 * size < left.max() < 1e-2 * size
+
+
+def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch):
+    """What an impulse has moved for good stays."""
+    monkeypatch.setattr(kernels, "FEW", 0.0)
+    problem = record(**WIDE)
+    ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
+    made = kernels.kernels_of(ground, 1e-2, 20)
+    assert (made.stages, len(made.whole)) == ((), 21)
+    assert made.whole[:20].any(axis=(1, 2)).all()
+    assert not made.whole[20].any()
+
+
+@pytest.mark.parametrize("staged", [True, False])
+def test_convolution_is_that_of_sums_which_last(staged):
+    """Of kernels by hand: whole ones, two stages, what impulses have moved for good."""
+    random, q, steps = np.random.default_rng(4), 3, 70
+
+    def symmetric(count, r):
+        found = random.standard_normal((count, r, r))
+        return found + found.transpose(0, 2, 1)
+
+    sums, stages = symmetric(12, q), []
+    for first, r, count in ((12, 2, 9), (21, 1, 6)) if staged else ():
+        P = np.linalg.qr(random.standard_normal((q, r)))[0]
+        stages.append(kernels.Stage(first, P, symmetric(count, r)))
+        sums = np.concatenate([sums, P @ stages[-1].sums @ P.T])
+    whole = np.diff(sums[:12], axis=0, prepend=0.0, append=0.0 if staged else sums[11:12])
+    loads = random.standard_normal((5, q, 2))
+    mark = np.zeros(1)
+    past_of = kernels.Kernels(mark, 0.01, 1e-3, whole, tuple(stages), 0, loads, mark, 0)
+    factors = random.standard_normal((steps + 1, 2))
+    past = Past(past_of, factors, steps)
+    forces = random.standard_normal((steps, q))
+    lasting = np.concatenate([sums, np.repeat(sums[-1:], steps, axis=0)])
+    of_steps = np.diff(lasting, axis=0, prepend=0.0)
+    for n in range(steps):
+        known = [forces[n], *forces[n::-1]]  # at the end of this step as at its start
+        brought = -sum(G @ f for G, f in zip(of_steps, known, strict=False))
+        brought = brought + sum(A @ c for A, c in zip(loads, factors[n + 1 : 0 : -1], strict=False))
+        np.testing.assert_allclose(past.next(forces[n]), brought, rtol=2e-4, atol=2e-4)
 
 
 @pytest.mark.parametrize("elsewhere", [True, False], ids=["another process", "the same"])
