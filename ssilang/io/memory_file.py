@@ -14,7 +14,7 @@ from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError
 from ssilang.io.run_output import RunLock
-from ssilang.kernel.stepping.rests.memory.ground import PROBES, SINGLE
+from ssilang.kernel.stepping.rests.memory.ground import SINGLE, TOLD_BY
 from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
 from ssilang.system import GUARDED, lock
 
@@ -92,7 +92,7 @@ _NUMBERS: dict[str, Callable[[Any], Any]] = {
 
 def _check(k: Kernels) -> None:
     """Refuse arrays of kinds and shapes that no run wrote."""
-    q, loads = int(k.mark[0]), k.loads_mark.size // (PROBES + 1)
+    q, loads = int(k.mark[0]), k.loads_mark.size // (TOLD_BY + 1)
     shapes = [(k.whole, SINGLE, (len(k.whole), q, q)), (k.loads, SINGLE, (len(k.loads), q, loads))]
     shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:

@@ -24,7 +24,7 @@ def _kept(zone: Zone) -> tuple[int, ...]:
 
 
 class _Meridian:
-    """Interpolation of u (along), w (normal), v (solid.circumference) and slopes at points.
+    """Interpolation of u (along), w (normal), v (circumference) and slopes at points.
 
     Each is an operator (n, p, rows) on the element's unknowns, in global components.
     """
@@ -77,7 +77,7 @@ class _Meridian:
         return out
 
     def slope_around(self, harmonic_number: int) -> FloatArray:
-        """Rotation of the normal towards the solid.circumference."""
+        """Rotation of the normal towards the circumference."""
         r, nr = self.r[..., None], self.n[:, 0, None, None]
         return (harmonic_number * self.w + nr * self.v) / r
 
@@ -141,7 +141,7 @@ class MeridianShell(TurningFamily):
 
     @staticmethod
     def _around(B: FloatArray, m: _Meridian, k: int) -> None:
-        """Rows of the solid.circumference, for harmonic k.
+        """Rows of the circumference, for harmonic k.
 
         The twist counts the turning about the normal (Sanders, NASA TR R-24, 1959; Koiter, 1960),
         without which a body's own turning would twist a shell.

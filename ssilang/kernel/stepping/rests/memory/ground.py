@@ -25,7 +25,7 @@ from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction
 
 SINGLE: Any = np.float32
-PROBES = 4
+TOLD_BY = 4  # motions that tell grounds apart
 REST = 1e-3  # of the joints' forces: what may be out of balance where a motion starts
 
 
@@ -59,8 +59,8 @@ class Ground:
 
     @cached_property
     def _seen(self) -> FloatArray:
-        """Motions (r, `PROBES`) by which grounds and loads are told apart."""
-        return np.random.default_rng(0).standard_normal((self.T.shape[1], PROBES))
+        """Motions (r, `TOLD_BY`) by which grounds and loads are told apart."""
+        return np.random.default_rng(0).standard_normal((self.T.shape[1], TOLD_BY))
 
     @cached_property
     def mark(self) -> FloatArray:

@@ -162,9 +162,9 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
             stages.append(Stage(first, P.astype(SINGLE), sums))
         first += len(part)
     none = np.zeros((1, q, q), SINGLE)
-    ended = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
+    kept = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
     return Kernels(
-        ground.mark, ground.dt, tolerance, ended, tuple(stages), reach, loads, ground.loads_mark,
+        ground.mark, ground.dt, tolerance, kept, tuple(stages), reach, loads, ground.loads_mark,
         reach,
     )  # fmt: skip
 
