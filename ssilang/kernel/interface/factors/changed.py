@@ -19,7 +19,11 @@ from ssilang.kernel.base.compiled.apart import later
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import copy_state, dot, is_equal
-from ssilang.kernel.interface.factors.inverse import Inverse, subtract_jumps
+from ssilang.kernel.interface.factors.inverse import (
+    Inverse,
+    stiffness_forces,
+    subtract_jumps,
+)
 from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 
 MOST_TURNS = 60
@@ -165,32 +169,33 @@ def correct_changes(
     joints: Joints, condensed: Condensed, D: FloatArray, known: FloatArray, inverse: Inverse,
     changed: Changed, x: FloatArray, enough: float,
 ) -> bool:  # fmt: skip
-    """x from `apply_inverse` becomes that of the tangents D; False if that takes too many turns.
+    """`apply_inverse` of the tangents D; False, and x as it was, if that takes too many turns.
 
     `enough` is the residual of v that is left, relative to that of none.
     """
-    q, jumps = len(x), changed.jumps
+    q, jumps, Y, forces = len(x), changed.jumps, inverse.Y, inverse.room
     n = _find_changes(joints, D, known, jumps)
-    if n == 0:
-        return True
-    change, g, forces = np.empty(D.shape), np.empty(q), np.zeros(q)
+    stiffness_forces(joints, condensed, known, inverse, x)
+    change, g, dK = np.empty(D.shape), np.zeros(q), np.zeros(q)
     for p in range(len(D)):
         for i in range(D.shape[1]):
             for j in range(D.shape[2]):
                 change[p, i, j] = D[p, i, j] - known[p, i, j]
-    C = changed.own[: n * n].reshape((n, n))
+    C, v = changed.own[: n * n].reshape((n, n)), np.empty(n)
+    for i in range(q):
+        inverse.x[i] = forces[i]
     for a in range(n):
-        row = inverse.Y[jumps[a]]
+        row = Y[jumps[a]]
+        g[jumps[a]] = x[jumps[a]] - dot(row, inverse.x)
         for b in range(n):
             C[a, b] = row[jumps[b]]
-    add_stiffness_forces(joints, condensed.c, change, x, forces)
-    v = np.empty(n)
+    add_stiffness_forces(joints, condensed.c, change, g, dK)
     for a in range(n):
-        v[a] = forces[jumps[a]]
-    changed.spent[ALL] += q * q
+        v[a] = dK[jumps[a]]
+    changed.spent[ALL] += n * (q + n)
     if not _iterate(joints, condensed.c, change, changed, inverse, g, v, enough):
         return False
     for a in range(n):
-        forces[jumps[a]] = v[a]
+        forces[jumps[a]] += v[a]
     subtract_jumps(inverse, forces, x)
     return True

@@ -178,21 +178,28 @@ def subtract_jumps(inverse: Inverse, forces: FloatArray, x: FloatArray) -> None:
         x[i] -= dot(Y[i], by)
 
 
-@apart
 @compiled
-def apply_inverse(
+def stiffness_forces(
     joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
 ) -> None:
-    """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
+    """`(c K - R) x` into the room, K of the tangents D that Y belongs to."""
     R, K, forces = condensed.R, inverse.K, inverse.room
     for i in range(len(K)):
         forces[i] = dot(K[i], x)
     if len(K):
-        subtract_jumps(inverse, forces, x)
         return
     for i in range(len(x)):
         forces[i] = 0.0
         for j in range(len(R)):
             forces[i] -= R[i, j] * x[j]
     add_stiffness_forces(joints, condensed.c, D, x, forces)
-    subtract_jumps(inverse, forces, x)
+
+
+@apart
+@compiled
+def apply_inverse(
+    joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
+) -> None:
+    """`x := (1 + S (c K - R))^-1 x = x - Y (c K - R) x`, K of the tangents D that Y belongs to."""
+    stiffness_forces(joints, condensed, D, inverse, x)
+    subtract_jumps(inverse, inverse.room, x)

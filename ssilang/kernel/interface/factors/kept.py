@@ -15,7 +15,7 @@ from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.beside import tell_more
 from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, copy_state, is_equal
+from ssilang.kernel.interface.copies import copy_rows, is_equal
 from ssilang.kernel.interface.factors.changed import (
     ALL,
     LONG,
@@ -169,12 +169,11 @@ def solve_changing(
     enough: float,
 ) -> bool:  # fmt: skip
     """`solve_tangent` of some other tangents: corrected, or by a new Y where that is cheaper."""
-    known, inverse, changed, asked = factors.tangents, factors.inverse, factors.changed, x.copy()
-    if changed.spent[LONG] <= LONG_WORTH * len(x) ** 3:
-        apply_inverse(joints, condensed, known, inverse, x)
-        if correct_changes(joints, condensed, D, known, inverse, changed, x, enough):
-            return True
-        copy_state(asked, x)
+    known, inverse, changed = factors.tangents, factors.inverse, factors.changed
+    if changed.spent[LONG] <= LONG_WORTH * len(x) ** 3 and correct_changes(
+        joints, condensed, D, known, inverse, changed, x, enough
+    ):
+        return True
     good = make_anew(joints, condensed, factors, D)
     if good:
         apply_inverse(joints, condensed, known, inverse, x)

@@ -24,7 +24,7 @@ from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
 from ssilang.kernel.stepping.verbs import advance, damped, from_past
 
-COLUMNS = 128  # stepped together
+COLUMNS = 192  # stepped together
 PROBES = 64  # at first; half as many more while they do not suffice
 OVER = 2  # probes of one singular vector
 MOST = 0.75  # singular vectors of one probe
@@ -202,7 +202,7 @@ def _answers_to_probes(
         )  # fmt: skip
         forces = ground.J.T @ probes[:, count : count + max(count // 2, PROBES)]
         rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]))
-        for k, row in enumerate(np.cumsum(rows, axis=0)):
+        for k, row in enumerate(np.cumsum(rows, axis=0, out=rows)):
             found[k] = np.hstack([found[k], row])
     return found
 
@@ -230,8 +230,8 @@ def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
     Z = np.hstack(parts).astype(float)
     wide = Z.shape[1] > len(Z)
     gram = Z @ Z.T if wide else Z.T @ Z
-    values, vectors = la.eigh(gram, subset_by_value=[least**2, np.inf])
-    few = slice(max(0, len(values) - int(most)), None)
+    values, vectors = la.eigh(gram, driver="evd")
+    few = slice(max(np.searchsorted(values, least**2), len(values) - int(most)), None)
     return vectors[:, few] if wide else Z @ (vectors[:, few] / np.sqrt(values[few]))
 
 
@@ -244,7 +244,7 @@ def _answers(
     these describe, 0: all.
     """
     c = forces.shape[1]
-    count = 2 * -(-c // (2 * COLUMNS)) if c > COLUMNS else 1  # an even number keeps two busy
+    count = min(c, 2 * -(-c // (2 * COLUMNS)))  # an even number keeps two busy
     pieces = zip(*(np.array_split(x, count, axis=-1) for x in (forces, tolerance)), strict=True)
     found = side_by_side(
         [_until_quiet(ground, np.ascontiguousarray(F), steps, little) for F, little in pieces]

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.scientific import la
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels
 
@@ -50,7 +51,7 @@ class Past:
         self.forces[now] = forces
         total = self.ahead[row].copy()
         for j in range(row + 1):
-            total -= self.near[j] @ self.forces[now - j]
+            total -= la.blas.ssymv(1.0, self.near[j].T, self.forces[now - j])  # reads half of it
         self.done += 1
         return total
 

@@ -62,7 +62,7 @@ class MemoryLoop(InterleavedLoop):
         factors = parts.ground.problem.loading.at(p.times)[:, parts.ground.loads]
         self.past = Past(kernels, factors - factors[0], len(p.times) - 1)
         self.at = motion.delta - self.J @ self._folded(motion.u)
-        """The ground's part (q,) of the jumps."""
+        """The ground's part (q,) of the jumps: what the building's is not."""
         self.moved = np.zeros((3, len(self.at)))
         """How far that is from the start, its velocity and acceleration."""
         self.steps = np.zeros((2, len(self.at)))
@@ -97,8 +97,8 @@ class MemoryLoop(InterleavedLoop):
             if turns <= 0:
                 return k, turns, residual
             worst = max(worst, turns)
-            step = brought - self.S @ (n.end * (x.f - before))
-            self.at += step
+            at = x.delta - self.J @ x.u
+            step, self.at = at - self.at, at
             self._move(step, n)
             self._ground[k] = self.moved
             self.largest = max(self.largest, float(np.abs(x.delta).max()))
