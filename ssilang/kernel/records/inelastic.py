@@ -1,5 +1,7 @@
 """Largest responses of bilinear oscillators to ground motion, at given or wanted ductility."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
@@ -81,8 +83,10 @@ def limits_for_ductility(
     dt = float(times[-1] - times[0]) / (len(times) - 1)
     found = np.empty(len(frequencies))
     for k, f in enumerate(frequencies):
-        peak = _Peak(signal, dt, float(f), damping, LAWS.index(law), hardening)
-        found[k] = _limit(peak, ductility, float(first[k]))
+        oscillator = (signal, dt, float(f), damping, LAWS.index(law), hardening)
+        found[k] = _limit(
+            lambda limit, o=oscillator: float(_peak(*o, limit)) / limit, ductility, float(first[k])
+        )
     return found
 
 
@@ -97,40 +101,28 @@ def _check(times: FloatArray, frequencies: FloatArray, damping: float, hardening
         raise KernelError("kernel.records.hardening-ratio-lies-left", hardening=hardening)
 
 
-class _Peak:
-    """Largest displacement of one oscillator as a function of its elastic limit."""
-
-    def __init__(
-        self, signal: FloatArray, dt: float, f: float, damping: float, law: int, hardening: float
-    ) -> None:
-        self.data = (signal, dt, f, damping, law, hardening)
-
-    def ductility(self, limit: float) -> float:
-        return float(_peak(*self.data, limit)) / limit
-
-
-def _limit(peak: _Peak, wanted: float, first: float) -> float:
+def _limit(ductility: Callable[[float], float], wanted: float, first: float) -> float:
     """The limit of the wanted ductility: a bracket by doubling, then halving in logarithms."""
     if not first > 0.0:
         return 0.0
     low = high = first
-    reached = peak.ductility(first)
+    reached = ductility(first)
     if abs(reached / wanted - 1.0) <= NEARNESS:
         return first
     for _ in range(TRIALS):
         if reached > wanted:
             low, high = high, 2.0 * high
-            reached = peak.ductility(high)
+            reached = ductility(high)
             if reached <= wanted:
                 break
         else:
             low, high = low / 2.0, low
-            reached = peak.ductility(low)
+            reached = ductility(low)
             if reached >= wanted:
                 break
     for _ in range(TRIALS):
         middle = float(np.sqrt(low * high))
-        reached = peak.ductility(middle)
+        reached = ductility(middle)
         if abs(reached / wanted - 1.0) <= CLOSE:
             return middle
         low, high = (middle, high) if reached > wanted else (low, middle)

@@ -83,17 +83,14 @@ def shocks(
 
 def time_above(x: FloatArray, y: FloatArray, level: float) -> float:
     """Length of the abscissas where a curve linear between its points is above +-level."""
-    return _time_above(x, y, level) + _time_above(x, -y, level)
-
-
-def _time_above(x: FloatArray, y: FloatArray, level: float) -> float:
-    a, b = y[:-1] - level, y[1:] - level
-    steps = np.diff(x)
-    share = np.where((a > 0) & (b > 0), 1.0, 0.0)
-    crossing = (a > 0) != (b > 0)
-    span = np.abs(b - a)
-    part = np.maximum(a, b) / np.where(span > 0, span, 1.0)
-    return float(np.sum(steps * np.where(crossing, part, share)))
+    parts = []
+    for side in (y, -y):
+        a, b = side[:-1] - level, side[1:] - level
+        span = np.abs(b - a)
+        part = np.maximum(a, b) / np.where(span > 0, span, 1.0)
+        shares = np.where((a > 0) != (b > 0), part, (a > 0) & (b > 0))
+        parts.append(float(np.sum(np.diff(x) * shares)))
+    return parts[0] + parts[1]
 
 
 def scales(low: float, high: float, count: int, pulsation: float) -> FloatArray:
