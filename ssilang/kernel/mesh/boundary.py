@@ -47,21 +47,13 @@ def faces_inside(faces: Mesh, mesh: Mesh) -> int:
     return count
 
 
-_MANY = 2**31
-
-
-def contour(mesh: Mesh) -> Mesh:
-    """Edges of surface cells that belong to one cell only, walked along end to end.
+def contour(mesh: Mesh, shared: tuple[float, float] = (1, 1)) -> Mesh:
+    """Edges that one surface cell only has, or as many as `shared` says, walked along end to end.
 
     The walk starts at the first corner met (of all cells the first corners, then the second ones),
     and its first edge keeps the sense of its cell: the loop follows it, whatever way the others
     are described.
     """
-    return _walked(mesh, (1, 1))
-
-
-def _walked(mesh: Mesh, shared: tuple[int, int]) -> Mesh:
-    """Edges that as many surface cells have, in the order and sense of a walk along them."""
     edges, corners, colours = _edges_of_surfaces(mesh)
     counts, group = sharing(edges)
     keep = np.flatnonzero((counts >= shared[0]) & (counts <= shared[1]))
@@ -131,7 +123,7 @@ def walked(cells: IntArray, corners: IntArray, turning: bool = True) -> tuple[In
 
 def inner_contour(mesh: Mesh) -> Mesh:
     """Edges where three or more surface cells meet."""
-    return _walked(mesh, (3, _MANY))
+    return contour(mesh, (3, np.inf))
 
 
 def envelope(mesh: Mesh) -> Mesh:

@@ -53,15 +53,19 @@ def _polygon(name: str, corners: int, degree: int) -> CellType:
     return CellType(name, 2, n, degree, tuple(range(0, n, degree)), faces)
 
 
-_COMPLETE = {"TRI6": "TRI7", "QUA8": "QUA9"}
+COMPLETE = {
+    "TRI6": "TRI7", "QUA8": "QUA9", "CU20": "CU27", "PR15": "PR21", "TE10": "TE15", "PY13": "PY19",
+}  # fmt: skip
+"""Complete cells by the quadratic ones."""
 
 
-def _complete(name: str, quadratic: CellType) -> CellType:
+def _complete(quadratic: CellType) -> CellType:
     """The cell with a node in the middle of each face of three or four sides, and in its own."""
     n, faces = quadratic.n_nodes, quadratic.faces
     if quadratic.dimension == 3:
-        faces = tuple((_COMPLETE[k], (*local, n + i)) for i, (k, local) in enumerate(faces))
+        faces = tuple((COMPLETE[k], (*local, n + i)) for i, (k, local) in enumerate(faces))
         n += len(faces)
+    name = COMPLETE[quadratic.name]
     return CellType(name, quadratic.dimension, n + 1, 2, quadratic.corners, faces)
 
 
@@ -159,12 +163,9 @@ CELL_TYPES: dict[str, CellType] = {
         _PY13,
         # complete cells: the quadratic ones, a node in the middle of each face of theirs (not those
         # of plane cells, which are lines), then one in the middle of the cell
-        _complete("TRI7", _polygon("TRI6", 3, 2)),
-        _complete("QUA9", _polygon("QUA8", 4, 2)),
-        _complete("CU27", _CU20),
-        _complete("PR21", _PR15),
-        _complete("TE15", _TE10),
-        _complete("PY19", _PY13),
+        _complete(_polygon("TRI6", 3, 2)),
+        _complete(_polygon("QUA8", 4, 2)),
+        *map(_complete, (_CU20, _PR15, _TE10, _PY13)),
         CellType("RAC2", 1, 4, 1, (0, 1, 2, 3), joint=True),
         CellType("RAC3", 1, 6, 2, (0, 2, 3, 5), joint=True),
         CellType("LIA3", 2, 6, 1, (0, 1, 2, 3, 4, 5), joint=True),

@@ -9,20 +9,12 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import IntArray
 from ssilang.kernel.base.errors import MeshError
-from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
+from ssilang.kernel.mesh.cells import CELL_TYPES, COMPLETE, LINEAR_CELLS, CellType
 from ssilang.kernel.mesh.combine import union
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 
-QUADRATIC = {
-    "SEG2": "SEG3",
-    "TRI3": "TRI6",
-    "QUA4": "QUA8",
-    "TET4": "TE10",
-    "PRI6": "PR15",
-    "PYR5": "PY13",
-    "CUB8": "CU20",
-}
-LINEAR = {v: k for k, v in QUADRATIC.items()}
+LINEAR = {k: v for k, v in LINEAR_CELLS.items() if v != k and k not in COMPLETE.values()}
+QUADRATIC = {v: k for k, v in LINEAR.items()}
 
 
 def linear(mesh: Mesh) -> Mesh:
@@ -128,16 +120,6 @@ def _edge_pairs(block: CellBlock) -> IntArray:
     corner = {local: k for k, local in enumerate(CELL_TYPES[name].corners)}
     places = [(corner[a], corner[b]) for _, a, b in middle_places(name)]
     return block.connectivity[:, places]
-
-
-COMPLETE = {
-    "TRI6": "TRI7",
-    "QUA8": "QUA9",
-    "TE10": "TE15",
-    "PY13": "PY19",
-    "PR15": "PR21",
-    "CU20": "CU27",
-}
 
 
 def complete(mesh: Mesh) -> Mesh:

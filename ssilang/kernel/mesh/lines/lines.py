@@ -3,7 +3,7 @@
 Tangents, normals and binormals along lines.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
@@ -74,13 +74,6 @@ def different_nodes(nodes: NodeTable, start: int, end: int) -> None:
     """Refuse a line from a node to itself."""
     if start == end:
         raise MeshError("kernel.mesh.line-starts-ends-same", start=nodes.told(start))
-
-
-def polyline(
-    nodes: NodeTable, points: Sequence[int] | IntArray, quadratic: bool, colour: int = 0
-) -> Mesh:
-    """A broken line through existing nodes (m,), as SEG2, or as SEG3 (every other is a middle)."""
-    return chain_mesh(nodes, np.asarray(points, dtype=np.int64), quadratic, colour)
 
 
 def line_chain(line: Mesh) -> IntArray:

@@ -3,7 +3,7 @@
 import math
 
 from ssilang.kernel.mesh.lines.curves import Arc, arc_about_axis
-from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh, polyline
+from ssilang.kernel.mesh.lines.lines import CurveMap, chain_mesh
 from ssilang.operators.mesh.lines.ends import *
 from ssilang.operators.prelude import *
 
@@ -89,7 +89,7 @@ def quel(
     ws = workspace(call.session)
     quadratic = cell_type == "SEG3" if cell_type else chosen_family(ws).quadratic
     if not lists:
-        return polyline(ws.nodes, _given_nodes(call, points), quadratic, ws.colour)
+        return chain_mesh(ws.nodes, _given_nodes(call, points), quadratic, ws.colour)
     if points:
         raise call.error("operators.mesh.points-and-lists", points[0])
     if len({len(v) for v in lists}) > 1:

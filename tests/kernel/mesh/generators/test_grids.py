@@ -21,7 +21,7 @@ from ssilang.kernel.mesh.generators.sweep import (
     sweep_surface,
     translation,
 )
-from ssilang.kernel.mesh.lines.lines import line_chain, polyline
+from ssilang.kernel.mesh.lines.lines import chain_mesh, line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -135,7 +135,7 @@ def four_sides(quadratic):
     rim[1:-1, 1:-1] = False
     ids[rim] = nodes.add(x[rim], 0.1 + r[rim] + 2 * s[rim])
     chains = ids[0], ids[::-1, -1], ids[-1, ::-1], ids[:, 0]
-    return nodes, x, r, s, [polyline(nodes, c, quadratic) for c in chains]
+    return nodes, x, r, s, [chain_mesh(nodes, c, quadratic) for c in chains]
 
 
 @pytest.mark.parametrize("quadratic", [False, True])
@@ -297,7 +297,7 @@ def test_a_swept_line_has_its_sides_in_order_and_its_area(surface):
     if degree == 2:
         x[1::2] = (x[:-1:2] + x[2::2]) / 2
     ids = nodes.add(np.column_stack([3 * x, x, 0 * x]))
-    line = polyline(nodes, ids, degree == 2, 4)
+    line = chain_mesh(nodes, ids, degree == 2, 4)
     cuts = listed_cuts(np.array([2.0, 2.5, 4.0]), 5.0)
     np.testing.assert_allclose(cuts.fractions, [0, 0.25, 1])
     assert (cuts.start_density, cuts.end_density) == (2.5, 2.5)
@@ -341,12 +341,12 @@ def test_ruled_volumes_lie_between_their_ends():
     assert len(base.nodes) == 15
     assert path.length == pytest.approx(np.linalg.norm(mean_position(other) - mean_position(base)))
     assert set(made.sides[1].node_ids.tolist()) == set(range(5, 10))
-    line, far = (polyline(base.nodes, np.array(c), False) for c in ((0, 1, 4), (8, 7, 9)))
+    line, far = (chain_mesh(base.nodes, np.array(c), False) for c in ((0, 1, 4), (8, 7, 9)))
     assert ruling(line, far).length == pytest.approx(
         np.linalg.norm(x[[8, 7, 9]] - x[[0, 1, 4]], axis=1).mean()
     )
     with pytest.raises(MeshError, match="same"):
-        ruling(line, polyline(base.nodes, np.array([0, 1]), False))
+        ruling(line, chain_mesh(base.nodes, np.array([0, 1]), False))
 
 
 # --- stitches and cones ---------------------------------------------------------------------------
@@ -358,7 +358,7 @@ def test_two_lines_are_stitched_without_gap(n, m):
     s, t = np.linspace(0, 1, n + 1) ** 1.5, np.linspace(0, 1, m + 1)
     a = nodes.add(np.column_stack([3 * s, 0.2 * s, 0 * s]))
     b = nodes.add(np.column_stack([3 * t, 1 + 0.5 * t, 0 * t]))
-    made = stitch(polyline(nodes, a, False), polyline(nodes, b, False), 3).single_block()
+    made = stitch(chain_mesh(nodes, a, False), chain_mesh(nodes, b, False), 3).single_block()
     x = made.coordinates
     areas = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0])[:, 2] / 2
     assert len(made) == n + m
@@ -366,10 +366,10 @@ def test_two_lines_are_stitched_without_gap(n, m):
     assert areas.sum() == pytest.approx(3 * (1 + 1.3) / 2)
     near = max(np.linalg.norm(x[:, i] - x[:, j], axis=1).max() for i, j in ((0, 1), (1, 2), (2, 0)))
     assert near < 2.0 or m == 1  # no way along the whole strip
-    ends = polyline(nodes, a[[0, -1]], False), polyline(nodes, b[[0, -1]], False)
+    ends = chain_mesh(nodes, a[[0, -1]], False), chain_mesh(nodes, b[[0, -1]], False)
     assert set(stitch(*ends).single_block().connectivity[0]) == {a[0], a[-1], b[0]}  # the shorter
     with pytest.raises(MeshError, match="same"):
-        stitch(polyline(nodes, a[:2], False), polyline(nodes, a[:2], False))
+        stitch(chain_mesh(nodes, a[:2], False), chain_mesh(nodes, a[:2], False))
 
 
 def test_cells_are_joined_to_a_point_but_those_that_hold_it():
