@@ -4,7 +4,7 @@ import json
 from collections.abc import Iterable
 from typing import Any, TextIO
 
-from ssilang.cli.editor.problems import Problem, find_problems
+from ssilang.cli.editor.problems import Fix, Problem, find_problems
 from ssilang.language.text.source import Source
 
 
@@ -27,29 +27,22 @@ def report(
 
 def _record(source: Source, problem: Problem) -> dict[str, Any]:
     """A problem; lines and columns from 1, the end column behind the last character."""
-    (line, column), (last, behind) = source.position(problem.start), source.position(problem.end)
     return {
         "file": source.name,
-        "line": line,
-        "column": column,
-        "end_line": last,
-        "end_column": behind,
+        **_place(source, problem),
         "severity": problem.severity,
         "code": problem.code,
         "message": problem.text,
         "hint": problem.hint,
         "fixes": [
-            {
-                "title": fix.title,
-                "line": source.position(fix.start)[0],
-                "column": source.position(fix.start)[1],
-                "end_line": source.position(fix.end)[0],
-                "end_column": source.position(fix.end)[1],
-                "text": fix.text,
-            }
-            for fix in problem.fixes
+            {"title": fix.title, **_place(source, fix), "text": fix.text} for fix in problem.fixes
         ],
     }
+
+
+def _place(source: Source, part: Problem | Fix) -> dict[str, int]:
+    (line, column), (last, behind) = source.position(part.start), source.position(part.end)
+    return {"line": line, "column": column, "end_line": last, "end_column": behind}
 
 
 def _note(source: Source, problem: Problem) -> str:
