@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.elements.results.frames import points_of
 from ssilang.kernel.elements.shapes import reference
@@ -19,40 +19,35 @@ Lost = list[FloatArray]
 
 def _interpolated(
     field: CellField, x: FloatArray, tolerance: float, lost: Lost
-) -> dict[str, tuple[IntArray, FloatArray]]:
-    """For each component the points (m,) inside the field's cells and its values there.
+) -> dict[str, tuple[BoolArray, FloatArray]]:
+    """For each component which points (n,) lie inside the field's cells, and its values (n,).
 
-    Points (n, 3) that no component has are added to `lost`.
+    Values are zero elsewhere; points (n, 3) that no component has are added to `lost`.
     """
-    out: dict[str, tuple[IntArray, FloatArray]] = {}
-    seen: dict[str, np.ndarray] = {}
+    out: dict[str, tuple[BoolArray, FloatArray]] = {}
     for block in field.blocks:
-        found = locate(Mesh(block.cells.nodes, (block.cells,)), x, tolerance)[0]
-        cells, shapes = found
+        cells, shapes = locate(Mesh(block.cells.nodes, (block.cells,)), x, tolerance)[0]
         for name, values in block.components.items():
             if values.shape[1] not in (1, block.cells.kind.n_nodes):
                 raise FieldError("kernel.elements.field-project-must-stand")
-            fresh = (cells >= 0) & ~seen.get(name, np.zeros(len(x), bool))
-            rows = np.flatnonzero(fresh)
+            inside, found = out.get(name, (np.zeros(len(x), bool), np.zeros(len(x))))
+            found = found.astype(np.result_type(found, values))
+            rows = np.flatnonzero((cells >= 0) & ~inside)
             full = np.broadcast_to(values, (len(block.cells), values.shape[1]))[cells[rows]]
-            here = full[:, 0] if values.shape[1] == 1 else np.einsum("nk,nk->n", full, shapes[rows])
-            old_rows, old_values = out.get(name, (np.empty(0, np.int64), np.empty(0)))
-            out[name] = (np.concatenate([old_rows, rows]), np.concatenate([old_values, here]))
-            seen[name] = seen.get(name, np.zeros(len(x), bool)) | fresh
-    if seen:
-        lost.append(x[~np.logical_or.reduce(list(seen.values()))])
+            one = values.shape[1] == 1
+            found[rows] = full[:, 0] if one else np.einsum("nk,nk->n", full, shapes[rows])
+            inside[rows] = True
+            out[name] = inside, found
+    if out:
+        lost.append(x[~np.logical_or.reduce([inside for inside, _ in out.values()])])
     return out
 
 
 def on_mesh(field: CellField, mesh: Mesh, tolerance: float, lost: Lost) -> NodeField:
     """Values of a field, given at nodes of its cells, at the nodes of a mesh inside them."""
     nodes = mesh.sorted_node_ids
-    parts = {}
-    for name, (rows, values) in _interpolated(
-        field, mesh.nodes.coordinates[nodes], tolerance, lost
-    ).items():
-        order = np.argsort(rows)
-        parts[name] = NodeValues(nodes[rows[order]], values[order])
+    found = _interpolated(field, mesh.nodes.coordinates[nodes], tolerance, lost)
+    parts = {name: NodeValues(nodes[at], values[at]) for name, (at, values) in found.items()}
     return NodeField(mesh.nodes, parts, "DIFFUS")
 
 
@@ -63,12 +58,10 @@ def on_model(
     blocks = []
     for zone in model.zones:
         x = points_of(zone, support)
-        n, p, _ = x.shape
-        components = {}
-        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance, lost).items():
-            flat = np.zeros(n * p)
-            flat[rows] = values
-            components[name] = flat.reshape(n, p)
+        found = _interpolated(field, x.reshape(-1, 3), tolerance, lost)
+        components = {
+            name: values.astype(float).reshape(x.shape[:2]) for name, (_, values) in found.items()
+        }
         if components:
             blocks.append(zone.block(components, support))
     return CellField(tuple(blocks), field.title)
@@ -122,10 +115,8 @@ def by_least_squares(
         weighted = weights[:, :, None] * shapes
         squares = np.einsum("cpk,pl->ckl", weighted, shapes)
         components = {}
-        for name, (rows, values) in _interpolated(field, x.reshape(-1, 3), tolerance, lost).items():
-            flat = np.zeros(x.shape[0] * x.shape[1])
-            flat[rows] = values
-            right = np.einsum("cpk,cp->ck", weighted, flat.reshape(x.shape[:2]))
+        for name, (_, values) in _interpolated(field, x.reshape(-1, 3), tolerance, lost).items():
+            right = np.einsum("cpk,cp->ck", weighted, values.astype(float).reshape(x.shape[:2]))
             components[name] = np.linalg.solve(squares, right[..., None])[..., 0]
         if components:
             blocks.append(zone.block(components, "NOEUD"))
