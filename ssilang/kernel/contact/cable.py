@@ -13,10 +13,9 @@ from numpy.typing import NDArray
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.contact.rows import Friction
-from ssilang.kernel.matrices.location import locate
 from ssilang.kernel.matrices.matrix import Relations
 from ssilang.kernel.matrices.relations import joined, rows_from_table
-from ssilang.kernel.matrices.tied_relations import sliding
+from ssilang.kernel.matrices.tied_relations import held, sliding
 from ssilang.kernel.mesh.mesh import Mesh
 
 
@@ -94,17 +93,9 @@ def _slips(
     np.add.at(tangents, ends.node, turn[:, None] * ends.tangent)
     own = np.setdiff1d(np.unique(ends.node), body.sorted_node_ids)
     rows, nodes = [], []
-    found = locate(body, body.nodes.coordinates[own], 1e-5)
-    for block, (which, shapes) in zip(body.blocks, found, strict=True):
-        inside = np.flatnonzero(which >= 0)
-        if len(inside) == 0:
-            continue
-        masters = block.connectivity[which[inside]]
-        weights = np.concatenate([np.ones((len(masters), 1)), -shapes[inside]], axis=1)
-        weights[np.abs(weights) < 1e-10] = 0.0
+    for inside, table, weights in held(own, body, 1e-5):
         way = tangents[own[inside]]
         way = way / np.linalg.norm(way, axis=1, keepdims=True)
-        table = np.concatenate([own[inside][:, None], masters], axis=1)
         values = (way[:, :, None] * weights[:, None, :]).reshape(len(table), -1)
         names = tuple(u for u in unknowns for _ in range(table.shape[1]))
         rows.append(rows_from_table(line.nodes, np.tile(table, (1, len(unknowns))), names, values))

@@ -158,7 +158,7 @@ def hooked(
     """
     own = np.setdiff1d(nodes, mesh.sorted_node_ids)
     rows = []
-    for _, table, values in _held(own, mesh, tolerance):
+    for _, table, values in held(own, mesh, tolerance):
         rows += [
             rows_from_table(mesh.nodes, table, (u,) * table.shape[1], values) for u in unknowns
         ]
@@ -181,7 +181,7 @@ def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 
     own = np.setdiff1d(line.sorted_node_ids, mesh.sorted_node_ids)
     tangents = _line_tangents(line)[own, :dim]
     rows = []
-    for inside, nodes, weights in _held(own, mesh, tolerance):
+    for inside, nodes, weights in held(own, mesh, tolerance):
         for normal in across(tangents[inside]):
             values = (normal[:, :, None] * weights[:, None, :]).reshape(len(nodes), -1)
             names = tuple(u for u in unknowns for _ in range(nodes.shape[1]))
@@ -191,7 +191,7 @@ def sliding(line: Mesh, mesh: Mesh, unknowns: Sequence[str], tolerance: float = 
     return joined(rows)
 
 
-def _held(
+def held(
     nodes: IntArray, mesh: Mesh, tolerance: float
 ) -> Iterator[tuple[NDArray[np.bool_], IntArray, FloatArray]]:
     """Nodes in cells, block by block: which of them, they and their cells' nodes, their weights."""
