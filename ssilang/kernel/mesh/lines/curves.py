@@ -217,33 +217,25 @@ def cubic_tangents(
     )
 
 
-@dataclass(frozen=True, slots=True)
-class ParabolicArc:
-    """An arc of circle cut into parabolas that touch it at their ends, tangentially.
+def parabolic_middles(arc: Arc, fractions: FloatArray) -> FloatArray:
+    """Middles (n, 3) of parabolas that touch an arc at their ends, tangentially.
 
-    Attributes
+    Parameters
     ----------
     fractions : array (n + 1,)
         Ends of the parabolas, as parts of the arc.
+
+    Raises
+    ------
+    MeshError
+        If one of them opens by a half turn or more: its end tangents do not meet.
     """
-
-    arc: Arc
-    fractions: FloatArray
-
-    def middles(self) -> FloatArray:
-        """Positions (n, 3) of the parabolas' middles.
-
-        Raises
-        ------
-        MeshError
-            If one of them opens by a half turn or more: its end tangents do not meet.
-        """
-        half = 0.5 * self.arc.angle * np.diff(self.fractions)
-        if (np.abs(half) >= 0.5 * math.pi).any():
-            raise MeshError("kernel.mesh.parabola-covers-half-turn")
-        centred = self.arc(0.5 * (self.fractions[:-1] + self.fractions[1:])) - self.arc.centre
-        reach = 0.5 * (np.cos(half) + 1.0 / np.cos(half))
-        return self.arc.centre + reach[:, None] * centred
+    half = 0.5 * arc.angle * np.diff(fractions)
+    if (np.abs(half) >= 0.5 * math.pi).any():
+        raise MeshError("kernel.mesh.parabola-covers-half-turn")
+    centred = arc(0.5 * (fractions[:-1] + fractions[1:])) - arc.centre
+    reach = 0.5 * (np.cos(half) + 1.0 / np.cos(half))
+    return arc.centre + reach[:, None] * centred
 
 
 def fillet(

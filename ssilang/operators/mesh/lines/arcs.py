@@ -97,7 +97,7 @@ def parc(
     arc = _about_centre(call, a, centre.coordinates.copy(), b)
     tips = cuts.sizes(end_sizes(ws.nodes, ends.start, ends.end))
     pieces = subdivide(arc.length, *tips, cuts.count)
-    middles = curves.ParabolicArc(arc, pieces.fractions).middles()
+    middles = curves.parabolic_middles(arc, pieces.fractions)
     inner = pieces.fractions[1:-1]
     corners = ws.nodes.add(arc(inner), pieces.density(inner)) if len(inner) else inner.astype(int)
     chain = np.empty(2 * pieces.count + 1, dtype=np.int64)

@@ -104,7 +104,7 @@ def test_polynomials_meet_what_they_are_made_of():
 
 def test_parabolas_touch_their_arc_at_their_ends():
     arc, fractions = ARCS["through"][0], np.array([0.0, 0.1, 0.45, 0.6, 1.0])
-    middles = curves.ParabolicArc(arc, fractions).middles()
+    middles = curves.parabolic_middles(arc, fractions)
     h = 1e-6
     for a, b, middle in zip(fractions[:-1], fractions[1:], middles, strict=True):
         ends = arc(np.array([a, b]))
@@ -114,7 +114,7 @@ def test_parabolas_touch_their_arc_at_their_ends():
             np.testing.assert_allclose(np.cross(along / np.linalg.norm(along), corner - end), 0,
                                        atol=1e-8)  # fmt: skip
     with pytest.raises(MeshError, match="half turn"):
-        curves.ParabolicArc(arc, np.array([0.0, 0.2, 1.0])).middles()
+        curves.parabolic_middles(arc, np.array([0.0, 0.2, 1.0]))
 
 
 @together(
