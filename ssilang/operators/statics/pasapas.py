@@ -102,14 +102,11 @@ def zpas(call: Call, table: Table = Arg("TABLE", en="table of PASAPAS")) -> None
                 _say_model(entries, work, stage, number)
                 if ends:
                     break
-                start, times, saved = _onward(
-                    entries, work, times, saved, stage.steps, state, before
-                )
+                step, changed = stage.steps, False
             except ChangedCalculation as change:
-                state = entries.get("ESTIMATION")
-                start, times, saved = _onward(
-                    entries, work, times, saved, change.step, state, before
-                )
+                state, step, changed = entries.get("ESTIMATION"), change.step, True
+            start, times, saved = _onward(entries, work, times, saved, step, state, before)
+            if changed:
                 times, saved = _other_times(entries, times, saved)
     except StopCalculation:
         pass
