@@ -40,9 +40,7 @@ def runs(workflow: str) -> list[str]:
 
 
 @pytest.mark.parametrize("path", _FILES, ids=lambda p: p.name)
-def test_files_are_what_their_readers_expect(
-    path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_files_are_what_their_readers_expect(path, capsys):
     reason = "has the schemas: pip install '.[test]'"
     program = pytest.importorskip("check_jsonschema", reason=reason).main
     kind = {"workflows": "github-workflows", "ISSUE_TEMPLATE": "github-issue-forms"}
@@ -54,7 +52,7 @@ def test_files_are_what_their_readers_expect(
     assert ended.value.code == 0, capsys.readouterr()
 
 
-def test_an_image_is_made_by_the_commands_of_the_readme() -> None:
+def test_an_image_is_made_by_the_commands_of_the_readme():
     lines = (_ROOT / "Dockerfile").read_text(encoding="utf-8").splitlines()
     steps = [line.removeprefix("RUN ") for line in lines if line.startswith("RUN python3")]
     result, tests = readme_commands()
@@ -62,7 +60,7 @@ def test_an_image_is_made_by_the_commands_of_the_readme() -> None:
     assert len(lines) <= 10
 
 
-def test_workflows_run_what_the_pages_say() -> None:
+def test_workflows_run_what_the_pages_say():
     _, tests = readme_commands()
     assert tests in runs("tests.yml")
     said = "pip install '.[docs]' && python docs/web_pages.py"
@@ -70,7 +68,7 @@ def test_workflows_run_what_the_pages_say() -> None:
     assert said in runs("docs.yml")
 
 
-def test_the_suite_runs_on_all_systems_and_pythons() -> None:
+def test_the_suite_runs_on_all_systems_and_pythons():
     matrix = read(_GITHUB / "workflows" / "tests.yml")["jobs"]["suite"]["strategy"]["matrix"]
     assert {name.partition("-")[0] for name in matrix["os"]} == {"ubuntu", "windows", "macos"}
     asked = SpecifierSet(_PROJECT["requires-python"])
@@ -80,7 +78,7 @@ def test_the_suite_runs_on_all_systems_and_pythons() -> None:
     assert not asked.contains(f"3.{minors[0] - 1}")
 
 
-def test_the_recipe_asks_for_what_the_package_asks_for() -> None:
+def test_the_recipe_asks_for_what_the_package_asks_for():
     recipe = read(_ROOT / "conda" / "recipe.yaml")
     asked = [Requirement(line) for line in _PROJECT["dependencies"]]
     wanted = {_CONDA.get(r.name, r.name): r.specifier for r in asked}
@@ -92,7 +90,7 @@ def test_the_recipe_asks_for_what_the_package_asks_for() -> None:
     assert host == {"python", "pip", "hatchling"}
 
 
-def test_the_recipe_is_of_this_release() -> None:
+def test_the_recipe_is_of_this_release():
     recipe = read(_ROOT / "conda" / "recipe.yaml")
     assert recipe["context"]["version"] == __version__
     scripts = [f"{name} = {target}" for name, target in _PROJECT["scripts"].items()]
@@ -102,7 +100,7 @@ def test_the_recipe_is_of_this_release() -> None:
     assert (_ROOT / about["license_file"]).is_file()
 
 
-def test_hooks_are_the_tools_that_the_tests_run() -> None:
+def test_hooks_are_the_tools_that_the_tests_run():
     hooks = [h for repo in read(_ROOT / ".pre-commit-config.yaml")["repos"] for h in repo["hooks"]]
     tools = [hook["entry"].removeprefix("python -m ").split()[0] for hook in hooks]
     assert tools == ["ruff", "ruff", "pyrefly", "lint-imports"]
@@ -111,7 +109,7 @@ def test_hooks_are_the_tools_that_the_tests_run() -> None:
         assert f'"{tool}"' in house
 
 
-def test_no_address_is_made_up() -> None:
+def test_no_address_is_made_up():
     paths = [p for p in _GITHUB.rglob("*") if p.is_file()]
     paths += [
         _ROOT / name for name in (".pre-commit-config.yaml", "Dockerfile", "conda/recipe.yaml")

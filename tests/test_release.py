@@ -114,7 +114,7 @@ def _needed(start: metadata.Distribution) -> dict[str, metadata.Distribution]:
     return found
 
 
-def test_the_source_distribution_is_the_tree(release: Release) -> None:
+def test_the_source_distribution_is_the_tree(release):
     asked = subprocess.run(
         ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         cwd=_ROOT, capture_output=True, text=True, check=False,
@@ -128,7 +128,7 @@ def test_the_source_distribution_is_the_tree(release: Release) -> None:
     assert packed - {"PKG-INFO"} == tree
 
 
-def test_the_wheel_has_the_package_and_the_files_that_it_reads(release: Release) -> None:
+def test_the_wheel_has_the_package_and_the_files_that_it_reads(release):
     tree = release.tree
     wanted = {
         (Path(inside) / path.relative_to(tree / folder)).as_posix()
@@ -143,7 +143,7 @@ def test_the_wheel_has_the_package_and_the_files_that_it_reads(release: Release)
     assert f"ssilang-{__version__}.dist-info/licenses/LICENSE" in names
 
 
-def test_one_version_everywhere(release: Release) -> None:
+def test_one_version_everywhere(release):
     assert release.sdist.name == f"ssilang-{__version__}.tar.gz"
     changes = (_ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert re.search(r"^## (.+)$", changes, re.MULTILINE)[1] == __version__
@@ -153,7 +153,7 @@ def test_one_version_everywhere(release: Release) -> None:
     assert editor["version"] == __version__
 
 
-def test_the_installed_program_is_its_own(installed: Environment) -> None:
+def test_the_installed_program_is_its_own(installed):
     code = "import ssilang, importlib.util as u; print(ssilang.__file__, u.find_spec('pytest'))"
     said = subprocess.run(
         [str(installed.python), "-c", code],
@@ -164,7 +164,7 @@ def test_the_installed_program_is_its_own(installed: Environment) -> None:
     assert installed.ssilang("--version") == f"ssilang {__version__}\n"
 
 
-def test_a_starter_runs_where_the_wheel_is_installed(installed: Environment) -> None:
+def test_a_starter_runs_where_the_wheel_is_installed(installed):
     """Deck, procedures of the library (`@VERIFIE`), picture, report with its scripts."""
     installed.ssilang("new", "oscillator")
     said = installed.ssilang("oscillator.ssi", "--report")
@@ -177,8 +177,8 @@ def test_a_starter_runs_where_the_wheel_is_installed(installed: Environment) -> 
 
 
 def test_help_of_the_installed_program_has_procedures_entries_and_pages(
-    installed: Environment,
-) -> None:
+    installed,
+):
     said = installed.ssilang("help", "PASAPAS")
     assert "TEMPS_CALCULES" in said
     assert "docs/" in said

@@ -3,7 +3,6 @@
 import ast
 import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 from together import together
@@ -22,19 +21,19 @@ READS = re.compile(
 
 
 @together("module, test", ROWS)
-def test_each_reader_is_there_and_has_its_test(module: str, test: str) -> None:
+def test_each_reader_is_there_and_has_its_test(module, test):
     assert (ROOT / module).is_file()
     file, _, name = test.partition("::")
     found = ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8")))
     assert name in {n.name for n in found if isinstance(n, ast.FunctionDef)}
 
 
-def test_no_row_is_written_another_way() -> None:
+def test_no_row_is_written_another_way():
     lines = [line for line in TEXT.splitlines() if line.startswith("| ")]
     assert len(ROWS) == len(lines) - 2 > 20
 
 
-def test_each_module_that_reads_is_named() -> None:
+def test_each_module_that_reads_is_named():
     reading = {
         path.relative_to(ROOT).as_posix()
         for path in (ROOT / "ssilang").rglob("*.py")
@@ -55,9 +54,7 @@ GROWING = (
 
 
 @pytest.mark.parametrize("content", ["&i;", "&x;"], ids=["two thousand million letters", "a file"])
-def test_xml_that_grows_is_refused(
-    content: str, tmp_path: Path, capsys: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_xml_that_grows_is_refused(content, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "bomb.vtu").write_text(GROWING.replace("CONTENT", content))
     (tmp_path / "case.ssi").write_text("OPTI DIME 2 ; T = LIRE 'MESH' 'bomb.vtu' ;")

@@ -71,7 +71,7 @@ def used(path: Path) -> set[str]:
     return found & (MODULES - {"resource"} | NAMES) | said
 
 
-def test_what_posix_alone_has_stands_in_one_module() -> None:
+def test_what_posix_alone_has_stands_in_one_module():
     found = {p: used(p) for p in _ROOT.rglob("*.py") if p not in _FREE}
     assert not {str(p): names for p, names in found.items() if names}
     assert {"geteuid", "sched_getaffinity", "memfd_create", "O_NOFOLLOW"} <= used(
@@ -150,7 +150,7 @@ def here(bad: Path) -> list[str]:
 
 @pytest.mark.long
 @pytest.mark.parametrize("platform", ["win32", "darwin"])
-def test_types_hold_on_other_systems(platform: str, bad: Path, here: list[str]) -> None:
+def test_types_hold_on_other_systems(platform, bad, here):
     """A whole look at the types takes ten times as long; machines of other systems have it."""
     found = [e for e in type_errors(platform, bad) if e not in here]
     assert len(found) == 1, "\n".join(found)
@@ -242,7 +242,7 @@ def state(folder: Path) -> dict[str, bytes]:
     return found
 
 
-def test_a_killed_run_goes_on_without_posix(bare: dict[str, str], tmp_path: Path) -> None:
+def test_a_killed_run_goes_on_without_posix(bare, tmp_path):
     """To the files of a run that has all; its folder is held as long as it lives."""
     (tmp_path / "case.ssi").write_text(LONG)
     process = started(bare, tmp_path, "case.ssi")
@@ -267,7 +267,7 @@ def test_a_killed_run_goes_on_without_posix(bare: dict[str, str], tmp_path: Path
     assert '"peak_memory_mb": null' in (there / "summary.json").read_text()
 
 
-def test_a_sweep_needs_no_forks(bare: dict[str, str], tmp_path: Path) -> None:
+def test_a_sweep_needs_no_forks(bare, tmp_path):
     (tmp_path / "case.ssi").write_text(
         "AG = 0.3 ; T = TABL ; @VERIFIE T 'square' (AG * AG) 0. 100. ;"
     )
@@ -278,16 +278,14 @@ def test_a_sweep_needs_no_forks(bare: dict[str, str], tmp_path: Path) -> None:
     assert [float(r["square"]) for r in rows] == [(n + 0.5) ** 2 for n in range(9)]
 
 
-def test_a_bound_on_memory_that_cannot_be_is_refused(bare: dict[str, str], tmp_path: Path) -> None:
+def test_a_bound_on_memory_that_cannot_be_is_refused(bare, tmp_path):
     (tmp_path / "case.ssi").write_text("X = 1 ;")
     told = ran(bare, tmp_path, "case.ssi", "--max-memory", "500", code=2)
     assert "leave --max-memory out" in told
 
 
 @pytest.mark.parametrize("page", ["cp1252", "cp437", "ascii"])
-def test_any_console_takes_what_is_printed(
-    page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_any_console_takes_what_is_printed(page, tmp_path, monkeypatch):
     (tmp_path / "case.ssi").write_text(
         "MESS 'déplacement µ² → ≤ œ' ; X = 'été' + 1 ;", encoding="utf-8"
     )
@@ -310,7 +308,7 @@ def test_any_console_takes_what_is_printed(
             assert ("déplacement µ²" in told) == (page != "ascii")
 
 
-def test_a_console_of_its_own_page_takes_what_a_process_prints(tmp_path: Path) -> None:
+def test_a_console_of_its_own_page_takes_what_a_process_prints(tmp_path):
     (tmp_path / "case.ssi").write_text("MESS 'déplacement µ² → ≤ œ' ;", encoding="utf-8")
     done = subprocess.run(
         [sys.executable, "-m", "ssilang.cli.main", "case.ssi", "--out", "there"], cwd=tmp_path,
@@ -330,7 +328,7 @@ def test_a_console_of_its_own_page_takes_what_a_process_prints(tmp_path: Path) -
     ],
     ids=["mark and CRLF", "latin-1", "PowerShell's"],
 )
-def test_scripts_of_other_editors_are_read(data: bytes, tmp_path: Path) -> None:
+def test_scripts_of_other_editors_are_read(data, tmp_path):
     from ssilang.cli.run import RunOptions, run_file
 
     (tmp_path / "case.ssi").write_bytes(data)
@@ -350,19 +348,19 @@ STRANGE = {
 PLAIN = ("a", "auxiliary.csv", "com.csv", "com10", "x.aux", "../a", "./b", "fort.8", "a b", "é²")
 
 
-def test_a_file_whose_name_says_null_is_no_name_with_a_nought() -> None:
+def test_a_file_whose_name_says_null_is_no_name_with_a_nought():
     fault = OSError(errno.ENOTEMPTY, "Directory not empty", "null")
     assert system.system_reason(fault) == "Directory not empty"
 
 
-def test_names_that_windows_refuses_are_told() -> None:
+def test_names_that_windows_refuses_are_told():
     found = {name: fault_on_windows(name) for name in (*STRANGE, *PLAIN)}
     kinds = {n: s.code.rpartition("-")[2] for n, s in found.items() if s is not None}
     assert kinds == STRANGE
 
 
 @together("name", STRANGE)
-def test_windows_writes_no_such_file(name: str, tmp_path: Path, monkeypatch) -> None:
+def test_windows_writes_no_such_file(name, tmp_path, monkeypatch):
     output = RunOutput(tmp_path / "out", tmp_path)
     assert output.target(name) is not None
     monkeypatch.setattr("ssilang.io.run_output.POSIX", False)
@@ -370,7 +368,7 @@ def test_windows_writes_no_such_file(name: str, tmp_path: Path, monkeypatch) -> 
         output.target(name)
 
 
-def test_a_name_that_stays_here_is_told_once(tmp_path: Path) -> None:
+def test_a_name_that_stays_here_is_told_once(tmp_path):
     from ssilang.cli.run import run_text
 
     script = "OPTI DIME 2 ELEM SEG2 ; L = DROI 2 (0 0) (1 0) ; OPTI SORT '{}' ; SORT 'VTK' L ;"
@@ -380,7 +378,7 @@ def test_a_name_that_stays_here_is_told_once(tmp_path: Path) -> None:
         assert codes == ["io.name-stays-here"] * count
 
 
-def test_a_drive_is_a_place_on_windows_alone(tmp_path: Path, monkeypatch) -> None:
+def test_a_drive_is_a_place_on_windows_alone(tmp_path, monkeypatch):
     output = RunOutput(tmp_path / "out", tmp_path)
     for ask in (output.target, output.source):
         for name in (r"C:\x\y.vtu", "c:/x/y.vtu"):
@@ -391,7 +389,7 @@ def test_a_drive_is_a_place_on_windows_alone(tmp_path: Path, monkeypatch) -> Non
     output.target("c:/x/y.vtu")
 
 
-def test_backslashes_part_folders(tmp_path: Path) -> None:
+def test_backslashes_part_folders(tmp_path):
     output = RunOutput(tmp_path / "out", tmp_path)
     assert output.target(r"a\b.csv") == tmp_path / "out" / "a" / "b.csv"
     assert output.source(r".\a\b.csv") == tmp_path / "a" / "b.csv"
@@ -414,7 +412,7 @@ def held(monkeypatch: pytest.MonkeyPatch):
     return left.update
 
 
-def test_a_file_that_is_held_for_a_short_time_is_replaced(held, tmp_path: Path) -> None:
+def test_a_file_that_is_held_for_a_short_time_is_replaced(held, tmp_path):
     path = tmp_path / "x.csv"
     path.write_text("old")
     held({path: 2})
@@ -423,7 +421,7 @@ def test_a_file_that_is_held_for_a_short_time_is_replaced(held, tmp_path: Path) 
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_what_cannot_replace_a_file_is_kept_under_another_name(held, tmp_path: Path) -> None:
+def test_what_cannot_replace_a_file_is_kept_under_another_name(held, tmp_path):
     path, taken = tmp_path / "x.csv", tmp_path / "x.new1.csv"
     path.write_text("old")
     taken.write_text("mine")
@@ -438,7 +436,7 @@ def test_what_cannot_replace_a_file_is_kept_under_another_name(held, tmp_path: P
     assert len(list(tmp_path.iterdir())) == 3
 
 
-def test_a_growing_series_that_is_held_leaves_nothing(held, tmp_path: Path) -> None:
+def test_a_growing_series_that_is_held_leaves_nothing(held, tmp_path):
     path = tmp_path / "x.vtkhdf"
     path.write_text("old")
     held({path: 10**9})

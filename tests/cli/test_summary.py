@@ -35,9 +35,7 @@ def run(folder: Path, text: str) -> dict[str, Any]:
     return made
 
 
-def test_files_figures_and_statistics_are_listed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_files_figures_and_statistics_are_listed(tmp_path, monkeypatch):
     monkeypatch.setattr("ssilang.cli.summary.peak_memory", lambda: 5 * 2**18)
     made = run(tmp_path, SCRIPT)
     assert made["peak_memory_mb"] == 1.2
@@ -54,7 +52,7 @@ def test_files_figures_and_statistics_are_listed(
     assert made["statements"] == 7
 
 
-def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> None:
+def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path):
     text = (
         "OPTI DIME 2 ELEM SEG2 ; C = MANU 'CHPO' (DROI 2 (0. 0.) (1. 0.)) 1 'X' -1. ;\n"
         "REPE B 5 ; D = C ** 0.5 ; FIN B ; D = C ** 0.5 ;\n"
@@ -78,7 +76,7 @@ def test_a_warning_of_every_turn_is_shown_once_and_counted(tmp_path: Path) -> No
     assert f"6 warnings (3 {again}" in err.getvalue()
 
 
-def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path: Path) -> None:
+def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path):
     made = run(tmp_path, SCRIPT + "SORT 'CHAI' 'more' ;\nY = X . 3 ;\nSORT 'CHAI' 'never' ;\n")
     assert made["exit_code"] == 1
     (error,) = made["errors"]
@@ -87,12 +85,12 @@ def test_a_failed_run_says_where_and_keeps_whole_files(tmp_path: Path) -> None:
     assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["a.csv", "summary.json"]
 
 
-def test_numbers_that_are_none_are_null() -> None:
+def test_numbers_that_are_none_are_null():
     given = {"a": np.float64("nan"), 1: [np.int64(3), float("inf")], "c": np.array([1.5]), "d": {2}}
     assert json.dumps(plain(given)) == '{"a": null, "1": [3, null], "c": [1.5], "d": [2]}'
 
 
-def test_an_output_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> None:
+def test_an_output_folder_that_cannot_be_made_is_an_error(tmp_path):
     (tmp_path / "out").write_text("a file")
     (tmp_path / "deck.ssi").write_text(SCRIPT)
     options = RunOptions(output_directory=tmp_path / "out", summary=True)
@@ -101,7 +99,7 @@ def test_an_output_folder_that_cannot_be_made_is_an_error(tmp_path: Path) -> Non
     assert "cannot be written" in result.message
 
 
-def test_a_folder_that_holds_the_results_of_another_deck_is_told(tmp_path: Path) -> None:
+def test_a_folder_that_holds_the_results_of_another_deck_is_told(tmp_path):
     said = []
     for name in ("a.ssi", "a.ssi", str(tmp_path / "a.ssi"), "b.ssi"):
         err = io.StringIO()
@@ -112,9 +110,7 @@ def test_a_folder_that_holds_the_results_of_another_deck_is_told(tmp_path: Path)
 
 
 @pytest.mark.parametrize("kind", ["pipe", "nested", "link", "list"])
-def test_what_is_no_summary_in_a_folder_of_results_holds_nobody_up(
-    kind: str, tmp_path: Path
-) -> None:
+def test_what_is_no_summary_in_a_folder_of_results_holds_nobody_up(kind, tmp_path):
     out, err = tmp_path / "out", io.StringIO()
     out.mkdir()
     (tmp_path / "secret").write_text('{"deck": "another"}')
@@ -131,7 +127,7 @@ def test_what_is_no_summary_in_a_folder_of_results_holds_nobody_up(
     assert (tmp_path / "secret").read_text() == '{"deck": "another"}'
 
 
-def test_a_run_with_a_summary_holds_its_folder_before_it_writes(tmp_path: Path) -> None:
+def test_a_run_with_a_summary_holds_its_folder_before_it_writes(tmp_path):
     other, out = RunOutput(tmp_path, tmp_path), io.StringIO()
     other.hold()
     options = RunOptions(output_directory=tmp_path, summary=True)
@@ -141,7 +137,7 @@ def test_a_run_with_a_summary_holds_its_folder_before_it_writes(tmp_path: Path) 
     assert (out.getvalue(), list(tmp_path.iterdir())) == ("", [])
 
 
-def test_the_command_writes_below_results(tmp_path: Path) -> None:
+def test_the_command_writes_below_results(tmp_path):
     (tmp_path / "deck.ssi").write_text(SCRIPT)
     command = [sys.executable, "-m", "ssilang.cli.main", "deck.ssi"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
@@ -152,7 +148,7 @@ def test_the_command_writes_below_results(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals of one system")
-def test_an_interruption_inside_procedures_names_the_line_of_the_script(tmp_path: Path) -> None:
+def test_an_interruption_inside_procedures_names_the_line_of_the_script(tmp_path):
     script = (
         "DEBP INNER ; REPE B ; SORT 'CHAI' &B ; FIN B ; FINP ;\n"
         "DEBP OUTER ; INNER ; FINP ;\nOPTI SORT 'a.txt' ;\nOUTER ;\n"
@@ -174,7 +170,7 @@ def test_an_interruption_inside_procedures_names_the_line_of_the_script(tmp_path
 
 
 @pytest.mark.skipif(os.name != "posix", reason="imports are counted on one system")
-def test_heavy_libraries_are_not_loaded_before_they_are_used(tmp_path: Path) -> None:
+def test_heavy_libraries_are_not_loaded_before_they_are_used(tmp_path):
     heavy = "matplotlib meshio pyvista PIL numba scipy.special scipy.interpolate scipy.linalg"
     code = (
         "import sys; from ssilang.cli.run import run_text; run_text('X = 1 ;'); "
@@ -185,7 +181,7 @@ def test_heavy_libraries_are_not_loaded_before_they_are_used(tmp_path: Path) -> 
     assert done.stdout.strip() == "[]"
 
 
-def test_energy_from_nowhere_is_told_beside_the_largest_and_in_joules(tmp_path: Path) -> None:
+def test_energy_from_nowhere_is_told_beside_the_largest_and_in_joules(tmp_path):
     """A unit mass on a spring of 100 N/m under 1 N: the work of 0.02 m at its peak, the end."""
     made = run(
         tmp_path,
@@ -236,8 +232,8 @@ def closing(tmp_path: Path, deck: str, language: str = "en") -> tuple[str, dict[
                 "trop long pour le joint", "2 avertissements, écart des énergies de ")),
     ])  # fmt: skip
 def test_a_motion_whose_energies_are_out_of_balance_ends_with_a_warning(
-    tmp_path: Path, language: str, expected: tuple[str, ...]
-) -> None:
+    tmp_path, language, expected
+):
     """The step is three times the contact's half period: energy comes from nowhere."""
     told, made = closing(tmp_path, FALL.format(step="0.01", scheme=""), language)
     for part in expected:
@@ -251,21 +247,21 @@ def test_a_motion_whose_energies_are_out_of_balance_ends_with_a_warning(
 
 
 @together("step, scheme", [("2.E-5", ""), ("0.01", "T . 'CONSERVATIF' = VRAI ; ")])
-def test_energies_in_balance_end_without_one(tmp_path: Path, step: str, scheme: str) -> None:
+def test_energies_in_balance_end_without_one(tmp_path, step, scheme):
     told, made = closing(tmp_path, FALL.format(step=step, scheme=scheme))
     assert ", energy within " in told.splitlines()[-1]
     assert "out of balance" not in told
     assert "energy_imbalance_from" not in made["statistics"]["calculations"][0]
 
 
-def test_the_scheme_s_own_damping_is_named_beside_the_step(tmp_path: Path) -> None:
+def test_the_scheme_s_own_damping_is_named_beside_the_step(tmp_path):
     told, _ = closing(tmp_path, FALL.format(step="0.01", scheme="T . 'RHO_INF' = 0.5 ; "))
     assert "a step too long for the joint" in told
     assert "the scheme's own damping (ALPHA_F, RHO_INF, GAMMA)" in told
 
 
 @together("deck, share", [(PULL, 0.9), (SWAY, 0.5)])
-def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path, deck, share) -> None:
+def test_load_steps_that_are_long_for_what_opens_are_no_warning(tmp_path, deck, share):
     """Pressed by 10 N onto 1000 N/m, then pulled to 0.1 m of 100 N/m in one step.
 
     At the end 0.5 J is stored; to -10 mm the work is 0.05 J, then along the straight line

@@ -39,7 +39,7 @@ def in_one_format(unplaced: None, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.long
 @pytest.mark.usefixtures("in_one_format")
 @pytest.mark.parametrize("deck", DECKS, ids=name_of)
-def test_deck_runs_within_its_tolerances_and_agrees_with_the_reference(deck: Path, tmp_path: Path):
+def test_deck_runs_within_its_tolerances_and_agrees_with_the_reference(deck, tmp_path):
     smaller = SMALLER.get(name_of(deck))
     result = run_changed(deck, tmp_path, *smaller) if smaller else run_deck(deck, tmp_path)
     assert result.exit_code == 0, result.message
@@ -84,9 +84,7 @@ DUE = [twin for twin in SPOILT if TRIED.get(twin[0]) != digest(*twin)]
 
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize(("deck", "old", "new"), DUE, ids=lambda x: x if "/" in x else "")
-def test_spoilt_deck_fails_on_its_own_checks(
-    deck: str, old: str, new: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-):
+def test_spoilt_deck_fails_on_its_own_checks(deck, old, new, tmp_path, monkeypatch):
     changes = spoiling(deck, old, new)
     if deck.startswith("basics/"):
         result = run_changed(CASES / deck, tmp_path, *changes)

@@ -1,7 +1,6 @@
 """Columns to CSV and back; assembled matrices as text."""
 
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,14 +14,14 @@ from ssilang.io.tables import Column, as_columns, csv_lines, read_csv, write_par
 from tests.kernel.stepping.problem.test_non_associated import K1, K2, C, D, lever
 
 
-def test_titles_stand_over_columns_of_unequal_length() -> None:
+def test_titles_stand_over_columns_of_unequal_length():
     lines = csv_lines([Column("t", [0.0, 0.1]), Column("", [1, 2, 3]), Column("w", ["AB"])])
     assert lines == ["t;;w", "0.0;1;AB", "0.1;2;", ";3;"]
     heads = [Column(t, [], "m").head for t in ("", "  thirteenletters", "a ")]
     assert heads == ["(m)", "thirteenlett (m)", "a (m)"]
 
 
-def test_numbers_come_back_exactly(tmp_path: Path) -> None:
+def test_numbers_come_back_exactly(tmp_path):
     values = np.random.default_rng(1).normal(size=50) * 10.0 ** np.arange(-25, 25)
     path = tmp_path / "x.csv"
     path.write_text("\n".join(csv_lines([Column("", values), Column("", values[::-1])], ",")))
@@ -31,16 +30,16 @@ def test_numbers_come_back_exactly(tmp_path: Path) -> None:
     assert np.array_equal(read[1], values[::-1])
 
 
-def test_columns_beyond_the_width_follow_below() -> None:
+def test_columns_beyond_the_width_follow_below():
     lines = csv_lines([Column("", [i]) for i in range(5)], width=2)
     assert lines == ["0;1", "", "", "", "2;3", "", "", "", "4"]
 
 
-def test_digits_are_decimals_of_the_mantissa() -> None:
+def test_digits_are_decimals_of_the_mantissa():
     assert csv_lines([Column("", [1.0 / 3.0])], digits=3) == ["3.333E-01"]
 
 
-def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path: Path) -> None:
+def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path):
     path = tmp_path / "x.csv"
     path.write_text("time;force\n0;1.5D3\n1;-2d-1\n")
     assert read_csv(path, ";", 2) == [[0.0, 1500.0], [1.0, -0.2]]
@@ -48,14 +47,14 @@ def test_reading_starts_behind_titles_and_says_where_a_word_is(tmp_path: Path) -
         read_csv(path)
 
 
-def test_blanks_separate_however_many(tmp_path: Path) -> None:
+def test_blanks_separate_however_many(tmp_path):
     path = tmp_path / "x.txt"
     path.write_text("  1   2  \n 3 4\n\n")
     assert read_csv(path, " ").tolist() == [[1.0, 2.0], [3.0, 4.0]]
 
 
 @together("end", ["", ";", '\n"7";8', "\n3;4;5", "\n\n9"])
-def test_uneven_and_even_rows_are_read_alike(tmp_path: Path, end: str) -> None:
+def test_uneven_and_even_rows_are_read_alike(tmp_path, end):
     path = tmp_path / "x.csv"
     path.write_text("1;2\n3;4" + end)
     rows = [list(row) for row in read_csv(path)]
@@ -68,14 +67,14 @@ def test_uneven_and_even_rows_are_read_alike(tmp_path: Path, end: str) -> None:
 
 
 @together("cell", ["nan", "inf", "-1E999"])
-def test_what_is_not_finite_is_refused_where_it_stands(tmp_path: Path, cell: str) -> None:
+def test_what_is_not_finite_is_refused_where_it_stands(tmp_path, cell):
     path = tmp_path / "x.csv"
     path.write_text(f"1;2\n3;{cell}\n")
     with pytest.raises(InputError, match="line 2"):
         read_csv(path)
 
 
-def test_one_long_row_over_many_short_ones_is_read_soon(tmp_path: Path) -> None:
+def test_one_long_row_over_many_short_ones_is_read_soon(tmp_path):
     path = tmp_path / "x.csv"
     path.write_text(";".join(map(str, range(50_000))) + "\n" + "7\n" * 50_000)
     begin = time.process_time()
@@ -85,14 +84,14 @@ def test_one_long_row_over_many_short_ones_is_read_soon(tmp_path: Path) -> None:
     assert [c.tolist() for c in columns[1:]] == [[float(i)] for i in range(1, 50_000)]
 
 
-def test_digits_that_python_alone_reads_are_no_number(tmp_path: Path) -> None:
+def test_digits_that_python_alone_reads_are_no_number(tmp_path):
     path = tmp_path / "x.csv"
     path.write_text("1;1_0\n2;3\n")
     with pytest.raises(InputError, match="1_0"):
         read_csv(path)
 
 
-def test_columns_without_a_unit_have_none_in_parquet(tmp_path: Path) -> None:
+def test_columns_without_a_unit_have_none_in_parquet(tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
     columns = {name: np.arange(2.0) + i for i, name in enumerate("cab")}
     write_parquet(tmp_path / "x.parquet", columns, {"a": "m", "b": ""})
@@ -106,9 +105,7 @@ def test_columns_without_a_unit_have_none_in_parquet(tmp_path: Path) -> None:
 
 
 @together("separator", [";", " "])
-def test_a_line_of_too_many_columns_is_refused(
-    separator: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_line_of_too_many_columns_is_refused(separator, tmp_path, monkeypatch):
     monkeypatch.setattr(tables, "MOST_COLUMNS", 1000)
     path = tmp_path / "wide.csv"
     path.write_text("\n" + separator.join(["1."] * 1000) + "\n")

@@ -84,9 +84,7 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
         ({"whole": pickle.dumps(Program(Path("ran")))}, ""),
     ],
 )
-def test_arrays_that_no_run_wrote_are_damage(
-    arrays: dict[str, bytes], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_arrays_that_no_run_wrote_are_damage(arrays, told, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = made(tmp_path / "sound.npz").read()
     assert found is not None
@@ -96,7 +94,7 @@ def test_arrays_that_no_run_wrote_are_damage(
     assert not (tmp_path / "ran").exists()
 
 
-def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
+def test_what_is_packed_or_locked_is_damage(tmp_path):
     with pytest.raises(InputError, match="is damaged: packed"):
         made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, whole=npy(np.zeros((10**6, 2)))).read()
     locked = made(tmp_path / "b.npz")
@@ -110,9 +108,7 @@ def test_what_is_packed_or_locked_is_damage(tmp_path: Path) -> None:
 
 @pytest.mark.skipif(os.name != "posix", reason="links of one system")
 @pytest.mark.parametrize("name", ["basis.npz", "below/basis.npz"])
-def test_a_file_in_a_folder_that_became_a_link_is_held_all_the_same(
-    tmp_path: Path, name: str
-) -> None:
+def test_a_file_in_a_folder_that_became_a_link_is_held_all_the_same(tmp_path, name):
     (tmp_path / "moved").mkdir()
     (tmp_path / "folder").symlink_to(tmp_path / "moved")
     done = threading.Event()

@@ -22,14 +22,14 @@ def output(tmp_path: Path) -> RunOutput:
     return RunOutput(tmp_path / "results" / "case", tmp_path / "deck")
 
 
-def test_files_are_written_below_the_output_folder_only(output: RunOutput, tmp_path: Path) -> None:
+def test_files_are_written_below_the_output_folder_only(output, tmp_path):
     assert output.target("a/b.csv") == tmp_path / "results" / "case" / "a" / "b.csv"
     assert output.target("../b.csv") is None
     assert output.target("/etc/passwd") is None
     assert output.target(str(tmp_path / "deck" / "b.csv")) is None
 
 
-def test_a_link_does_not_lead_outside(output: RunOutput, tmp_path: Path) -> None:
+def test_a_link_does_not_lead_outside(output, tmp_path):
     output.directory.mkdir(parents=True)
     (output.directory / "out").symlink_to(tmp_path)
     assert output.target("out/x.csv") is None
@@ -37,9 +37,7 @@ def test_a_link_does_not_lead_outside(output: RunOutput, tmp_path: Path) -> None
 
 @pytest.mark.skipif(os.name != "posix", reason="links of one system")
 @pytest.mark.parametrize("name", ["results", "results/case"])
-def test_a_link_put_there_since_the_look_is_no_folder(
-    output: RunOutput, tmp_path: Path, name: str
-) -> None:
+def test_a_link_put_there_since_the_look_is_no_folder(output, tmp_path, name):
     (tmp_path / "elsewhere" / "case").mkdir(parents=True)
     (tmp_path / name).parent.mkdir(exist_ok=True)
     (tmp_path / name).symlink_to(tmp_path / "elsewhere")
@@ -49,7 +47,7 @@ def test_a_link_put_there_since_the_look_is_no_folder(
 
 
 @pytest.mark.skipif(os.name != "posix", reason="links of one system")
-def test_a_link_to_the_folder_itself_moved_is_noticed(output: RunOutput, tmp_path: Path) -> None:
+def test_a_link_to_the_folder_itself_moved_is_noticed(output, tmp_path):
     """The lock is the same file there: what differs is the way to it."""
     output.hold()
     try:
@@ -61,7 +59,7 @@ def test_a_link_to_the_folder_itself_moved_is_noticed(output: RunOutput, tmp_pat
         output.release()
 
 
-def test_files_are_read_beside_the_script_or_from_the_output(output: RunOutput) -> None:
+def test_files_are_read_beside_the_script_or_from_the_output(output):
     (output.inputs / "in.csv").write_text("1")
     assert output.source("in.csv") == output.inputs / "in.csv"
     assert output.source("../secret.csv") is None
@@ -76,7 +74,7 @@ def test_files_are_read_beside_the_script_or_from_the_output(output: RunOutput) 
     assert (output.read, output.files) == ([own, left], [left, output.directory / "b"])
 
 
-def test_what_the_run_wrote_is_preferred(output: RunOutput) -> None:
+def test_what_the_run_wrote_is_preferred(output):
     (output.inputs / "x.txt").write_text("old")
     target = output.target("x.txt")
     assert target is not None
@@ -87,13 +85,13 @@ def test_what_the_run_wrote_is_preferred(output: RunOutput) -> None:
     assert output.read == []
 
 
-def test_an_allowed_folder_may_be_read_and_written(tmp_path: Path) -> None:
+def test_an_allowed_folder_may_be_read_and_written(tmp_path):
     other = tmp_path / "other"
     output = RunOutput(tmp_path / "r", tmp_path, (other,))
     assert output.target(str(other / "x.csv")) == other / "x.csv"
 
 
-def test_a_file_of_another_case_is_found(output: RunOutput) -> None:
+def test_a_file_of_another_case_is_found(output):
     other = output.directory.parent / "before"
     other.mkdir(parents=True)
     (other / "mesh.sauv").write_text("kept")
@@ -108,7 +106,7 @@ def test_a_file_of_another_case_is_found(output: RunOutput) -> None:
     assert output.source("mesh.sauv") == other.with_name("z") / "mesh.sauv"  # the latest
 
 
-def test_a_series_that_another_replaces_is_let_go(output: RunOutput) -> None:
+def test_a_series_that_another_replaces_is_let_go(output):
     gone: list[str] = []
     first, second, third = (
         SimpleNamespace(base=Path(base), release=lambda name=name: gone.append(name))
@@ -119,7 +117,7 @@ def test_a_series_that_another_replaces_is_let_go(output: RunOutput) -> None:
     assert (gone, [*output.series.values()]) == (["first"], [second, third])
 
 
-def test_lines_are_gathered_and_written_whole(output: RunOutput) -> None:
+def test_lines_are_gathered_and_written_whole(output):
     target = output.target("log.txt")
     assert target is not None
     for i in range(1000):
@@ -130,7 +128,7 @@ def test_lines_are_gathered_and_written_whole(output: RunOutput) -> None:
     assert [p.name for p in target.parent.iterdir()] == ["log.txt"]
 
 
-def test_naming_the_file_again_begins_it_anew(output: RunOutput) -> None:
+def test_naming_the_file_again_begins_it_anew(output):
     target = output.target("log.txt")
     assert target is not None
     output.add_lines("SORT", target, ["first"])
@@ -141,7 +139,7 @@ def test_naming_the_file_again_begins_it_anew(output: RunOutput) -> None:
     assert target.read_text() == "second\n"
 
 
-def test_folders_whose_names_begin_alike_are_others(tmp_path: Path) -> None:
+def test_folders_whose_names_begin_alike_are_others(tmp_path):
     for name in ("deck", "deckhand", "r", "results"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "x.csv").write_text("1")
@@ -155,7 +153,7 @@ def test_folders_whose_names_begin_alike_are_others(tmp_path: Path) -> None:
     assert output.target(str(tmp_path / "allow" / "y.csv")) == tmp_path / "allow" / "y.csv"
 
 
-def test_links_in_another_case_s_folder_lead_nowhere(output: RunOutput, tmp_path: Path) -> None:
+def test_links_in_another_case_s_folder_lead_nowhere(output, tmp_path):
     (tmp_path / "secret.csv").write_text("1")
     (tmp_path / "private").mkdir()
     (tmp_path / "private" / "summary.json").write_text("{}")
@@ -175,7 +173,7 @@ def test_links_in_another_case_s_folder_lead_nowhere(output: RunOutput, tmp_path
 
 
 @pytest.mark.parametrize("name", ["a" * 300, "a\0b", "loop", "loop/x", "a" * 4096 + "/b"])
-def test_names_that_no_file_can_have_are_refused(output: RunOutput, name: str) -> None:
+def test_names_that_no_file_can_have_are_refused(output, name):
     for folder in (output.directory, output.inputs):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "loop").symlink_to("loop")
@@ -184,7 +182,7 @@ def test_names_that_no_file_can_have_are_refused(output: RunOutput, name: str) -
             ask(name)
 
 
-def test_the_output_folder_is_held_by_one_run(output: RunOutput) -> None:
+def test_the_output_folder_is_held_by_one_run(output):
     other = RunOutput(output.directory, output.inputs)
     output.hold()
     with refusal(OutputError, "io.folder-in-use") as refused:
@@ -211,7 +209,7 @@ def test_a_lock_that_its_run_removes_meanwhile_is_made_again(output, monkeypatch
     assert not path.exists()
 
 
-def test_a_folder_that_is_exchanged_is_noticed(output: RunOutput) -> None:
+def test_a_folder_that_is_exchanged_is_noticed(output):
     output.hold()
     assert output.target("a.csv") is not None
     shutil.rmtree(output.directory)
@@ -235,7 +233,7 @@ def killed(folder: Path, host: str) -> None:
         (folder / name).write_text("half")
 
 
-def test_what_a_killed_run_left_is_taken_over_and_removed(output: RunOutput) -> None:
+def test_what_a_killed_run_left_is_taken_over_and_removed(output):
     killed(output.directory, socket.gethostname())
     below = output.directory / "other"
     below.mkdir()
@@ -247,7 +245,7 @@ def test_what_a_killed_run_left_is_taken_over_and_removed(output: RunOutput) -> 
     output.release()
 
 
-def test_a_run_of_another_host_is_not_taken_over(output: RunOutput) -> None:
+def test_a_run_of_another_host_is_not_taken_over(output):
     killed(output.directory, "elsewhere")
     with pytest.raises(OutputError) as refused:
         output.hold()
@@ -259,7 +257,7 @@ def test_a_run_of_another_host_is_not_taken_over(output: RunOutput) -> None:
     output.release()
 
 
-def test_a_lock_that_is_a_link_is_not_followed(output: RunOutput, tmp_path: Path) -> None:
+def test_a_lock_that_is_a_link_is_not_followed(output, tmp_path):
     output.directory.mkdir(parents=True)
     (tmp_path / "precious").write_text("text")
     (output.directory / ".running").symlink_to(tmp_path / "precious")
@@ -268,13 +266,13 @@ def test_a_lock_that_is_a_link_is_not_followed(output: RunOutput, tmp_path: Path
     assert (tmp_path / "precious").read_text() == "text"
 
 
-def test_a_folder_that_takes_no_lock_is_used_without(output: RunOutput, tmp_path: Path) -> None:
+def test_a_folder_that_takes_no_lock_is_used_without(output, tmp_path):
     (tmp_path / "results").write_text("")  # a file where the folder should be
     output.hold()
     assert output.lock is None
 
 
-def test_files_below_the_run_s_folders_are_its_own(output: RunOutput, tmp_path: Path) -> None:
+def test_files_below_the_run_s_folders_are_its_own(output, tmp_path):
     output = RunOutput(output.directory, output.inputs, (tmp_path / "allowed",))
     for own in (output.directory, output.inputs, tmp_path / "allowed"):
         assert not output.is_foreign(own / "sub" / "x.csv")
@@ -282,9 +280,7 @@ def test_files_below_the_run_s_folders_are_its_own(output: RunOutput, tmp_path: 
 
 
 @pytest.mark.parametrize(("length", "shown"), [(59, 59), (60, 60), (61, 60)])
-def test_a_refused_name_is_shown_up_to_sixty_letters(
-    output: RunOutput, length: int, shown: int
-) -> None:
+def test_a_refused_name_is_shown_up_to_sixty_letters(output, length, shown):
     name = "a" * (length - 2) + "\0"  # which is shown as two letters
     with pytest.raises(OutputError) as refused:
         output.target(name)
@@ -293,7 +289,7 @@ def test_a_refused_name_is_shown_up_to_sixty_letters(
 
 
 @pytest.mark.parametrize(("mask", "mode"), [(0o022, 0o644), (0o077, 0o600), (0o002, 0o664)])
-def test_files_have_the_rights_that_the_user_gives(output: RunOutput, mask: int, mode: int) -> None:
+def test_files_have_the_rights_that_the_user_gives(output, mask, mode):
     target = output.target("log.txt")
     assert target is not None
     before = os.umask(mask)
@@ -306,7 +302,7 @@ def test_files_have_the_rights_that_the_user_gives(output: RunOutput, mask: int,
     assert target.stat().st_mode & 0o777 == mode
 
 
-def test_what_cannot_be_written_is_told_in_the_reader_s_language(output: RunOutput) -> None:
+def test_what_cannot_be_written_is_told_in_the_reader_s_language(output):
     target = output.target("log.txt")
     assert target is not None
     target.mkdir(parents=True)

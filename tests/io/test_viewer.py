@@ -57,14 +57,14 @@ def painted(image: np.ndarray) -> np.ndarray:
     return (image < 200).any(axis=2)
 
 
-def test_a_folder_stands_for_its_results(results: Path) -> None:
+def test_a_folder_stands_for_its_results(results):
     assert chosen_file(results / "one").name == "beam.vtkhdf"
     assert chosen_file(results / "many").name == "beam.pvd"
     assert Series(chosen_file(results / "one")).times == pytest.approx([0.1, 0.2, 0.3])
 
 
 @needs_window
-def test_displacements_are_shown_and_amplified(results: Path, tmp_path: Path) -> None:
+def test_displacements_are_shown_and_amplified(results, tmp_path):
     """The end goes up by 0.032 m, the box's diagonal is 4.2 m: ten times that is 8 % of it."""
     usual = shown(results / "one", tmp_path / "x.png")
     ten = shown(results / "many", tmp_path / "x.png", scale=10.0)
@@ -76,7 +76,7 @@ def test_displacements_are_shown_and_amplified(results: Path, tmp_path: Path) ->
 
 
 @needs_window
-def test_colours_are_those_of_the_field_asked_for(results: Path, tmp_path: Path) -> None:
+def test_colours_are_those_of_the_field_asked_for(results, tmp_path):
     heat = shown(results / "one", tmp_path / "heat.png", field="HEAT", scale=0.0)
     columns = heat[painted(heat).any(axis=1)]
     middle = columns[len(columns) // 2]
@@ -87,7 +87,7 @@ def test_colours_are_those_of_the_field_asked_for(results: Path, tmp_path: Path)
 
 
 @needs_window
-def test_components_have_their_names(results: Path, tmp_path: Path) -> None:
+def test_components_have_their_names(results, tmp_path):
     """In a file of the whole series as in one of an instant."""
     by_name = shown(results / "one", tmp_path / "z.png", field="U:UZ", scale=0.0)
     assert np.array_equal(
@@ -102,9 +102,7 @@ def test_components_have_their_names(results: Path, tmp_path: Path) -> None:
 
 
 @needs_window
-def test_a_gif_holds_all_instants(
-    results: Path, tmp_path: Path, small: None, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_gif_holds_all_instants(results, tmp_path, small, monkeypatch):
     said: list[str] = []
     monkeypatch.setattr(Plotter, "add_text", lambda self, text, **how: said.append(text))
     draw(results / "one", tmp_path / "x.gif", Wish())
@@ -121,7 +119,7 @@ def test_a_gif_holds_all_instants(
     assert yellow == [False, False, True]  # where the largest value of all instants is
 
 
-def test_colours_of_instants_have_a_common_range() -> None:
+def test_colours_of_instants_have_a_common_range():
     """Of numbers alone: an instant may have none, and pictures have colours of their own."""
     values = [np.array([1.0, np.nan, 3.0]), None, np.full((2, 3), 9.0), np.array([-2.0])]
     assert _common_range(values) == (-2.0, 3.0)
@@ -129,7 +127,7 @@ def test_colours_of_instants_have_a_common_range() -> None:
 
 
 @needs_window
-def test_meshes_of_others_and_pictures(tmp_path: Path) -> None:
+def test_meshes_of_others_and_pictures(tmp_path):
     points = np.array([(0.0, 0, 0), (4, 0, 0), (4, 1, 0), (0, 1, 0)])
     mesh = meshio.Mesh(points, [("triangle", np.array([(0, 1, 2), (0, 2, 3)]))])
     meshio.write(tmp_path / "plate.msh", mesh, file_format="gmsh")
@@ -143,7 +141,7 @@ def test_meshes_of_others_and_pictures(tmp_path: Path) -> None:
         assert (np.asarray(again.convert("L")) < 200).any()
 
 
-def test_meshes_are_read_by_the_door_of_scripts(tmp_path: Path) -> None:
+def test_meshes_are_read_by_the_door_of_scripts(tmp_path):
     """What meshio does not read, or reads wrongly: solids of Abaqus, with two blocks of nodes."""
     (tmp_path / "two.inp").write_text(
         "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n*NODE\n5, 2., 0.\n6, 2., 1.\n"
@@ -174,12 +172,12 @@ def test_meshes_are_read_by_the_door_of_scripts(tmp_path: Path) -> None:
 )
 @needs_window
 def test_what_cannot_be_shown_is_said(
-    words: list[str],
-    said: str,
-    results: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+    words,
+    said,
+    results,
+    monkeypatch,
+    capsys,
+):
     monkeypatch.chdir(results)
     monkeypatch.setattr("ssilang.io.viewer.has_screen", lambda: False)
     monkeypatch.setattr("ssilang.cli.main._silence", lambda: None)  # it would end pytest's stream
@@ -212,7 +210,7 @@ def blank_png(side: int) -> bytes:
 @pytest.mark.skipif(not CAN_FORK, reason="nothing bounds VTK there")
 @pytest.mark.parametrize(("ending", "forks"), [("vtu", True), ("png", False)])
 @needs_window
-def test_what_takes_all_memory_is_refused(ending, forks, tmp_path) -> None:
+def test_what_takes_all_memory_is_refused(ending, forks, tmp_path):
     """A picture of 1.6 GB, a cell that says it has 2 10^10 points: none that the file holds.
 
     In a process of its own: a fork of one that has drawn may wait for ever for its threads.
@@ -240,9 +238,7 @@ def test_what_takes_all_memory_is_refused(ending, forks, tmp_path) -> None:
 
 
 @pytest.mark.parametrize("words", ["DATASET F\x1b[2JOO", "DATASET UNSTRUCTURED_GRID\nPO\x1b[2JI 3"])
-def test_words_of_a_damaged_file_reach_no_terminal(
-    words: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_words_of_a_damaged_file_reach_no_terminal(words, tmp_path, capfd):
     path = tmp_path / "bad.vtk"
     path.write_text(f"# vtk DataFile Version 3.0\nof somebody\nASCII\n{words}\n")
     with pytest.raises(InputError):
@@ -252,7 +248,7 @@ def test_words_of_a_damaged_file_reach_no_terminal(
 
 @needs_window
 @pytest.mark.parametrize("binary", [False, True])
-def test_a_cut_mesh_of_others_is_no_picture(tmp_path: Path, binary: bool, small: None) -> None:
+def test_a_cut_mesh_of_others_is_no_picture(tmp_path, binary, small):
     """VTK shows what it has read, and noughts for the rest."""
     pyvista = pytest.importorskip("pyvista")
     mesh = pyvista.ImageData(dimensions=(4, 3, 2)).cast_to_unstructured_grid()
@@ -270,7 +266,7 @@ def test_a_cut_mesh_of_others_is_no_picture(tmp_path: Path, binary: bool, small:
 
 
 @pytest.mark.skipif(shutil.which("Xvfb") is None, reason="no X server without a screen (xvfb)")
-def test_a_window_opens_with_a_slider_over_instants(results: Path) -> None:
+def test_a_window_opens_with_a_slider_over_instants(results):
     """In a process of its own, on a screen in memory; the window is closed as soon as it stands."""
     code = (
         "import pyvista\n"

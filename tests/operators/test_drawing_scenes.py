@@ -62,14 +62,14 @@ STATEMENTS = [
 
 
 @pytest.mark.parametrize("text", STATEMENTS)
-def test_forms_that_draw_one_picture(text: str, tmp_path: Path) -> None:
+def test_forms_that_draw_one_picture(text, tmp_path):
     result = run(text, tmp_path)
     (path,) = tmp_path.iterdir()
     assert path.read_bytes()[:4] == b"\x89PNG"
     assert result.session.workspace.output.files == [path]
 
 
-def test_isovalues_are_faces_lines_or_both(tmp_path: Path) -> None:
+def test_isovalues_are_faces_lines_or_both(tmp_path):
     drawn = {}
     for word in ("", "ISOV SURF", "ISOV LIGNE", "ISOV SULI"):
         (tmp_path / word).mkdir(exist_ok=True)
@@ -105,13 +105,13 @@ def test_the_colour_of_a_category_stands_before_its_text_or_behind():
     assert one[0].text == "soil"
 
 
-def test_pictures_are_named_after_title_or_objects(tmp_path: Path) -> None:
+def test_pictures_are_named_after_title_or_objects(tmp_path):
     run("TRAC X S ; TRAC S 'TITR' 'The plate' ; TITR 'in force' ; TRAC S ;", tmp_path)
     names = sorted(p.name for p in tmp_path.iterdir())
     assert names == ["0001_x-s.png", "0002_the-plate.png", "0003_in-force.png"]
 
 
-def test_the_bar_has_the_units_of_the_deck_where_they_are_certain(tmp_path: Path) -> None:
+def test_the_bar_has_the_units_of_the_deck_where_they_are_certain(tmp_path):
     run("OPTI TRAC SVG UNIT 'N-MM' ; TRAC MO SG ; TRAC U S ;", tmp_path)
     stress, displacement = (p.read_text("utf-8") for p in sorted(tmp_path.glob("*.svg")))
     assert ">von Mises (MPa)" in stress
@@ -136,7 +136,7 @@ SOLID = (
     ],
 )
 @needs_window
-def test_views_in_space(text: str, tmp_path: Path) -> None:
+def test_views_in_space(text, tmp_path):
     ran(SOLID + text, tmp_path)
     assert len(list(tmp_path.iterdir())) == 1
 
@@ -145,7 +145,7 @@ DIRE = "'DIRE' 'COUP' (0. 0.4 0.) (0. 0.4 1.) (1. 0.4 0.)"
 LYING = "'DIRE' 'COUP' (0. 0.4 0.) (-1. 0.4 0.) (0. 0.4 1.)"
 
 
-def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch):
     """One looks from the eye at P1; of P1 P2 what is across the view goes upwards."""
     views: list[View] = []
 
@@ -164,7 +164,7 @@ def test_the_picture_turns_after_the_plane_of_the_cut(monkeypatch: pytest.Monkey
     np.testing.assert_allclose(third, [(0, 1, 0), (-1, 0, 0), (0, 0, 1)], atol=1e-12)
 
 
-def test_deformed_shape_keeps_what_is_given() -> None:
+def test_deformed_shape_keeps_what_is_given():
     result = run("V = VECT U 'DEPL' ; D = (DEFO S U V 3. 'ROUG') ET (DEFO U S) ;")
     made = result.session.root.find("D")
     assert isinstance(made, Deformed)
@@ -177,7 +177,7 @@ def test_deformed_shape_keeps_what_is_given() -> None:
     "words, columns",
     [("'DEPL'", "UX UY"), ("'UY' ' '", "UY"), ("(MOTS 'UX' 'UY')", "UX UY"), ("", "UX UY")],
 )
-def test_components_of_arrows(words: str, columns: str) -> None:
+def test_components_of_arrows(words, columns):
     result = run(f"V = VECT U -2. {words} 'ROUG' ;")
     made = result.session.root.find("V")
     assert isinstance(made, Arrows)
@@ -198,12 +198,12 @@ def test_components_of_arrows(words: str, columns: str) -> None:
         ("TRAC S 'COLOUR' ;", "COLOUR"),
     ],
 )
-def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
+def test_what_is_wrong_is_said_and_nothing_written(text, said, tmp_path):
     assert said in refused(PLATE + text, tmp_path)
     assert list(tmp_path.iterdir()) == []
 
 
-def test_successive_shapes_become_an_animation(tmp_path: Path) -> None:
+def test_successive_shapes_become_an_animation(tmp_path):
     """Three shapes: three frames on one sheet, in the order of the shapes, and the way back."""
     from PIL import Image, ImageSequence
 
@@ -229,9 +229,7 @@ def test_successive_shapes_become_an_animation(tmp_path: Path) -> None:
     [("", "X - 1.", np.linspace(-1, 2, 14)), ("5", "3. * X", np.linspace(0, 6, 5)),
      ("(PROG 1. 3. 4.)", "X", [1, 3, 4]), ("", "", None)],
 )  # fmt: skip
-def test_frames_share_the_iso_values_of_all_shapes(
-    number: str, second: str, levels: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_frames_share_the_iso_values_of_all_shapes(number, second, levels, tmp_path, monkeypatch):
     """X goes from 0 to 2; without a second field both are 1 everywhere."""
     seen = []
 
@@ -248,7 +246,7 @@ def test_frames_share_the_iso_values_of_all_shapes(
         assert found == pytest.approx(levels)
 
 
-def test_one_shape_makes_no_animation(tmp_path: Path) -> None:
+def test_one_shape_makes_no_animation(tmp_path):
     run("TRAC (DEFO S U 10.) 'ANIME' ;", tmp_path)
     assert not list(tmp_path.rglob("*.gif"))
 
@@ -265,7 +263,7 @@ SHAPES = "((DEFO S U 0. 'BLEU') ET (DEFO S U 10. 'ROUG'))"
         (SHAPES, ["'LEGE' 'a'", "'CHAM'", "7", "(PROG 0.5 1.)", "'COUP' A B C"]),
     ],
 )
-def test_a_word_that_changes_nothing_is_told(subjects: str, vain: list[str], tmp_path: Path):
+def test_a_word_that_changes_nothing_is_told(subjects, vain, tmp_path):
     """Of the words that ask for something to be seen; the picture decides which these are."""
     points = "A = 1. 0. ; B = 1. 1. ; C = 2. 1. ; "
 
@@ -286,7 +284,7 @@ def test_a_word_that_changes_nothing_is_told(subjects: str, vain: list[str], tmp
     assert [t for t, (_, warned) in found.items() if warned] == [t for t in tried if t in vain]
 
 
-def test_pictures_keep_nothing_of_a_run_that_is_gone(tmp_path: Path) -> None:
+def test_pictures_keep_nothing_of_a_run_that_is_gone(tmp_path):
     result = run("TRAC U S ; DESS (EVOL MANU (PROG 0. 1.) (PROG 0. 1.)) ;", tmp_path)
     kept = weakref.ref(result.session)
     assert len(list(tmp_path.glob("*.png"))) == 2

@@ -37,9 +37,7 @@ def same(printed: str, expected: str) -> bool:
 
 @pytest.mark.usefixtures("unsaved", "operands_stay")
 @together("name, script, expected", forms(), by=lambda f: f[0].partition("-")[0])
-def test_a_form_does_what_its_notice_says(
-    name: str, script: str, expected: str, tmp_path: Path
-) -> None:
+def test_a_form_does_what_its_notice_says(name, script, expected, tmp_path):
     result = run_text(script, output_directory=tmp_path)
     if expected.startswith("!"):
         assert result.exit_code == 1

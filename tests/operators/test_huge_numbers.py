@@ -11,7 +11,7 @@ from ssilang.messages.message import sentence
 
 INFINITE = "operators.numbers.past-reals"
 TABLE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-NAN, PLANE = TABLE["nan"], TABLE["plane"]
+NAN = TABLE["nan"]
 ROWS = [(text.format(**TABLE), code) for text, code in TABLE["numbers"].items()]
 ROWS += [(TABLE["large"] + text, code) for text, code in TABLE["results"].items()]
 

@@ -83,9 +83,7 @@ _NOT_WRITTEN = {  # meshio's writers have no such cell, or get it wrong
 
 
 @pytest.mark.parametrize("name", WRITERS)
-def test_cells_that_meshio_writes_have_their_nodes_in_their_places(
-    name: str, tmp_path: Path
-) -> None:
+def test_cells_that_meshio_writes_have_their_nodes_in_their_places(name, tmp_path):
     writer = WRITERS[name]
     if writer == "med" and not there("h5py"):
         pytest.skip("h5py is not installed")
@@ -117,7 +115,7 @@ def signed_volume(block) -> float:
     return total
 
 
-def test_complete_cells_keep_the_nodes_of_their_faces(tmp_path: Path) -> None:
+def test_complete_cells_keep_the_nodes_of_their_faces(tmp_path):
     corners = BRICK
     edges = CELLS["hexahedron20"][1]
     faces = [(0, 3, 7, 4), (1, 2, 6, 5), (0, 1, 5, 4), (3, 2, 6, 7), (0, 1, 2, 3), (4, 5, 6, 7)]
@@ -153,7 +151,7 @@ def lengths(found: dict[str, Mesh], *names: str) -> list[object]:
     return [[(b.cell_type, len(b)) for b in found[n].blocks] for n in names]
 
 
-def test_physical_groups_of_both_versions(tmp_path: Path) -> None:
+def test_physical_groups_of_both_versions(tmp_path):
     mesh = two_squares()
     mesh.points = np.column_stack([mesh.points, np.zeros(6)])
     names = {"left": np.array([1, 2]), "base": np.array([7, 1])}
@@ -168,7 +166,7 @@ def test_physical_groups_of_both_versions(tmp_path: Path) -> None:
     assert found["NOEUDS"].n_cells == 6
 
 
-def test_numbers_of_cells_name_parts(tmp_path: Path) -> None:
+def test_numbers_of_cells_name_parts(tmp_path):
     mesh = two_squares()
     mesh.cell_data = {"MaterialIds": [np.array([0, 3]), np.array([3, 3])]}
     mesh.points = np.column_stack([mesh.points, np.zeros(6)])
@@ -179,7 +177,7 @@ def test_numbers_of_cells_name_parts(tmp_path: Path) -> None:
     ]  # fmt: skip
 
 
-def test_names_of_our_own_vtu_files(tmp_path: Path) -> None:
+def test_names_of_our_own_vtu_files(tmp_path):
     text = (
         "OPTI DIME 2 ELEM QUA4 ; L = DROI 4 (0. 0.) (2. 0.) ; SOIL = L TRAN 2 (0. 1.) ; "
         "RAFT = L TRAN 1 (0. -1.) ; ALL1 = SOIL ET RAFT ; OPTI SORT 'm' ; SORT 'VTK ' ALL1 ; "
@@ -222,7 +220,7 @@ both
 """
 
 
-def test_sets_of_an_abaqus_deck(tmp_path: Path) -> None:
+def test_sets_of_an_abaqus_deck(tmp_path):
     (tmp_path / "m.inp").write_text(ABAQUS)
     (tmp_path / "more.inc").write_text("*NSET, NSET=top\n3, 4, 6\n")
     result = run("OPTI DIME 2 ; T = LIRE 'm.inp' ;", tmp_path)
@@ -247,9 +245,7 @@ def test_sets_of_an_abaqus_deck(tmp_path: Path) -> None:
     ("more.inc", "m.inp", "two elements bear the number 10"),
     ("*HEADING", "*PART, NAME=a\n*PART, NAME=b", "m.inp has several *PART"),
 ])  # fmt: skip
-def test_an_abaqus_deck_that_is_not_read_says_why(
-    old: str, new: str, said: str, tmp_path: Path
-) -> None:
+def test_an_abaqus_deck_that_is_not_read_says_why(old, new, said, tmp_path):
     (tmp_path / "m.inp").write_text(ABAQUS.replace(old, new))
     (tmp_path / "more.inc").write_text("*NSET, NSET=top\n3, 4, 6\n")
     assert said in run("OPTI DIME 2 ; T = LIRE 'm.inp' ;", tmp_path).message
@@ -259,9 +255,7 @@ def test_an_abaqus_deck_that_is_not_read_says_why(
     ((5, 0), 2, ""), ((4, 0), 2, r"\*ELSET near"), ((0, 2), 2, ""), ((0, 1), 2, r"\*ELSET near"),
     ((9, 9), 3, ""), ((9, 9), 4, "FAR, GENERATE"),
 ])  # fmt: skip
-def test_members_of_sets_are_counted(
-    most: tuple[int, int], last: int, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_members_of_sets_are_counted(most, last, said, tmp_path, monkeypatch):
     """Two of one set, and again with one more in the set that names it: five, of three nodes."""
     monkeypatch.setattr(abaqus, "_MOST", most)
     rows = ["*NODE", "1,", "2, 1.", "3, 2.", "*NSET, NSET=near", "FAR", "3"]
@@ -299,9 +293,7 @@ G1 = MAXI (ABS ((EXCO 'GAXY' E1) - 1.E-4)) ;
 
 
 @pytest.mark.parametrize("ending", ["msh", "med", "inp"])
-def test_a_mesh_that_went_out_and_came_back_passes_the_patch_test(
-    ending: str, tmp_path: Path
-) -> None:
+def test_a_mesh_that_went_out_and_came_back_passes_the_patch_test(ending, tmp_path):
     if ending == "med" and not there("h5py"):
         pytest.skip("h5py is not installed")
     result = run((_OUT + _BACK).replace("{e}", ending), tmp_path)
@@ -316,7 +308,7 @@ def test_a_mesh_that_went_out_and_came_back_passes_the_patch_test(
             np.testing.assert_allclose(at, part.coordinates, atol=1e-12)
 
 
-def test_named_meshes_and_points_are_groups_that_meshio_reads(tmp_path: Path) -> None:
+def test_named_meshes_and_points_are_groups_that_meshio_reads(tmp_path):
     text = (
         "OPTI DIME 3 ELEM CUB8 ; P1 = 0. 0. 0. ; S = (DROI 2 P1 (2. 0. 0.)) TRAN 1 (0. 1. 0.) ; "
         "V = S VOLU 1 'TRAN' (0. 0. 3.) ; F1 = FACE 2 V ; OTHER = MANU 'POI1' (9. 9. 9.) ; "
@@ -336,7 +328,7 @@ def test_named_meshes_and_points_are_groups_that_meshio_reads(tmp_path: Path) ->
 
 
 @pytest.mark.skipif(not there("h5py"), reason="h5py is not installed")
-def test_solids_of_med_turn_the_way_that_salome_describes_them(tmp_path: Path) -> None:
+def test_solids_of_med_turn_the_way_that_salome_describes_them(tmp_path):
     import h5py
 
     text = (
@@ -358,7 +350,7 @@ def test_solids_of_med_turn_the_way_that_salome_describes_them(tmp_path: Path) -
 # ---- nothing in silence --------------------------------------------------------------------------
 
 
-def test_cells_without_a_counterpart_and_collapsed_ones_are_counted(tmp_path: Path) -> None:
+def test_cells_without_a_counterpart_and_collapsed_ones_are_counted(tmp_path):
     points = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1), (2, 2)], float)
     cells = [
         ("quad", np.array([(0, 1, 2, 3), (1, 4, 5, 5)])),
@@ -379,7 +371,7 @@ def test_cells_without_a_counterpart_and_collapsed_ones_are_counted(tmp_path: Pa
     assert (told["cells-collapsed"]["count"], told["cells-collapsed"]["left"]) == (1, 0)
 
 
-def test_polygons_of_vtk(tmp_path: Path) -> None:
+def test_polygons_of_vtk(tmp_path):
     angle = np.arange(6) * np.pi / 3
     points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
     meshio.Mesh(points, [("polygon", np.arange(6)[None, :])]).write(tmp_path / "m.vtu")
@@ -409,7 +401,7 @@ ENDDATA
         (("1,2,3,4", "1,2,3,8"), "io.no-readable-mesh-file"),
     ],
 )
-def test_bulk_data(change: tuple[str, str], code: str, tmp_path: Path) -> None:
+def test_bulk_data(change, code, tmp_path):
     (tmp_path / "m.bdf").write_text(BDF.replace(*change) if change[0] else BDF)
     result = run("OPTI DIME 2 ; T = LIRE 'm.bdf' ;", tmp_path)
     assert [e.code for e in result.errors] == ([code] if code else [])
@@ -419,16 +411,14 @@ def test_bulk_data(change: tuple[str, str], code: str, tmp_path: Path) -> None:
         assert told.data["told"] == ["1 CONM2", "1 RBE2"]
 
 
-def test_a_mesh_in_space_is_not_read_in_the_plane(tmp_path: Path) -> None:
+def test_a_mesh_in_space_is_not_read_in_the_plane(tmp_path):
     one_cell("tetra").write(tmp_path / "m.vtu")
     result = run("OPTI DIME 2 ; T = LIRE 'm.vtu' ;", tmp_path)
     assert [e.code for e in result.errors] == ["operators.files.mesh-not-of-dimension"]
     assert "OPTI DIME 3" in result.message
 
 
-def test_a_library_that_is_missing_is_named_with_its_line(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_a_library_that_is_missing_is_named_with_its_line(monkeypatch, tmp_path):
     monkeypatch.setitem(sys.modules, "h5py", None)
     (tmp_path / "m.med").write_bytes(b"\x89HDF")
     deck = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
@@ -438,7 +428,7 @@ def test_a_library_that_is_missing_is_named_with_its_line(
         assert "pip install 'ssilang[med]'" in result.message
 
 
-def test_endings_and_names_that_are_not_written(tmp_path: Path) -> None:
+def test_endings_and_names_that_are_not_written(tmp_path):
     deck = "OPTI DIME 2 ELEM QUA4 ; S = (DROI 1 (0. 0.) (1. 0.)) TRAN 1 (0. 1.) ; "
     result = run(deck + "OPTI SORT 'n.bdf' ; SORT 'MESH' S ;", tmp_path)
     assert "SORT 'NAS' writes that" in result.message
@@ -472,7 +462,7 @@ def gmsh():
 
 
 @pytest.mark.parametrize("order", [1, 2])
-def test_what_gmsh_itself_writes_is_read(gmsh, order: int, tmp_path: Path) -> None:
+def test_what_gmsh_itself_writes_is_read(gmsh, order, tmp_path):
     gmsh.model.occ.addBox(0, 0, 0, 1, 1, 3)
     gmsh.model.occ.synchronize()
     gmsh.model.addPhysicalGroup(3, [1], name="body")
@@ -501,7 +491,7 @@ def test_what_gmsh_itself_writes_is_read(gmsh, order: int, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("ending", ["msh", "med"])
-def test_gmsh_reads_what_is_written(gmsh, ending: str, tmp_path: Path) -> None:
+def test_gmsh_reads_what_is_written(gmsh, ending, tmp_path):
     if ending == "med" and not there("h5py"):
         pytest.skip("h5py is not installed")
     text = (
@@ -520,7 +510,7 @@ def test_gmsh_reads_what_is_written(gmsh, ending: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not there("gmsh"), reason="gmsh is not installed")
-def test_mailler_has_gmsh_mesh_a_script(tmp_path: Path) -> None:
+def test_mailler_has_gmsh_mesh_a_script(tmp_path):
     (tmp_path / "box.geo").write_text(GEO)
     text = (
         "OPTI DIME 2 ; T = MAILLER 'box.geo' ; A = MESU (T . 'soil') ; B = MESU (T . 'base') ; "

@@ -22,7 +22,7 @@ def values(result: RunResult, *names: str) -> list[object]:
     return [result.session.root.find(n) for n in names]
 
 
-def test_columns_and_lines_of_a_table(tmp_path: Path) -> None:
+def test_columns_and_lines_of_a_table(tmp_path):
     text = (
         "A = LIRE 'CSV' 'x.csv' 'DEBU' 2 ; B = LIRE 'CSV' 'x.csv' 'DEBU' 2 'LIGN' ; "
         "C = LIRE 'CSV' 'y.txt' 'SEPA' ',' ;"
@@ -35,13 +35,13 @@ def test_columns_and_lines_of_a_table(tmp_path: Path) -> None:
     assert [list(t.get(2).values) for t in (a, b, c)] == [[1.0, 3.0], [2.0, 3.0], [6.0]]
 
 
-def test_a_suffix_is_put_behind_a_name_that_is_no_file(tmp_path: Path) -> None:
+def test_a_suffix_is_put_behind_a_name_that_is_no_file(tmp_path):
     text = "A = LIRE 'CSV' 'x' ; B = LIRE 'CSV' 'y' ;"
     found = values(run(text, tmp_path, x_csv="1;2\n", y="3;4\n", y_csv="5;6\n"), "A", "B")
     assert [list(t.get(1).values) for t in found] == [[1.0], [3.0]]  # type: ignore[attr-defined]
 
 
-def test_values_of_the_manual_s_kind(tmp_path: Path) -> None:
+def test_values_of_the_manual_s_kind(tmp_path):
     text = (
         "OPTI ACQU 'v.txt' ; ACQU I*ENTIER MM*MOT J*FLOTTANT ; ACQU K*ENTIER ; "
         "ACQU LL*LISTENTI 5 LR*LISTREEL 2 ; ACQU A B ; C = ACQU 'BRUT' ;"
@@ -55,12 +55,12 @@ def test_values_of_the_manual_s_kind(tmp_path: Path) -> None:
     assert found[6:] == ["FREE", 1.5, "all of this"]
 
 
-def test_names_that_exist_are_given_new_values(tmp_path: Path) -> None:
+def test_names_that_exist_are_given_new_values(tmp_path):
     text = "I = 5 ; X = PROG 1. ; OPTI ACQU 'v.txt' ; ACQU I*ENTIER X*FLOTTANT ;"
     assert values(run(text, tmp_path, v_txt="7 8\n"), "I", "X") == [7, 8.0]
 
 
-def test_procedures_of_a_file(tmp_path: Path) -> None:
+def test_procedures_of_a_file(tmp_path):
     library = (
         "$$$$ DOUBLE\nDEBP DOUBLE A*ENTIER ; B = 2 * A ; FINP B ;\n$$$$ ONE\nDEBP ONE ; FINP 1 ;\n"
     )
@@ -70,12 +70,12 @@ def test_procedures_of_a_file(tmp_path: Path) -> None:
     assert values(run(only, tmp_path), "Y") == [1]
 
 
-def test_statements_become_a_procedure(tmp_path: Path) -> None:
+def test_statements_become_a_procedure(tmp_path):
     text = "T = TABL ; LIRE 'PROC' 'part.dgibi' FILL ; FILL ; X = T . 1 ;"
     assert values(run(text, tmp_path, part_dgibi="T . 1 = 3 ;\n"), "X") == [3]
 
 
-def test_triangles_and_universal_files(tmp_path: Path) -> None:
+def test_triangles_and_universal_files(tmp_path):
     stl = "solid s\n" + "facet normal 0 0 1\nouter loop\n" + "".join(
         f"vertex {x} {y} 0\n" for x, y in ((0, 0), (1, 0), (0, 1))
     ) + "endloop\nendfacet\nendsolid\n"  # fmt: skip
@@ -97,7 +97,7 @@ def test_triangles_and_universal_files(tmp_path: Path) -> None:
     assert values(result, "D", "Z") == [3, 5.0]
 
 
-def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
+def test_files_of_other_folders_are_refused(tmp_path):
     (tmp_path / "deck").mkdir()
     (tmp_path / "secret.csv").write_text("1;2\n")
     result = run("A = LIRE 'CSV' '../secret.csv' ;", tmp_path / "deck")
@@ -121,7 +121,7 @@ def test_files_of_other_folders_are_refused(tmp_path: Path) -> None:
         ("OPTI ACQU 'v.txt' ; ACQU A B C ;", "all have been read"),
     ],
 )
-def test_what_is_wrong_is_said(text: str, said: str, tmp_path: Path) -> None:
+def test_what_is_wrong_is_said(text, said, tmp_path):
     result = run(text, tmp_path, v_txt="word 2\n", v_mhs="")
     assert result.exit_code == 1
     assert said in result.message
@@ -139,7 +139,7 @@ ACCELERATION TIME SERIES IN UNITS OF G
 
 
 @together("sizes", ["NPTS=   6, DT=   .0050 SEC,", "    6    0.0050    NPTS, DT"])
-def test_a_record_of_peer_in_metres(tmp_path: Path, sizes: str) -> None:
+def test_a_record_of_peer_in_metres(tmp_path, sizes):
     result = run("E = LIRE 'PEER' 'a.AT2' 10. ;", tmp_path, a_AT2=AT2.format(sizes=sizes))
     (curve,) = values(result, "E")
     assert isinstance(curve, Curve)
@@ -165,7 +165,7 @@ USER5:
 """
 
 
-def test_a_record_of_esm_in_metres(tmp_path: Path) -> None:
+def test_a_record_of_esm_in_metres(tmp_path):
     content = ASC.format(count=3, unit="cm/s^2")
     result = run("E = LIRE 'ESM' 'a.ASC' 0.01 ;", tmp_path, a_ASC=content)
     (curve,) = values(result, "E")
@@ -180,7 +180,7 @@ def test_a_record_of_esm_in_metres(tmp_path: Path) -> None:
 @together(
     "unit, code", [("cm/s^2", ["record-not-in-si"]), ("", ["record-without-unit"]), ("m/s^2", [])]
 )
-def test_units_of_a_record_of_esm_are_told(tmp_path: Path, unit: str, code: list[str]) -> None:
+def test_units_of_a_record_of_esm_are_told(tmp_path, unit, code):
     content = ASC.format(count=3, unit=unit)
     result = run("E = LIRE 'ESM' 'a.ASC' ;", tmp_path, a_ASC=content)
     assert [w.code.rpartition(".")[2] for w in result.session.warnings] == code
@@ -215,7 +215,7 @@ def cosmos(count: int = 10, step: float = 0.005, version: str = "v01.20") -> str
     return text.replace("v01.20", version)
 
 
-def test_a_record_of_cosmos_whose_numbers_touch(tmp_path: Path) -> None:
+def test_a_record_of_cosmos_whose_numbers_touch(tmp_path):
     result = run("E = LIRE 'COSMOS' 'a.V2' 'SI' ;", tmp_path, a_V2=cosmos())
     (curve,) = values(result, "E")
     (part,) = curve.parts
@@ -227,7 +227,7 @@ def test_a_record_of_cosmos_whose_numbers_touch(tmp_path: Path) -> None:
     assert result.session.warnings == []
 
 
-def test_several_records_of_cosmos(tmp_path: Path) -> None:
+def test_several_records_of_cosmos(tmp_path):
     both = cosmos() + cosmos(step=0.01)
     result = run("E = LIRE 'COSMOS' 'a.V2' 1. ; F = LIRE 'COSMOS' 'a.V2' 'CANAL' 2 1. ;", tmp_path,
                  a_V2=both)  # fmt: skip
@@ -251,9 +251,7 @@ def test_several_records_of_cosmos(tmp_path: Path) -> None:
         ("t\tacc in cm/sec/sec\n0\t0\n0.1\t-2\n", [-0.02], ["ACCE"]),
     ],
 )
-def test_a_table_with_titles_in_metres(
-    tmp_path: Path, content: str, numbers: list[float], names: list[str]
-) -> None:
+def test_a_table_with_titles_in_metres(tmp_path, content, numbers, names):
     result = run("E = LIRE 'SIGNAL' 'a.csv' 'SI' ;", tmp_path, a_csv=content)
     (curve,) = values(result, "E")
     assert [p.ordinates[1] for p in curve.parts] == pytest.approx(numbers)
@@ -263,7 +261,7 @@ def test_a_table_with_titles_in_metres(
     assert curve.parts[0].abscissas[1] == pytest.approx(0.1)
 
 
-def test_a_table_without_units_is_told_and_taken_as_it_is(tmp_path: Path) -> None:
+def test_a_table_without_units_is_told_and_taken_as_it_is(tmp_path):
     result = run("E = LIRE 'SIGNAL' 'a.csv' ;", tmp_path, a_csv="0. 1.\n0.1 5.\n")
     assert values(result, "E")[0].parts[0].ordinates[1] == 5.0
     assert values(result, "E")[0].parts[0].units == ("", "")
@@ -314,7 +312,7 @@ BROKEN = {
 
 
 @together("asked, told", [(of, row) for of, rows in BROKEN.items() for row in rows])
-def test_a_broken_file_says_where(tmp_path: Path, asked, told) -> None:
+def test_a_broken_file_says_where(tmp_path, asked, told):
     (kind, name), (content, said) = asked, told
     ending = name.replace("_", ".")
     result = run(f"E = LIRE '{kind}' '{ending}' ;", tmp_path, **{name: content})

@@ -351,27 +351,27 @@ def written(files: dict[str, str], folder: Path) -> Path:
 
 
 @together("what", FILES)
-def test_files_that_hold_something_else_are_told(what: str, tmp_path: Path) -> None:
+def test_files_that_hold_something_else_are_told(what, tmp_path):
     script, files, code = FILES[what]
     assert code in told(script, written(files, tmp_path), what)
 
 
 @together("what", SENSIBLE_FILES)
-def test_files_that_hold_what_they_say_are_not(what: str, tmp_path: Path) -> None:
+def test_files_that_hold_what_they_say_are_not(what, tmp_path):
     script, files = SENSIBLE_FILES[what]
     assert told(script, written(files, tmp_path)) == []
 
 
 @pytest.mark.usefixtures("unsaved")
 @together("what", SENSELESS)
-def test_models_and_scripts_that_make_no_sense_are_told(what: str, tmp_path: Path) -> None:
+def test_models_and_scripts_that_make_no_sense_are_told(what, tmp_path):
     code, script, *known = SENSELESS[what]
     assert code in told(script, tmp_path, what, **(known[0] if known else {}))
 
 
 @pytest.mark.usefixtures("unsaved")
 @together("what", SENSIBLE)
-def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
+def test_what_is_near_to_them_is_not(what, tmp_path):
     codes = set(told(SENSIBLE[what], tmp_path))
     assert codes <= {"operators.dynamics.contact-not-resolved"}
 
@@ -379,9 +379,7 @@ def test_what_is_near_to_them_is_not(what: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(("speed", "step", "seen"), [
     (0.05, 4e-3, False), (1.5, 4e-3, True), (1.5, 2.5e-4, False), (0.05, 1e-2, False),
 ])  # fmt: skip
-def test_a_step_too_long_for_contact_is_told_where_energies_show_it(
-    speed: float, step: float, seen: bool, tmp_path: Path
-) -> None:
+def test_a_step_too_long_for_contact_is_told_where_energies_show_it(speed, step, seen, tmp_path):
     script = (
         "{half} LJ = L ; PUSH = 0. ; {borne_by} T . 'CHAR' = CHAR 'MECA' W ; "
         f"T . 'VITE' = MANU 'CHPO' B 1 'UX' {speed} ; T . 'AMOR' = 0. * M ; "
@@ -391,7 +389,7 @@ def test_a_step_too_long_for_contact_is_told_where_energies_show_it(
     assert ("operators.dynamics.contact-not-resolved" in found) == seen
 
 
-def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Path) -> None:
+def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path):
     script = (
         "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; B = DROI 1 (0 0) (0.3 0.) ; S = TRAN 6 B (0 6) ; "
         "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; A = MATE MO 'YOUN' 3.E10 'NU' 0. ; T = COTE 3 S ; "
@@ -424,11 +422,11 @@ def test_one_layer_of_linear_cells_bends_too_stiff_by_what_is_told(tmp_path: Pat
         ),
     ],
 )
-def test_one_mistake_is_told_once(script: str, codes: list[str], tmp_path: Path) -> None:
+def test_one_mistake_is_told_once(script, codes, tmp_path):
     assert told(script, tmp_path) == codes
 
 
-def test_a_motion_that_its_scheme_takes_leaves_all_of_its_energy_out_of_balance(tmp_path: Path):
+def test_a_motion_that_its_scheme_takes_leaves_all_of_its_energy_out_of_balance(tmp_path):
     script = written_out(
         "{oscillator} {table} T . 'CHAR' = CHAR (FORC (0. 0.) P) EV ; T . 'DEPL' = "
         "MANU 'CHPO' P 1 'UX' 1. ; T . 'TEMPS_CALCULES' = PROG 0. PAS 0.05 9. ; "
@@ -441,7 +439,7 @@ def test_a_motion_that_its_scheme_takes_leaves_all_of_its_energy_out_of_balance(
     assert "scheme" in cause
 
 
-def test_free_motions_have_no_frequency(tmp_path: Path) -> None:
+def test_free_motions_have_no_frequency(tmp_path):
     script = written_out("{moved} T = VIBR 'SIMU' 0.1 4 K M ;")
     modes = run_text(script, output_directory=tmp_path).session.root.find("T").get("MODES")
     found = [modes.get(i).get("FREQUENCE") for i in range(1, 5)]

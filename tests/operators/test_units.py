@@ -47,7 +47,7 @@ def warned(system: str, given: str, model: str = BODY) -> list[dict[str, object]
 # ---- systems
 
 
-def test_a_unit_of_mass_is_what_a_unit_of_force_accelerates() -> None:
+def test_a_unit_of_mass_is_what_a_unit_of_force_accelerates():
     masses = {name: s.mass for name, s in SYSTEMS.items()}
     assert masses == pytest.approx({"SI": 1.0, "KN-M": 1e3, "MN-M": 1e6, "N-MM": 1e3})
 
@@ -68,12 +68,12 @@ def test_a_unit_of_mass_is_what_a_unit_of_force_accelerates() -> None:
         ("MN-M", "1/(m K)", "1/(m K)", 1.0),
     ],
 )
-def test_units_of_a_system(system: str, unit: str, written: str, factor: float) -> None:
+def test_units_of_a_system(system, unit, written, factor):
     assert SYSTEMS[system].written(unit) == written
     assert SYSTEMS[system].factor(unit) == pytest.approx(factor, rel=1e-14)
 
 
-def test_every_unit_of_the_vocabulary_has_its_size_in_every_system() -> None:
+def test_every_unit_of_the_vocabulary_has_its_size_in_every_system():
     for unit in units():
         assert SYSTEMS["SI"].factor(unit) == 1.0
         assert SYSTEMS["SI"].written(unit) == unit
@@ -85,9 +85,7 @@ def test_every_unit_of_the_vocabulary_has_its_size_in_every_system() -> None:
 
 @together("system", SYSTEMS)
 @together("material", [STEEL, CLAY])
-def test_materials_in_their_units_are_taken_in_silence(
-    system: str, material: dict[str, tuple[str, str]]
-) -> None:
+def test_materials_in_their_units_are_taken_in_silence(system, material):
     young, density = material[system]
     assert warned(system, f"'YOUN' {young} 'NU' 0.3 'RHO' {density} 'ALPH' 1.2E-5") == []
 
@@ -107,8 +105,8 @@ def test_materials_in_their_units_are_taken_in_silence(
     ],
 )
 def test_numbers_in_another_unit_are_told_with_the_unit_they_look_like(
-    system: str, given: str, likely: list[str], written: list[str]
-) -> None:
+    system, given, likely, written
+):
     (told,) = warned(system, given)
     assert (told["likely"], told["written"]) == (likely, written)
 
@@ -117,7 +115,7 @@ def test_numbers_in_another_unit_are_told_with_the_unit_they_look_like(
     "system, width, told",
     [("SI", 6000.0, True), ("N-MM", 6000.0, False), ("KN-M", 400.0, False), ("", 6000.0, False)],
 )
-def test_millimetres_of_a_drawing_are_told(system: str, width: float, told: bool) -> None:
+def test_millimetres_of_a_drawing_are_told(system, width, told):
     option = f"OPTI 'UNIT' '{system}' ; " if system else ""
     young = STEEL[system or "SI"][0]
     script = BODY.replace("(2. 0.)", f"({width} 0.)") + option
@@ -125,21 +123,21 @@ def test_millimetres_of_a_drawing_are_told(system: str, width: float, told: bool
     assert [w.code for w in made.session.warnings] == ["operators.models.unusual-size"] * told
 
 
-def test_bounds_are_told_in_the_units_of_the_deck() -> None:
+def test_bounds_are_told_in_the_units_of_the_deck():
     (told,) = warned("N-MM", "'YOUN' 2.E5 'NU' 0.3 'RHO' 7850.")
     assert (told["unit"], told["small"]) == ("t/mm3", False)
     assert (told["low"], told["high"]) == pytest.approx((1e-11, 1.2e-8))
 
 
-def test_without_the_option_nothing_is_said() -> None:
+def test_without_the_option_nothing_is_said():
     assert warned("", "'YOUN' 30. 'NU' 0.2 'RHO' 1.E9") == []
 
 
-def test_nought_is_usual_in_any_unit() -> None:
+def test_nought_is_usual_in_any_unit():
     assert warned("SI", "'YOUN' 0. 'NU' 0. 'RHO' 0.") == []
 
 
-def test_sections_and_joints_are_looked_at_too() -> None:
+def test_sections_and_joints_are_looked_at_too():
     bar = "OPTI DIME 2 ELEM SEG2 ; MO = MODE (DROI 1 (0. 0.) (1. 0.)) 'MECANIQUE' BARR ; "
     (told,) = warned("SI", "'YOUN' 2.1E11 'NU' 0.3 'SECT' 1.E5", bar)
     assert (told["name"], told["likely"], told["written"]) == (
@@ -156,7 +154,7 @@ def test_sections_and_joints_are_looked_at_too() -> None:
     assert "GPa/m" in told["likely"]
 
 
-def test_a_field_is_looked_at_by_its_extremes() -> None:
+def test_a_field_is_looked_at_by_its_extremes():
     two = (
         "OPTI DIME 2 MODE PLAN CONT ELEM QUA4 ; S = TRAN 1 (DROI 2 (0. 0.) (2. 0.)) (0. 1.) ; "
         "MO = MODE S 'MECANIQUE' 'ELASTIQUE' ; "
@@ -167,7 +165,7 @@ def test_a_field_is_looked_at_by_its_extremes() -> None:
     assert told["value"] == pytest.approx(210.0)
 
 
-def test_a_statement_in_a_loop_is_told_once_and_procedures_of_the_library_never() -> None:
+def test_a_statement_in_a_loop_is_told_once_and_procedures_of_the_library_never():
     made = run_text(
         f"{BODY}OPTI 'UNIT' 'SI' ; REPE B 3 ; A = MATE MO 'YOUN' 30. 'NU' 0.2 ; FIN B ; LIST A ;"
     )
@@ -176,7 +174,7 @@ def test_a_statement_in_a_loop_is_told_once_and_procedures_of_the_library_never(
     assert (centre.exit_code, centre.session.warnings) == (0, []), centre.message
 
 
-def test_the_option_is_read_back_and_holds_from_its_place_on() -> None:
+def test_the_option_is_read_back_and_holds_from_its_place_on():
     made = ran(
         f"{BODY}A = MATE MO 'YOUN' 30. 'NU' 0.2 ; OPTI UNIT SI ; U = VALE 'UNIT' ; "
         "OPTI 'UNIT' 'mn-m' ; B = MATE MO 'YOUN' 30. 'NU' 0.2 ; V = VALE 'UNIT' ; LIST (A ET B) ;"
@@ -187,7 +185,7 @@ def test_the_option_is_read_back_and_holds_from_its_place_on() -> None:
 
 
 @together("said", ["N-M", "MN-MM", "CGS", "SIX"])
-def test_a_system_is_written_whole(said: str) -> None:
+def test_a_system_is_written_whole(said):
     (error,) = run_text(f"OPTI 'UNIT' '{said}' ;").errors
     assert error.code == "operators.session.no-value-of-option"
     assert error.data["values"] == ["'SI'", "'KN-M'", "'MN-M'", "'N-MM'"]
@@ -218,7 +216,7 @@ def texts(folder: Path, number: int = 1) -> set[str]:
     return {t.text or "" for t in root.iter("{http://www.w3.org/2000/svg}text")}
 
 
-def test_axes_of_curves_carry_the_units_of_the_deck(tmp_path: Path) -> None:
+def test_axes_of_curves_carry_the_units_of_the_deck(tmp_path):
     moved(
         tmp_path,
         "N-MM",
@@ -231,7 +229,7 @@ def test_axes_of_curves_carry_the_units_of_the_deck(tmp_path: Path) -> None:
     assert {"TEMP (s)", "UX (mm)"} <= texts(tmp_path, 5)  # a colour changes no unit
 
 
-def test_without_the_option_axes_and_columns_carry_names_alone(tmp_path: Path) -> None:
+def test_without_the_option_axes_and_columns_carry_names_alone(tmp_path):
     moved(tmp_path, "", "DESS E ; OPTI SORT 'e.csv' ; SORT 'EXCE' E ;")
     assert {"TEMP", "UX"} <= texts(tmp_path)
     assert (tmp_path / "e.csv").read_text().splitlines()[0] == "TEMP;UX"
@@ -239,7 +237,7 @@ def test_without_the_option_axes_and_columns_carry_names_alone(tmp_path: Path) -
     assert json.loads((tmp_path / "summary.json").read_text())["units"] is None
 
 
-def test_columns_of_tables_carry_the_units_of_the_deck(tmp_path: Path) -> None:
+def test_columns_of_tables_carry_the_units_of_the_deck(tmp_path):
     moved(
         tmp_path, "KN-M", "OPTI SORT 'e.csv' ; SORT 'EXCE' E ; OPTI SORT 'd.csv' ; SORT 'EXCE' D ;"
     )
@@ -249,19 +247,19 @@ def test_columns_of_tables_carry_the_units_of_the_deck(tmp_path: Path) -> None:
     assert {"TEMP (s)", "DEPL_UX_1 (m)", "VITE_UX_1 (m/s)", "ACCE_UX_1 (m/s2)"} <= set(head)
 
 
-def test_forces_of_results_keep_their_unit_and_velocities_are_no_lengths() -> None:
+def test_forces_of_results_keep_their_unit_and_velocities_are_no_lengths():
     assert result_unit("FX", "REAC") == "N"
     assert result_unit("SMXX", "CONTRAINTES") == "Pa"
     assert result_unit("RZ", "ACCE") == "rad/s2"
     assert result_unit("UX", "ANYTHING") == result_unit("WHAT", "DEPL") == ""
 
 
-def test_axes_of_pictures_in_the_plane_say_the_unit_of_length(tmp_path: Path) -> None:
+def test_axes_of_pictures_in_the_plane_say_the_unit_of_length(tmp_path):
     ran(f"{BODY}OPTI 'UNIT' 'N-MM' 'TRAC' 'SVG' ; TRAC S ;", tmp_path)
     assert {"x (mm)", "y (mm)"} <= texts(tmp_path)
 
 
-def test_vtk_files_hold_the_units_with_their_sizes(tmp_path: Path) -> None:
+def test_vtk_files_hold_the_units_with_their_sizes(tmp_path):
     text = "OPTI SORT 's' ; SORT 'VTK ' S ; OPTI SORT 't' ; SORT 'VTK ' S 'TEMP' 1. 'NOUV' ;"
     ran(f"{BODY}OPTI 'UNIT' 'N-MM' ; {text}", tmp_path)
     held = meshio.read(tmp_path / "s.vtu").field_data
@@ -274,7 +272,7 @@ def test_vtk_files_hold_the_units_with_their_sizes(tmp_path: Path) -> None:
     assert {"TimeValue", "length: mm"} <= set(meshio.read(stepped).field_data)
 
 
-def test_summary_says_the_units_and_energies_in_joules(tmp_path: Path) -> None:
+def test_summary_says_the_units_and_energies_in_joules(tmp_path):
     """The work of 1 N over 0.02 m at the peak; with N and mm the same numbers are a thousandth."""
     for system, largest in (("SI", 0.02), ("N-MM", 0.02e-3), ("KN-M", 20.0)):
         moved(tmp_path / system, system, "")
@@ -288,7 +286,7 @@ def test_summary_says_the_units_and_energies_in_joules(tmp_path: Path) -> None:
     }  # fmt: skip
 
 
-def test_the_closing_line_says_the_energy_in_the_units_of_the_deck(tmp_path: Path) -> None:
+def test_the_closing_line_says_the_energy_in_the_units_of_the_deck(tmp_path):
     ends = {}
     for system in ("", "N-MM"):
         option = f"OPTI 'UNIT' '{system}' ;" if system else ""
@@ -301,14 +299,14 @@ def test_the_closing_line_says_the_energy_in_the_units_of_the_deck(tmp_path: Pat
     assert re.search(r"energy within \S+ % \(\S+ mJ\)$", ends["N-MM"])
 
 
-def test_check_knows_the_words_and_finds_a_slip() -> None:
+def test_check_knows_the_words_and_finds_a_slip():
     script = "OPTI DIME 2 'UNIT' 'N-MM' 'ELEM' 'QUA4' ; OPTI 'UNIT' 'SI' ;"
     assert check_source(Source("deck", script))[0] == []
     (slip,) = check_source(Source("deck", "OPTI DIME 2 'UNIY' 'SI' ;"))[0]
     assert (slip.code, slip.data["near"]) == ("near-word", "UNIT")
 
 
-def test_units_are_saved_and_others_are_told(tmp_path: Path) -> None:
+def test_units_are_saved_and_others_are_told(tmp_path):
     ran("OPTI 'UNIT' 'N-MM' ; X = 1 ; OPTI SAUV 'x' ; SAUV X ;", tmp_path)
     again = run_text("OPTI REST 'x' ; REST ; U = VALE 'UNIT' ; LIST X ;", tmp_path)
     assert (again.exit_code, again.session.warnings) == (0, []), again.message

@@ -22,7 +22,7 @@ def names(folder: Path) -> list[str]:
     return sorted(p.name for p in folder.iterdir())
 
 
-def test_one_mesh_is_one_file(tmp_path: Path) -> None:
+def test_one_mesh_is_one_file(tmp_path):
     run("SORT 'VTK ' S U SG 'stress' ;", tmp_path)
     assert names(tmp_path) == ["out.pvd", "out.vtu"]
     read = meshio.read(tmp_path / "out.vtu")
@@ -33,7 +33,7 @@ def test_one_mesh_is_one_file(tmp_path: Path) -> None:
     assert np.allclose(stress[:, 3], 1e9 / 2.6 * -0.02)
 
 
-def test_times_make_a_series(tmp_path: Path) -> None:
+def test_times_make_a_series(tmp_path):
     run(
         "REPE B 3 ; SORT 'VTK ' S 'soil' L 'base' (U * &B) 'u' 'TEMP' (0.5 * &B) ; FIN B ;",
         tmp_path,
@@ -45,12 +45,12 @@ def test_times_make_a_series(tmp_path: Path) -> None:
     assert np.allclose(read.point_data["u"][:, 0], 0.03 * read.points[:, 0])
 
 
-def test_an_earlier_time_begins_anew(tmp_path: Path) -> None:
+def test_an_earlier_time_begins_anew(tmp_path):
     run("SORT 'VTK ' S 'TEMP' 1. ; SORT 'VTK ' S 'TEMP' 2. ; SORT 'VTK ' S 'TEMP' 1.5 ;", tmp_path)
     assert [e.time for e in read_pvd(tmp_path / "out.pvd")] == [1.5]
 
 
-def test_a_series_of_another_run_is_gone_on_with(tmp_path: Path) -> None:
+def test_a_series_of_another_run_is_gone_on_with(tmp_path):
     run("SORT 'VTK ' S 'TEMP' 1. ;", tmp_path)
     run("SORT 'VTK ' S 'TEMP' 2. 'SUIT' ;", tmp_path)
     assert [e.time for e in read_pvd(tmp_path / "out.pvd")] == [1.0, 2.0]
@@ -58,24 +58,24 @@ def test_a_series_of_another_run_is_gone_on_with(tmp_path: Path) -> None:
     assert [e.time for e in read_pvd(tmp_path / "out.pvd")] == [3.0]
 
 
-def test_no_list_on_demand_and_text(tmp_path: Path) -> None:
+def test_no_list_on_demand_and_text(tmp_path):
     run("SORT 'VTK ' S 'TEMP' 1. 'NPVD' 'FORM' ;", tmp_path)
     assert names(tmp_path) == ["out.0001.0001.vtu"]
     assert "ascii" in (tmp_path / "out.0001.0001.vtu").read_text()
 
 
-def test_tables_name_their_objects(tmp_path: Path) -> None:
+def test_tables_name_their_objects(tmp_path):
     run("T = TABL ; T . 'PART' = S ; T . 1 = L ; T . 'DEPL' = U ; SORT 'VTK ' T ;", tmp_path)
     assert names(tmp_path) == ["out.0001.1.vtu", "out.0001.PART.vtu", "out.pvd"]
     assert "DEPL" in meshio.read(tmp_path / "out.0001.1.vtu").point_data
 
 
-def test_a_field_may_be_called_temp(tmp_path: Path) -> None:
+def test_a_field_may_be_called_temp(tmp_path):
     run("SORT 'VTK ' S X 'TEMP' 'TEMP' 4. ;", tmp_path)
     assert "TEMP" in meshio.read(tmp_path / "out.0001.0001.vtu").point_data
 
 
-def test_curves_and_lists_in_columns(tmp_path: Path) -> None:
+def test_curves_and_lists_in_columns(tmp_path):
     text = (
         "OPTI SORT 'c.csv' ; E = EVOL 'MANU' 'time' (PROG 0. 1.) 'u' (PROG 2. 3.) ; "
         "T = TABL ; T . 'n' = LECT 7 8 9 ; SORT 'EXCE' E T (MOTS 'AA') 'SEPA' 'VIRG' ;"
@@ -85,7 +85,7 @@ def test_curves_and_lists_in_columns(tmp_path: Path) -> None:
     assert lines == ["time,u,n,", "0.0,2.0,7,AA", "1.0,3.0,8,", ",,9,"]
 
 
-def test_text_lines_append_until_the_file_is_named_again(tmp_path: Path) -> None:
+def test_text_lines_append_until_the_file_is_named_again(tmp_path):
     text = "OPTI SORT 'n.txt' ; SORT 'CHAI' 'a' 1 ; SORT 'CHAI' 'b' ;"
     run(text, tmp_path)
     assert (tmp_path / "n.txt").read_text() == "a1\nb\n"
@@ -93,7 +93,7 @@ def test_text_lines_append_until_the_file_is_named_again(tmp_path: Path) -> None
     assert (tmp_path / "n.txt").read_text() == "c\n"
 
 
-def test_values_of_avs_are_those_of_their_cells_where_kinds_alternate(tmp_path: Path) -> None:
+def test_values_of_avs_are_those_of_their_cells_where_kinds_alternate(tmp_path):
     points = [(1, 0, 0), (2, 1, 0), (3, 2, 0), (4, 0, 1), (5, 1, 1), (6, 2, 1)]
     lines = [
         "6 4 0 2 0", *(f"{n} {x} {y} 0" for n, x, y in points),
@@ -117,7 +117,7 @@ def test_values_of_avs_are_those_of_their_cells_where_kinds_alternate(tmp_path: 
     ]
 
 
-def test_a_matrix_with_its_conditions_as_matrix_market(tmp_path: Path) -> None:
+def test_a_matrix_with_its_conditions_as_matrix_market(tmp_path):
     from scipy.io import mmread
 
     text = (
@@ -146,7 +146,7 @@ def test_a_matrix_with_its_conditions_as_matrix_market(tmp_path: Path) -> None:
         assert sorted(path.suffix[1:] for path in alone.glob("out.*")) == made
 
 
-def test_figures_go_to_the_session(tmp_path: Path) -> None:
+def test_figures_go_to_the_session(tmp_path):
     checks = run("SORT 'BILA' 'a' 2 ; SORT 'BILA' 'b' 1. 2. 0.5 ;", tmp_path).session.checks
     assert [(c.name, c.value, c.expected, c.tolerance) for c in checks] == [
         ("a", 2.0, None, None),
@@ -165,7 +165,7 @@ def test_figures_go_to_the_session(tmp_path: Path) -> None:
         ("SORT 'VTK ' S 'SUIT' 'TEMP' 1. ;", "no such file"),
     ],
 )
-def test_what_is_wrong_is_said_and_nothing_written(text: str, said: str, tmp_path: Path) -> None:
+def test_what_is_wrong_is_said_and_nothing_written(text, said, tmp_path):
     result = failed(PLATE + text, tmp_path / "out")
     assert said.lower() in result.message.lower()
     assert not (tmp_path / "out").exists()
@@ -183,7 +183,7 @@ def steps_of(path: Path) -> list[object]:
     return [step_of(reader, step) for step in range(reader.GetNumberOfSteps())]
 
 
-def test_times_go_to_one_file_on_demand(tmp_path: Path) -> None:
+def test_times_go_to_one_file_on_demand(tmp_path):
     # said once, the series goes on as it began
     run(
         "SORT 'VTK ' S (U * 1) 'u' 'VTKHDF' 'TEMP' 0.5 ; SORT 'VTK ' S (U * 2) 'u' 'TEMP' 1. ; "
@@ -198,7 +198,7 @@ def test_times_go_to_one_file_on_demand(tmp_path: Path) -> None:
         assert grid.n_cells == 8
 
 
-def test_one_file_begins_anew_and_gives_way_to_files(tmp_path: Path) -> None:
+def test_one_file_begins_anew_and_gives_way_to_files(tmp_path):
     one = "SORT 'VTK ' S 'VTKHDF' 'TEMP' {} {} ; "
     run(one.format("1.", "") + one.format("2.", "") + one.format("3.", "'NOUV'"), tmp_path)
     assert len(steps_of(tmp_path / "out.vtkhdf")) == 1
@@ -207,20 +207,20 @@ def test_one_file_begins_anew_and_gives_way_to_files(tmp_path: Path) -> None:
 
 
 @together("word", ["FORM", "BINA", "SUIT", "NPVD"])
-def test_words_of_files_are_refused_for_one_file(tmp_path: Path, word: str) -> None:
+def test_words_of_files_are_refused_for_one_file(tmp_path, word):
     assert f"'{word}' is for .vtu files" in refused(
         PLATE + f"SORT 'VTK ' S 'TEMP' 1. '{word}' 'VTKHDF' ;", tmp_path
     )
     assert names(tmp_path) == []
 
 
-def test_another_mesh_in_one_file_is_refused(tmp_path: Path) -> None:
+def test_another_mesh_in_one_file_is_refused(tmp_path):
     text = "SORT 'VTK ' S 'VTKHDF' 'TEMP' 1. ; SORT 'VTK ' L 'VTKHDF' 'TEMP' 2. ;"
     assert "out.vtkhdf has one mesh for all its steps" in refused(PLATE + text, tmp_path)
     assert len(steps_of(tmp_path / "out.vtkhdf")) == 1
 
 
-def test_cells_have_the_names_that_the_script_gives_them(tmp_path: Path) -> None:
+def test_cells_have_the_names_that_the_script_gives_them(tmp_path):
     run(
         "UP = TRAN (DROI 4 (0. 1.) (2. 1.)) 1 (0. 1.5) ; ALL = S ET UP ; T = TABL ; "
         "T . 'TOP' = UP ; OUBL UP ; SORT 'VTK ' ALL ; "

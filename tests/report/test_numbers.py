@@ -122,7 +122,7 @@ def _results(folder: Path) -> Results:
     )  # fmt: skip
 
 
-def test_curves_hold_the_histories_of_each_footing_and_table(tmp_path: Path) -> None:
+def test_curves_hold_the_histories_of_each_footing_and_table(tmp_path):
     results = _results(tmp_path)
     first, second = (c.columns for c in results.calculations[:2])
     found = {(c.group, c.title): c for c in charts_of(results, TOLD)}
@@ -172,7 +172,7 @@ def test_curves_hold_the_histories_of_each_footing_and_table(tmp_path: Path) -> 
     assert found["curves", "p.png"].log == (False, True)
 
 
-def test_tables_and_cards_hold_what_the_summary_holds(tmp_path: Path) -> None:
+def test_tables_and_cards_hold_what_the_summary_holds(tmp_path):
     page = page_of(_results(tmp_path), "en", lambda text: [])
     rows = Tables(page).rows
     assert rows["checks"][1:] == [
@@ -207,9 +207,7 @@ def test_tables_and_cards_hold_what_the_summary_holds(tmp_path: Path) -> None:
     assert "0.7 kB" in page
 
 
-def test_pictures_are_held_as_long_as_there_is_room(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_pictures_are_held_as_long_as_there_is_room(tmp_path, monkeypatch):
     monkeypatch.setattr("ssilang.report.page.PICTURES", 10)
     results = _results(tmp_path)
     results.pictures[:] = [tmp_path / f"{n}.png" for n in ("b", "a", "gone", "e", "c")]
@@ -221,7 +219,7 @@ def test_pictures_are_held_as_long_as_there_is_room(
     assert TOLD("report.pictures-left", count=3) in page
 
 
-def test_a_deck_is_shown_as_it_is_written() -> None:
+def test_a_deck_is_shown_as_it_is_written():
     deck = "A = 1 ;\n* <b>\n\nTITR 'two\nlines' ;"
     at = deck.index("'two")
     spans = [(8, 13, "c"), (9, 10, "inside"), (at, len(deck) - 2, "s")]
@@ -263,7 +261,7 @@ def swept(tmp_path: Path) -> Sweep:
     return read_sweep(tmp_path)
 
 
-def test_a_sweep_shows_each_run_under_its_heads(swept: Sweep) -> None:
+def test_a_sweep_shows_each_run_under_its_heads(swept):
     """Names out of order of the alphabet, values out of order, a run that failed."""
     page = sweep_page(swept, "en")
     found = Tables(page)
@@ -293,7 +291,7 @@ def test_a_sweep_shows_each_run_under_its_heads(swept: Sweep) -> None:
     assert "1 run failed" in page
 
 
-def test_a_scene_holds_every_kind_of_cell_and_all_instants(tmp_path: Path) -> None:
+def test_a_scene_holds_every_kind_of_cell_and_all_instants(tmp_path):
     """Bars, triangles, a quadrangle, a lone point and joints of two and four nodes on a side."""
     points = np.random.default_rng(3).normal(size=(24, 3))
     bar, line_joint = [0, 1], [2, 3, 4, 5]

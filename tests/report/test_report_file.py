@@ -59,7 +59,7 @@ class Sections(HTMLParser):
             self.text[self._now] = self.text.get(self._now, "") + data
 
 
-def test_a_rigid_strip_in_time_against_closed_forms(tmp_path: Path) -> None:
+def test_a_rigid_strip_in_time_against_closed_forms(tmp_path):
     """M/M_u = 3 - 2 sqrt(theta_u/theta), contact B sqrt(theta_u/theta), toe 2 N/contact."""
     run_file(STRIP, RunOptions(output_directory=tmp_path, summary=True, report=True))
     (calculation,) = read_results(tmp_path).calculations
@@ -77,7 +77,7 @@ def test_a_rigid_strip_in_time_against_closed_forms(tmp_path: Path) -> None:
     np.testing.assert_allclose(found["force_1"], FORCE, rtol=1e-9)
 
 
-def test_the_page_shows_what_ran(rocking: Path) -> None:
+def test_the_page_shows_what_ran(rocking):
     text = page(rocking)
     seen = Sections(text).text
     assert "deck.ssi" in seen["header"]
@@ -95,13 +95,13 @@ def test_the_page_shows_what_ran(rocking: Path) -> None:
     assert {"play", "zoomIn"} <= {*read} <= data(text, "words").keys()
 
 
-def test_the_page_asks_for_nothing_elsewhere(rocking: Path) -> None:
+def test_the_page_asks_for_nothing_elsewhere(rocking):
     found = Sections(page(rocking))
     assert [a for a in found.addresses if not a.startswith(("data:", "#"))] == []
     assert "@import" not in page(rocking).split("</style>")[0]
 
 
-def test_the_histories_agree_with_what_the_run_told(rocking: Path) -> None:
+def test_the_histories_agree_with_what_the_run_told(rocking):
     (calculation,) = read_results(rocking).calculations
     peaks = {x["kind"]: x["value"] for x in calculation.largest if not x["component"]}
     # 200 steps are all kept; the ends of cells open further than their points
@@ -115,7 +115,7 @@ def test_the_histories_agree_with_what_the_run_told(rocking: Path) -> None:
     assert len(calculation.columns["time"]) == 201
 
 
-def test_a_scene_keeps_displacements_to_sixteen_bits(rocking: Path) -> None:
+def test_a_scene_keeps_displacements_to_sixteen_bits(rocking):
     import base64
     import zlib
 
@@ -141,8 +141,8 @@ def test_a_scene_keeps_displacements_to_sixteen_bits(rocking: Path) -> None:
 
 
 def test_instants_that_are_damaged_or_have_another_mesh_are_left_out(
-    rocking: Path, tmp_path: Path, capfd: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    rocking, tmp_path, capfd, monkeypatch
+):
     for path in (*rocking.glob("*.vtu"), *rocking.glob("*.pvd")):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     files = sorted(tmp_path.glob("*.vtu"))
@@ -178,9 +178,7 @@ def listed(*parts: str) -> str:
     ("a.pvd", listed("<DataSet timestep='1' file='a.vtu'/>"), "nothing-to-see"),
     ("b.pvd", listed(), "series-gone"),
 ])  # fmt: skip
-def test_half_a_series_or_none_is_told(
-    rocking: Path, tmp_path: Path, name: str, content: float | str, code: str
-) -> None:
+def test_half_a_series_or_none_is_told(rocking, tmp_path, name, content, code):
     pyvista.UnstructuredGrid().save(tmp_path / "a.vtu")
     data = (rocking / "report" / "scene_1.vtkhdf").read_bytes()
     cut = content.encode() if isinstance(content, str) else data[: int(content * len(data))]
@@ -189,7 +187,7 @@ def test_half_a_series_or_none_is_told(
         packed_scene(tmp_path / name, 10**7)
 
 
-def test_joints_in_a_part_of_their_own_are_found(tmp_path: Path) -> None:
+def test_joints_in_a_part_of_their_own_are_found(tmp_path):
     """A table in MAILLAGE_VTK: the parts are blocks, and only one has openings."""
     from tests.report.conftest import ROCKING
 
@@ -205,7 +203,7 @@ def test_joints_in_a_part_of_their_own_are_found(tmp_path: Path) -> None:
     assert told["arrays"]["joint_lines"][1] == 2 * 4  # four cells under the footing
 
 
-def test_a_scene_fits_into_few_bytes(rocking: Path) -> None:
+def test_a_scene_fits_into_few_bytes(rocking):
     series = rocking / "report" / "scene_1.vtkhdf"
     whole, text = packed_scene(series, 10**7)
     few, short = packed_scene(series, len(text) // 2)
@@ -215,7 +213,7 @@ def test_a_scene_fits_into_few_bytes(rocking: Path) -> None:
     assert few["times"][-1] == whole["times"][-1]
 
 
-def test_modes_are_a_scene(modes: Path) -> None:
+def test_modes_are_a_scene(modes):
     (scene,) = data(page(modes), "scenes")
     assert scene["kind"] == "modes"
     assert not scene["flat"]
@@ -224,7 +222,7 @@ def test_modes_are_a_scene(modes: Path) -> None:
     assert scene["frequencies"][0] == pytest.approx(scene["frequencies"][1], rel=1e-6)
 
 
-def test_a_report_is_made_again_in_french(rocking: Path, tmp_path: Path, capsys: Any) -> None:
+def test_a_report_is_made_again_in_french(rocking, tmp_path, capsys):
     before = page(rocking)
     try:
         assert main(["report", str(rocking), "--lang", "fr"]) == 0
@@ -239,7 +237,7 @@ def test_a_report_is_made_again_in_french(rocking: Path, tmp_path: Path, capsys:
     assert [c["lines"][0]["y"] for c in english] == [c["lines"][0]["y"] for c in french]
 
 
-def test_a_run_that_failed_says_so_at_the_top(tmp_path: Path) -> None:
+def test_a_run_that_failed_says_so_at_the_top(tmp_path):
     (tmp_path / "deck.ssi").write_text("X = 1 ;\nMESS 'a' ;\nY = X / 0 ;\n")
     options = RunOptions(output_directory=tmp_path / "out", summary=True, report=True)
     assert run_file(tmp_path / "deck.ssi", options).exit_code == 1
@@ -249,7 +247,7 @@ def test_a_run_that_failed_says_so_at_the_top(tmp_path: Path) -> None:
     assert '<li id="line-3" class=wrong>' in page(tmp_path / "out")
 
 
-def test_a_run_without_the_option_has_its_series_and_tables(rocking: Path, tmp_path: Path) -> None:
+def test_a_run_without_the_option_has_its_series_and_tables(rocking, tmp_path):
     summary = json.loads((rocking / "summary.json").read_text())
     kept = [f for f in summary["files"] if not f["path"].startswith("report/")]
     (tmp_path / "summary.json").write_text(json.dumps({**summary, "files": kept}))
@@ -264,7 +262,7 @@ def test_a_run_without_the_option_has_its_series_and_tables(rocking: Path, tmp_p
     assert "T2 = DYNAMIC T1 ;" in Sections(text).text["deck"]  # from the deck's own file
 
 
-def test_half_written_files_are_named_and_the_rest_is_shown(rocking: Path, tmp_path: Path) -> None:
+def test_half_written_files_are_named_and_the_rest_is_shown(rocking, tmp_path):
     """A run that was killed: no summary, half a table, half a series."""
     (tmp_path / "report").mkdir()
     for path in (rocking / "report").iterdir():
@@ -281,7 +279,7 @@ def test_half_written_files_are_named_and_the_rest_is_shown(rocking: Path, tmp_p
     assert len(share["lines"][0]["x"]) == 200  # the last line is cut
 
 
-def test_axes_have_the_units_of_the_deck(rocking: Path, tmp_path: Path) -> None:
+def test_axes_have_the_units_of_the_deck(rocking, tmp_path):
     summary = json.loads((rocking / "summary.json").read_text())
     summary["units"] = {"system": "KN-M", "length": "m", "force": "kN"}
     (tmp_path / "summary.json").write_text(json.dumps(summary))
@@ -297,7 +295,7 @@ def test_axes_have_the_units_of_the_deck(rocking: Path, tmp_path: Path) -> None:
     assert "scene_1.vtkhdf is gone" in Sections(page(tmp_path)).text["scene"]
 
 
-def test_a_damaged_record_is_named(rocking: Path, tmp_path: Path) -> None:
+def test_a_damaged_record_is_named(rocking, tmp_path):
     (tmp_path / "report").mkdir()
     (tmp_path / "summary.json").write_bytes((rocking / "summary.json").read_bytes())
     for text in ("{", "[]", '{"calculations": [3]}', '{"calculations": []}'):
@@ -306,9 +304,7 @@ def test_a_damaged_record_is_named(rocking: Path, tmp_path: Path) -> None:
         assert "Damaged, not shown: report/contents.json" in Sections(page(tmp_path)).text["header"]
 
 
-def test_footings_that_nobody_follows_are_counted(
-    rocking: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_footings_that_nobody_follows_are_counted(rocking, tmp_path, monkeypatch):
     assert "smaller footing" not in Sections(page(rocking)).text["header"]
     monkeypatch.setattr("ssilang.kernel.stepping.node_histories.MOST", 0)
     options = RunOptions(output_directory=tmp_path / "out", summary=True, report=True)
@@ -327,9 +323,7 @@ def test_footings_that_nobody_follows_are_counted(
         ({"summary.json": '{"version": "0.1", "files": 3}'}, "is not the summary of a run"),
     ],
 )
-def test_folders_without_a_run_are_refused(
-    files: dict[str, str] | None, said: str, tmp_path: Path, capsys: Any
-) -> None:
+def test_folders_without_a_run_are_refused(files, said, tmp_path, capsys):
     folder = tmp_path / "results"
     for name, text in (files or {}).items():
         folder.mkdir(exist_ok=True)

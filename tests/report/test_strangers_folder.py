@@ -89,9 +89,7 @@ WAYS: list[Callable[[dict[str, Any], Path, Path], None]] = [
 
 
 @pytest.mark.parametrize("way", WAYS)
-def test_nothing_of_the_reader_is_shown(
-    way: Callable[[dict[str, Any], Path, Path], None], rocking: Path, tmp_path: Path
-) -> None:
+def test_nothing_of_the_reader_is_shown(way, rocking, tmp_path):
     import base64
 
     secret = tmp_path / "home" / "secret.csv"
@@ -112,7 +110,7 @@ def test_nothing_of_the_reader_is_shown(
     assert base64.b64encode(secret.read_bytes()).decode()[:30] not in text
 
 
-def test_a_deck_that_is_what_ran_is_shown(rocking: Path, tmp_path: Path) -> None:
+def test_a_deck_that_is_what_ran_is_shown(rocking, tmp_path):
     records = whole(rocking)
     del records[RECORD]
     put(tmp_path, records, rocking)
@@ -126,7 +124,7 @@ def test_a_deck_that_is_what_ran_is_shown(rocking: Path, tmp_path: Path) -> None
         deck.write_text(before)
 
 
-def test_a_series_reads_its_own_parts_alone(rocking: Path, tmp_path: Path) -> None:
+def test_a_series_reads_its_own_parts_alone(rocking, tmp_path):
     from ssilang.report.scenes import SceneError, packed_scene
 
     elsewhere = tmp_path / "home"
@@ -180,9 +178,7 @@ def listed(folder: Path, names: list[str]) -> Path:
 @pytest.mark.parametrize(
     ("numbers", "last"), [(4_000_000, 3), (1, 2 * 10**10)], ids=["unpacks", "declares"]
 )
-def test_a_series_that_takes_all_memory_is_damaged(
-    numbers: int, last: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_series_that_takes_all_memory_is_damaged(numbers, last, tmp_path, monkeypatch):
     monkeypatch.setattr(scenes, "_ROOM", 8 * 10**7)
     (tmp_path / "a.vtu").write_text(grid_of(1000))
     told, _ = scenes.guarded_scene(listed(tmp_path, ["a.vtu"]), 10**7)
@@ -193,7 +189,7 @@ def test_a_series_that_takes_all_memory_is_damaged(
     assert problem.value.code == "report.series-damaged"
 
 
-def test_a_part_of_a_series_is_read_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_part_of_a_series_is_read_once(tmp_path, monkeypatch):
     import pyvista
 
     read, count = pyvista.read, 0
@@ -233,9 +229,7 @@ BAD: tuple[Any, ...] = (
 
 @pytest.mark.parametrize("name", ["summary.json", RECORD])
 @pytest.mark.parametrize("kind", ["rocking", "verdict_run"])
-def test_wrong_kinds_of_values_are_refused_or_shown(
-    name: str, kind: str, tmp_path: Path, request: pytest.FixtureRequest
-) -> None:
+def test_wrong_kinds_of_values_are_refused_or_shown(name, kind, tmp_path, request):
     """Each place of a record, a few values each: a refusal or a page, and no other error."""
     from ssilang.io.errors import InputError
 
@@ -278,15 +272,13 @@ def test_wrong_kinds_of_values_are_refused_or_shown(
         ("\xff", "cannot be read"),
     ],
 )
-def test_a_damaged_summary_is_told_by_its_place(
-    text: str, said: str, tmp_path: Path, capsys: Any
-) -> None:
+def test_a_damaged_summary_is_told_by_its_place(text, said, tmp_path, capsys):
     (tmp_path / "summary.json").write_bytes(text.encode("latin-1"))
     assert main(["report", str(tmp_path)]) == 2
     assert said in capsys.readouterr().err
 
 
-def test_a_record_that_is_no_record_says_where(rocking: Path, tmp_path: Path) -> None:
+def test_a_record_that_is_no_record_says_where(rocking, tmp_path):
     records = whole(rocking)
     records[RECORD]["calculations"][0]["table"] = 3
     write_report(put(tmp_path, records, rocking), "en")
@@ -294,7 +286,7 @@ def test_a_record_that_is_no_record_says_where(rocking: Path, tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("half", ["\ud800", "a\udfff"])
-def test_half_a_character_is_refused(half: str, rocking: Path, tmp_path: Path) -> None:
+def test_half_a_character_is_refused(half, rocking, tmp_path):
     records = whole(rocking)
     records[RECORD]["calculations"][0]["title"] = "a whole one: \U0001f3d7"
     folder = put(tmp_path / "results", records, rocking)
@@ -307,7 +299,7 @@ def test_half_a_character_is_refused(half: str, rocking: Path, tmp_path: Path) -
     assert told in Sections(page(folder)).text["header"]
 
 
-def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> None:
+def test_cells_without_an_end_are_no_table(rocking, tmp_path):
     put(tmp_path, whole(rocking), rocking)
     (tmp_path / "top.csv").write_text('a;b\n1;"' + "2" * 200_000)
     assert read_results(tmp_path).tables == {}
@@ -316,7 +308,7 @@ def test_cells_without_an_end_are_no_table(rocking: Path, tmp_path: Path) -> Non
     assert {name: column.tolist() for name, column in found.items()} == {"a": [1, 3], "b": [2, 4]}
 
 
-def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path: Path) -> None:
+def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path):
     pa, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
     given = {
         "x": {"t": [1, 2], "b": [0.5, -3.5]},
@@ -336,7 +328,7 @@ def test_tables_of_columns_are_read_and_damaged_ones_named(tmp_path: Path) -> No
 
 
 @together("name", ["../a", "/etc/passwd", "//host/a", "\\\\host\\a", "a\0", "b", "c"])
-def test_what_stands_elsewhere_is_not_inside(name: str, tmp_path: Path) -> None:
+def test_what_stands_elsewhere_is_not_inside(name, tmp_path):
     folder = tmp_path / "in"
     (folder / "d").mkdir(parents=True)
     (tmp_path / "a").write_text("x")

@@ -50,7 +50,7 @@ def found(text: str) -> list[SsiError]:
 
 
 @together("name", REFUSED)
-def test_check_refuses_as_the_run_does(name: str) -> None:
+def test_check_refuses_as_the_run_does(name):
     text = deck(*REFUSED[name])
     (ran,), (checked,) = run_text(text).errors, found(text)
     assert checked.severity == "error"
@@ -72,9 +72,7 @@ def test_check_refuses_as_the_run_does(name: str) -> None:
         (POINT, "'APPUI_PLOMB'", "'KN' 1.E9 'KS' 1.E6 'QD' 1.E5 'KPOS' X0"),
     ],
 )
-def test_what_is_sound_or_known_in_a_run_alone_is_not_refused(
-    model: str, law: str, given: str
-) -> None:
+def test_what_is_sound_or_known_in_a_run_alone_is_not_refused(model, law, given):
     before = (
         "X0 = 0.9 ; REPE BX 1 ; X0 = X0 / 10. ; FIN BX ;\n"
         "T0 = EVOL 'MANU' (PROG 0. 1. 2.) (PROG 0. 2.E7 2.1E7) ;\n"
@@ -84,7 +82,7 @@ def test_what_is_sound_or_known_in_a_run_alone_is_not_refused(
     assert [p for p in found(text) if p.severity == "error"] == []
 
 
-def test_a_friction_that_is_an_angle_is_a_warning_before_the_run() -> None:
+def test_a_friction_that_is_an_angle_is_a_warning_before_the_run():
     text = deck(JOINT, "'JOINT_SDM'", "'KN' 1.E8 'KS' 1.E6 'FROT' 35.")
     (warned,) = found(text)
     assert (warned.code, warned.severity) == ("operators.models.friction-as-angle", "warning")
@@ -92,7 +90,7 @@ def test_a_friction_that_is_an_angle_is_a_warning_before_the_run() -> None:
     assert warned.span.text == "35."
 
 
-def test_a_mesh_and_values_that_only_the_run_knows_leave_the_rest_to_be_looked_at() -> None:
+def test_a_mesh_and_values_that_only_the_run_knows_leave_the_rest_to_be_looked_at():
     text = (
         "T = TABL ; T . 'S' = 1 ; M = MODE (T . 'S') 'MECANIQUE' 'ELASTIQUE' 'JOINT_SDM' 'JOI1' ;\n"
         "A = MATE M 'KN' (T . 'KN') 'KS' -1. ; LIST A ;\n"
@@ -103,7 +101,7 @@ def test_a_mesh_and_values_that_only_the_run_knows_leave_the_rest_to_be_looked_a
     assert (second.code, second.data["near"]) == ("operators.models.parameter-unknown", "KN")
 
 
-def test_a_law_that_is_not_built_is_found_beside_operands_that_only_the_run_knows() -> None:
+def test_a_law_that_is_not_built_is_found_beside_operands_that_only_the_run_knows():
     text = deck(BODY, "'ISOTROPE' 'NON_LINEAIRE' 'NUME_LOI' 31 'C_MATERIAU' (T . 'W')", "")
     (error,) = (
         p for p in found("T = TABL ; T . 'W' = MOTS 'A' ;\n" + text) if p.severity == "error"

@@ -1,7 +1,5 @@
 """AVS UCD, Abaqus and Nastran: read back by meshio, by ourselves and by hand."""
 
-from pathlib import Path
-
 import meshio
 import numpy as np
 import pytest
@@ -35,7 +33,7 @@ def mixed() -> tuple[Mesh, NodeField, CellField]:
     return Mesh(table, (quads, triangles)), field, cells
 
 
-def test_vtk_reads_what_is_written(tmp_path: Path) -> None:
+def test_vtk_reads_what_is_written(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     mesh, field, cells = mixed()
     path = tmp_path / "m.avs"
@@ -48,7 +46,7 @@ def test_vtk_reads_what_is_written(tmp_path: Path) -> None:
     assert np.allclose(read.cell_data["S"], [2.0, 5.0, 7.0])
 
 
-def test_structures_follow_one_another_with_their_time(tmp_path: Path) -> None:
+def test_structures_follow_one_another_with_their_time(tmp_path):
     mesh, field, _ = mixed()
     path = tmp_path / "two.inp"
     lines = avs_lines(structure_of(mesh, field, None, 1.5)) + avs_lines(structure_of(mesh))
@@ -74,7 +72,7 @@ BY_HAND = """# numbers in no order, kinds and materials in turn, a scalar before
 """
 
 
-def test_values_stay_with_their_cells_and_components(tmp_path: Path) -> None:
+def test_values_stay_with_their_cells_and_components(tmp_path):
     (tmp_path / "x.avs").write_text(BY_HAND)
     read = read_avs(tmp_path / "x.avs")
     assert read is not None
@@ -89,7 +87,7 @@ def test_values_stay_with_their_cells_and_components(tmp_path: Path) -> None:
 
 
 @together("kind", ["SEG3", "QUA8", "CU20", "TE10"])
-def test_quadratic_cells_keep_their_order(kind: str, tmp_path: Path) -> None:
+def test_quadratic_cells_keep_their_order(kind, tmp_path):
     from ssilang.kernel.mesh.cells import CELL_TYPES
 
     table = NodeTable()
@@ -103,14 +101,14 @@ def test_quadratic_cells_keep_their_order(kind: str, tmp_path: Path) -> None:
 
 
 @together("rest, said", [("", r"x\.inp is cut"), ("2 1. 0. 0.\n1 1\nV, m\n1 2.\n2 nan\n", "NaN")])
-def test_a_damaged_file_is_refused(rest: str, said: str, tmp_path: Path) -> None:
+def test_a_damaged_file_is_refused(rest, said, tmp_path):
     path = tmp_path / "x.inp"
     path.write_text(f"2 0 1 0 0\n1 0. 0. 0.\n{rest}")
     with pytest.raises(InputError, match=said):
         read_avs(path)
 
 
-def test_a_field_that_does_not_cover_the_mesh_is_refused() -> None:
+def test_a_field_that_does_not_cover_the_mesh_is_refused():
     mesh, _, cells = mixed()
     with pytest.raises(OutputError, match="cover"):
         structure_of(mesh, None, CellField(cells.blocks[:1]))
@@ -157,9 +155,7 @@ def volume(points, kind, rows):
 
 @together("kind", VOLUMES)
 @together("word, suffix", [("ABAQ", ".inp"), ("NAS", ".bdf")])
-def test_meshio_reads_the_same_volumes(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, kind: str, word: str, suffix: str
-) -> None:
+def test_meshio_reads_the_same_volumes(monkeypatch, tmp_path, kind, word, suffix):
     monkeypatch.setitem(topological_dimension, "wedge15", 3)  # meshio 5.3 has forgotten it
     text = VOLUMES[kind] + f"OPTI SORT 'box' ; SORT '{word}' V ; N = NBEL V ; P = NBNO V ;"
     result = ran(text, tmp_path)
@@ -175,7 +171,7 @@ def test_meshio_reads_the_same_volumes(
 
 
 @together("mode, name", [("PLAN CONT", "CPS8"), ("PLAN DEFO", "CPE8"), ("AXIS", "CAX8")])
-def test_surfaces_are_what_the_mode_says(tmp_path: Path, mode: str, name: str) -> None:
+def test_surfaces_are_what_the_mode_says(tmp_path, mode, name):
     text = f"OPTI DIME 2 MODE {mode} ELEM QUA8 SORT 'plate' ; "
     text += "S = (DROI 1 (0. 0.) (2. 0.)) TRAN 1 (0. 1.) ; T = MANU 'TRI6' (3. 0.) (4. 0.) (5. 0.) "
     text += "(4. 1.) (3. 2.) (3. 1.) ; SORT 'ABAQ' (S ET T) ;"
@@ -191,7 +187,7 @@ def test_surfaces_are_what_the_mode_says(tmp_path: Path, mode: str, name: str) -
         np.testing.assert_allclose(middles[i], (corners[i] + corners[(i + 1) % 4]) / 2)
 
 
-def test_cells_without_an_entry_are_refused(tmp_path: Path) -> None:
+def test_cells_without_an_entry_are_refused(tmp_path):
     text = "OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; S = VIDE 'MAILLAGE' ;"
     result = run_text(text, tmp_path)
     line, empty = (result.session.root.find(n) for n in "LS")
@@ -202,7 +198,7 @@ def test_cells_without_an_entry_are_refused(tmp_path: Path) -> None:
 
 
 @together("word, near", [("FER", ""), ("NSA", "did you mean 'NAS'?")])
-def test_formats_that_are_not_written_are_named(tmp_path: Path, word: str, near: str) -> None:
+def test_formats_that_are_not_written_are_named(tmp_path, word, near):
     result = run_text(
         f"OPTI DIME 2 ELEM SEG2 ; L = DROI 1 (0. 0.) (2. 0.) ; SORT '{word}' L ;", tmp_path
     )

@@ -47,14 +47,12 @@ def soon(read: Callable[[], object]) -> str:
         ) + "*ELSET,ELSET=LOOP\nLOOP\n"),
     ],
 )  # fmt: skip
-def test_counts_beyond_the_file_are_refused_soon(
-    name: str, kind: str, text: str, tmp_path: Path
-) -> None:
+def test_counts_beyond_the_file_are_refused_soon(name, kind, text, tmp_path):
     (tmp_path / name).write_text(text)
     assert name in soon(lambda: read_mesh_file(tmp_path / name, kind, Asked()))
 
 
-def test_sets_that_name_each_other_twice_hold_each_element_once(tmp_path: Path) -> None:
+def test_sets_that_name_each_other_twice_hold_each_element_once(tmp_path):
     (tmp_path / "sets.inp").write_text(NODES + DOUBLED)
     begin = time.process_time()
     read = read_mesh_file(tmp_path / "sets.inp", "ABAQUS", Asked())
@@ -63,14 +61,14 @@ def test_sets_that_name_each_other_twice_hold_each_element_once(tmp_path: Path) 
     assert all(part.cells["TRI3"].tolist() == [0] for part in read.parts.values())
 
 
-def test_generated_sets_are_those_that_are_written_out(tmp_path: Path) -> None:
+def test_generated_sets_are_those_that_are_written_out(tmp_path):
     (tmp_path / "a.inp").write_text(NODES + "*NSET,NSET=A,GENERATE\n1,3,2\n*NSET,NSET=B\nA,2\n")
     read = read_mesh_file(tmp_path / "a.inp", "ABAQUS", Asked())
     assert read.parts["A"].nodes.tolist() == [0, 2]
     assert read.parts["B"].nodes.tolist() == [0, 1, 2]
 
 
-def test_decks_that_include_ever_more_are_refused_soon(tmp_path: Path) -> None:
+def test_decks_that_include_ever_more_are_refused_soon(tmp_path):
     for i in range(9):
         (tmp_path / f"b{i}.inp").write_text(f"*INCLUDE,INPUT=b{i + 1}.inp\n" * 9)
     (tmp_path / "b9.inp").write_text("*NODE\n1,0,0,0\n")
@@ -80,7 +78,7 @@ def test_decks_that_include_ever_more_are_refused_soon(tmp_path: Path) -> None:
     assert "b0.inp" in soon(read)
 
 
-def test_values_of_no_cells_have_no_parts_without_end(tmp_path: Path) -> None:
+def test_values_of_no_cells_have_no_parts_without_end(tmp_path):
     (tmp_path / "v.avs").write_text("2 0 0 1 0\n1 0 0 0\n2 1 0 0\n1 2000000000\nA, m\n")
     begin = time.process_time()
     read = read_avs(tmp_path / "v.avs")
@@ -112,9 +110,7 @@ def packed(how: str, content: bytes, blocks: int) -> str:
 
 
 @together("how", PACK)
-def test_a_vtu_that_unpacks_past_any_use_is_refused(
-    how: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_vtu_that_unpacks_past_any_use_is_refused(how, tmp_path, monkeypatch):
     points = np.array([0.0, 0, 0, 1, 0, 0, 0, 1, 0])
     (tmp_path / "sound.vtu").write_text(packed(how, points.tobytes(), 1))
     sound = read_foreign(tmp_path / "sound.vtu", "VTU")
@@ -124,7 +120,7 @@ def test_a_vtu_that_unpacks_past_any_use_is_refused(
     assert "unpacks to more than 4 MB" in soon(lambda: read_foreign(tmp_path / "bomb.vtu", "VTU"))
 
 
-def test_a_med_that_unpacks_past_any_use_is_refused(tmp_path: Path) -> None:
+def test_a_med_that_unpacks_past_any_use_is_refused(tmp_path):
     h5py = pytest.importorskip("h5py")
     with h5py.File(tmp_path / "bomb.med", "w") as file:
         mesh = file.create_group("ENS_MAA/m")
@@ -149,7 +145,7 @@ MSH_TEXTS = {  # of each version, a square of four nodes that stand for NODES
 
 @together("version", MSH_TEXTS)
 @together("nodes", ["-1 -2 3 4", "1 2 3 0", "1 2 3 5", "1 2 3 -1"])
-def test_cells_of_gmsh_name_nodes_of_the_file(version: str, nodes: str, tmp_path: Path) -> None:
+def test_cells_of_gmsh_name_nodes_of_the_file(version, nodes, tmp_path):
     """Python would count what is below 1 from the last node."""
     path = tmp_path / "m.msh"
     path.write_text(MSH_TEXTS[version].replace("NODES", "1 2 3 4"))

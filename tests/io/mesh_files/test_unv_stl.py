@@ -1,8 +1,6 @@
 """Universal files written by hand; STL read by meshio and back."""
 
 import struct
-from collections.abc import Callable
-from pathlib import Path
 
 import meshio
 import numpy as np
@@ -52,7 +50,7 @@ face
 """
 
 
-def test_nodes_cells_and_groups(tmp_path: Path) -> None:
+def test_nodes_cells_and_groups(tmp_path):
     path = tmp_path / "m.unv"
     path.write_text(UNV)
     read = read_unv(path)
@@ -64,7 +62,7 @@ def test_nodes_cells_and_groups(tmp_path: Path) -> None:
     assert read.left_out == {"136": 1}
 
 
-def test_older_numbers_of_what_is_told_are_read_as_well(tmp_path: Path) -> None:
+def test_older_numbers_of_what_is_told_are_read_as_well(tmp_path):
     """An empty part in front, a cell more that is not read, a group of what is not there."""
     text = "    -1\n    -1\n" + UNV.replace("D+00", "d+00")
     for new, old in (("2411", "781"), ("2412", "780"), ("2467", "2435")):
@@ -99,9 +97,7 @@ def held(read: FileMesh, name: str = "base side") -> tuple[dict[str, list[int]],
     (read_unv, "    -1\n   164\n    -1\n", "no nodes"),
     (read_stl, "solid a\nendsolid a\n", "no triangles"),
 ])  # fmt: skip
-def test_a_file_that_holds_nothing_is_refused(
-    read: Callable[[Path], object], text: str, said: str, tmp_path: Path
-) -> None:
+def test_a_file_that_holds_nothing_is_refused(read, text, said, tmp_path):
     (tmp_path / "m").write_text(text)
     with pytest.raises(InputError, match=said):
         read(tmp_path / "m")
@@ -114,7 +110,7 @@ def tetrahedron() -> Mesh:
 
 
 @pytest.mark.filterwarnings("ignore:overflow")  # of meshio itself
-def test_meshio_reads_our_triangles(tmp_path: Path) -> None:
+def test_meshio_reads_our_triangles(tmp_path):
     path = tmp_path / "t.stl"
     lines = stl_lines(tetrahedron())
     assert (lines[0], lines[-1]) == ("solid surface", "endsolid surface")
@@ -132,7 +128,7 @@ def test_meshio_reads_our_triangles(tmp_path: Path) -> None:
     assert stl_lines(Mesh.of(flat, "TRI3", ids[None, :]))[1] == "facet normal 0.0 0.0 0.0"
 
 
-def test_binary_triangles(tmp_path: Path) -> None:
+def test_binary_triangles(tmp_path):
     corners = tetrahedron().blocks[0].coordinates
     raw = b"x" * 80 + struct.pack("<I", 4)
     for t in corners:
@@ -142,14 +138,14 @@ def test_binary_triangles(tmp_path: Path) -> None:
     assert np.array_equal(read_stl(path), corners)
 
 
-def test_other_cells_are_refused() -> None:
+def test_other_cells_are_refused():
     table = NodeTable()
     ids = table.add(np.array([(0.0, 0), (1, 0)]))
     with pytest.raises(OutputError, match="SEG2"):
         stl_lines(Mesh.of(table, "SEG2", ids[None, :]))
 
 
-def test_nodes_of_a_group_are_no_cells_of_the_same_label(tmp_path: Path) -> None:
+def test_nodes_of_a_group_are_no_cells_of_the_same_label(tmp_path):
     path = tmp_path / "m.unv"
     text = UNV.replace("        13", "         7")  # a node of the label that the square has
     path.write_text(text)
@@ -159,7 +155,7 @@ def test_nodes_of_a_group_are_no_cells_of_the_same_label(tmp_path: Path) -> None
 
 
 @together("size", [1e-3, 1.0, 1e3])
-def test_normals_of_triangles_have_length_one(size: float) -> None:
+def test_normals_of_triangles_have_length_one(size):
     nodes = NodeTable()
     corners = size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [2, 0, 0]])
     ids = nodes.add(corners)

@@ -81,9 +81,7 @@ def drawn(mesh: Mesh, **options: Any) -> list[tuple[Any, ...]]:
 
 @pytest.mark.parametrize("shrink", [None, 0.5])
 @pytest.mark.parametrize("filled", ["", "FACE", "FACB"])
-def test_each_cell_is_drawn_once_in_its_colour(
-    mesh: Mesh, filled: str, shrink: float | None
-) -> None:
+def test_each_cell_is_drawn_once_in_its_colour(mesh, filled, shrink):
     found = drawn(mesh, filled=filled, shrink=shrink)
     wanted = [
         (np.array([PLACES[i] for i in row], float), np.array(to_rgb(shade(colour))), kind)
@@ -111,7 +109,7 @@ def test_each_cell_is_drawn_once_in_its_colour(
         np.testing.assert_allclose(face[:3], base)
 
 
-def test_outlines_colours_and_edges_of_a_layer(mesh: Mesh) -> None:
+def test_outlines_colours_and_edges_of_a_layer(mesh):
     blue = np.array(to_rgb(shade("BLEU")))
     for face, edge in (p[1:3] for p in drawn(mesh, colour=index_of("BLEU"))):
         np.testing.assert_allclose(edge[:3], blue)
@@ -122,7 +120,7 @@ def test_outlines_colours_and_edges_of_a_layer(mesh: Mesh) -> None:
     assert {p[3] for p in drawn(mesh, edges=False)} == {1.8, 0.0}
 
 
-def test_points_are_dots_in_their_colour_or_that_of_their_value(mesh: Mesh) -> None:
+def test_points_are_dots_in_their_colour_or_that_of_their_value(mesh):
     recorder = Recorder()
     add_points(recorder, visible_faces(mesh), Layer(mesh), None)
     assert [p for p, _ in recorder.dots] == [[4.0, 0.75], [0.0, 0.0]]
@@ -139,7 +137,7 @@ def size(polygon: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("iso", ["SURFACE", "LIGNE", "SULI"])
-def test_bands_lie_where_the_field_has_their_values(mesh: Mesh, iso: str) -> None:
+def test_bands_lie_where_the_field_has_their_values(mesh, iso):
     layer = Layer(mesh, field=field(mesh), component="T")
     faces = visible_faces(mesh)
     values = band_values([(layer, faces)])
@@ -189,7 +187,7 @@ def test_bands_lie_where_the_field_has_their_values(mesh: Mesh, iso: str) -> Non
 
 
 @together("iso", ["", "SURFACE", "LIGNE", "SULI"])
-def test_what_a_plane_cuts_has_the_colours_of_cells_or_of_values(iso: str) -> None:
+def test_what_a_plane_cuts_has_the_colours_of_cells_or_of_values(iso):
     """Two bricks of 2 and 1 beside a wall, cut at a quarter; one corner has no value."""
     table = NodeTable()
     xs, levels = (0, 2, 3), choose_levels(np.array([-4.0, 3.0]), count=7)
@@ -238,7 +236,7 @@ def test_what_a_plane_cuts_has_the_colours_of_cells_or_of_values(iso: str) -> No
 
 
 @pytest.mark.parametrize("support", ["NOEUD", "GRAVITE", "RIGIDITE", "MASSE"])
-def test_values_in_cells_come_to_their_nodes(mesh: Mesh, support: Any) -> None:
+def test_values_in_cells_come_to_their_nodes(mesh, support):
     """A linear field is kept; a node has the mean of its cells; other cells have none."""
     parts = []
     for block in mesh.blocks[2:]:

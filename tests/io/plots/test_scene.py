@@ -86,14 +86,14 @@ def area(polygon: np.ndarray) -> float:
     return 0.5 * abs(float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)))
 
 
-def test_a_filled_mesh_shows_its_colour() -> None:
+def test_a_filled_mesh_shows_its_colour():
     red = Layer(grid(), colour=index_of("ROUG"))
     ink = 0.25 + 0.75 * np.array(to_rgb(shade("ROUG")))
     assert share(drawn(red, filled="FACE"), ink) > 0.2
     assert share(drawn(red), ink) < 0.05
 
 
-def test_only_one_colour_is_drawn() -> None:
+def test_only_one_colour_is_drawn():
     mesh = grid(2)
     mesh.blocks[0].colours[:] = [2, 2, 1, 1]
     every = draw_scene((Layer(mesh),))
@@ -101,7 +101,7 @@ def test_only_one_colour_is_drawn() -> None:
     assert [sum(map(len, polygons(f).values())) for f in (every, some)] == [4, 2]
 
 
-def test_bands_of_a_linear_field_have_equal_areas() -> None:
+def test_bands_of_a_linear_field_have_equal_areas():
     mesh = grid(8)
     layer = Layer(mesh, field=field(mesh, T=lambda x: x[:, 0]), component="T", edges=False)
     figure = draw_scene((layer,), (), PictureOptions(level_count=4))
@@ -113,7 +113,7 @@ def test_bands_of_a_linear_field_have_equal_areas() -> None:
     assert np.allclose(areas, 0.25)
 
 
-def test_cells_without_a_value_are_grey() -> None:
+def test_cells_without_a_value_are_grey():
     mesh = grid(2)
     half = mesh.sorted_node_ids[:6]
     values = NodeField.of(mesh.nodes, half, {"T": np.arange(6.0)})
@@ -121,13 +121,13 @@ def test_cells_without_a_value_are_grey() -> None:
     assert share(image, (0.93, 0.94, 0.95)) > 0.1
 
 
-def test_no_legend_on_demand() -> None:
+def test_no_legend_on_demand():
     mesh = grid(2)
     layer = Layer(mesh, field=field(mesh, T=lambda x: x[:, 0]), component="T")
     assert len(draw_scene((layer,), (), PictureOptions(legend=False)).axes) == 1
 
 
-def test_numbers_of_nodes_and_cells() -> None:
+def test_numbers_of_nodes_and_cells():
     mesh = grid(2)
     mesh.nodes.coordinates[mesh.nodes.coordinates[:, 0] == 1.0, 0] = 4.0
     named = ("low", Mesh.of(mesh.nodes, "SEG2", np.array([[0, 1], [1, 2]])))
@@ -140,7 +140,7 @@ def test_numbers_of_nodes_and_cells() -> None:
     assert found == sorted([*wanted, (1.5, 0, "low")])
 
 
-def test_deformed_shape_stands_before_its_initial_outline() -> None:
+def test_deformed_shape_stands_before_its_initial_outline():
     mesh = grid(2)
     u = field(mesh, UX=lambda x: 0.01 * x[:, 1])
     made = compose(Subjects(deformed=Deformed((DeformedPart(mesh, u, 50.0),))))
@@ -151,7 +151,7 @@ def test_deformed_shape_stands_before_its_initial_outline() -> None:
     assert made.notes == ("amplification 50",)
 
 
-def test_an_undrawn_scale_is_chosen_and_shared() -> None:
+def test_an_undrawn_scale_is_chosen_and_shared():
     mesh = grid(2)
     small, large = (field(mesh, UX=lambda x, a=a: a * x[:, 1]) for a in (1e-4, 1e-3))
     parts = (DeformedPart(mesh, small), DeformedPart(mesh, large))
@@ -159,7 +159,7 @@ def test_an_undrawn_scale_is_chosen_and_shared() -> None:
     assert {x.scale for x in made.layers if not x.outline} == {100.0}
 
 
-def test_components_have_a_panel_each() -> None:
+def test_components_have_a_panel_each():
     mesh = grid(2)
     u = field(mesh, UX=lambda x: x[:, 1], UY=lambda x: x[:, 0])
     made = compose(Subjects([mesh], values=u))
@@ -173,7 +173,7 @@ def test_components_have_a_panel_each() -> None:
     assert re.fullmatch(r"of   \d{4}(-\d\d){2} \d\d:\d\d", figure.get_supxlabel())
 
 
-def test_a_field_that_is_not_a_number_is_still_drawn() -> None:
+def test_a_field_that_is_not_a_number_is_still_drawn():
     mesh = grid(2)
     lost = field(mesh, UX=lambda x: np.where(x[:, 1] > 0.6, np.nan, x[:, 1]))
     layer = Layer(mesh, lost, 1.0, field=lost, component="UX")
@@ -186,7 +186,7 @@ def ends(figure: Any) -> dict[str, list[float]]:
     return {m.get_gid(): list(m.get_xydata()[0]) for m in figure.axes[0].lines if m.get_gid()}
 
 
-def test_extremes_are_marked_where_they_are() -> None:
+def test_extremes_are_marked_where_they_are():
     mesh = grid(4)
     hill = field(mesh, T=lambda x: x[:, 0] + 2 * x[:, 1])
     made = draw_scene((Layer(mesh, field=hill, component="T"),))
@@ -199,7 +199,7 @@ def test_extremes_are_marked_where_they_are() -> None:
     assert not ends(draw_scene((Layer(mesh, field=hill, component="T"),), (), options))
 
 
-def test_the_bar_says_component_and_unit() -> None:
+def test_the_bar_says_component_and_unit():
     mesh = grid(2)
     layer = Layer(mesh, field=field(mesh, FX=lambda x: x[:, 0]), component="FX")
 
@@ -211,7 +211,7 @@ def test_the_bar_says_component_and_unit() -> None:
     assert label(legend_name="force", unit_of={"FX": "kN"}.get).startswith("force ")
 
 
-def test_colours_of_several_shapes_are_named() -> None:
+def test_colours_of_several_shapes_are_named():
     mesh = grid(2)
     u = field(mesh, UX=lambda x: 0.01 * x[:, 1])
     parts = DeformedPart(mesh, u, 0.0, 1), DeformedPart(mesh, u, 50.0, 2)
@@ -223,7 +223,7 @@ def test_colours_of_several_shapes_are_named() -> None:
     assert not compose(Subjects(deformed=Deformed((*parts, twice)))).legend.categories
 
 
-def test_the_legend_of_colours_leaves_room_for_all_that_is_written() -> None:
+def test_the_legend_of_colours_leaves_room_for_all_that_is_written():
     mesh = grid(4)
     told = Annotation((Category(1, "amplification 0"), Category(2, "amplification 600")))
     figure = draw_scene((Layer(mesh),), (), PictureOptions(annotation=told))
@@ -239,7 +239,7 @@ def test_the_legend_of_colours_leaves_room_for_all_that_is_written() -> None:
     assert boxes[0].x1 < boxes[1].x0 < boxes[1].x1 <= figure.bbox.x1
 
 
-def test_multipliers_have_no_panel() -> None:
+def test_multipliers_have_no_panel():
     mesh = grid(2)
     u = field(mesh, UX=lambda x: x[:, 1])
     away = mesh.nodes.add(np.zeros((1, 2)))
@@ -249,7 +249,7 @@ def test_multipliers_have_no_panel() -> None:
     assert made.layers[0].component == "UX"
 
 
-def test_arrows_lie_within_the_frame() -> None:
+def test_arrows_lie_within_the_frame():
     mesh = grid(2)
     arrows = deformed.arrows_at_nodes(
         field(mesh, FX=lambda x: 1.0 + 0 * x[:, 0]), ("FX", "FY", ""), 0.5
@@ -260,13 +260,13 @@ def test_arrows_lie_within_the_frame() -> None:
     assert figure.axes[0].get_xlim()[1] > 1.5
 
 
-def test_nothing_to_draw_is_said() -> None:
+def test_nothing_to_draw_is_said():
     with pytest.raises(OutputError, match="nothing to draw"):
         draw_scene((Layer(Mesh(NodeTable(), ())),))
 
 
 @needs_window
-def test_hidden_faces_are_not_seen() -> None:
+def test_hidden_faces_are_not_seen():
     # a red square above a blue one, seen from above and from below
     table = NodeTable()
     square = np.array([(0.0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
@@ -283,12 +283,12 @@ def test_hidden_faces_are_not_seen() -> None:
     assert redness(-1.0) < 0.001
 
 
-def test_outer_faces_of_a_volume() -> None:
+def test_outer_faces_of_a_volume():
     assert sum(len(f.nodes) for f in visible_faces(cube(3))) == 6 * 9
 
 
 @needs_window
-def test_behind_a_plane() -> None:
+def test_behind_a_plane():
     mesh = cube(2)
     plane = Plane.through(*np.array([(0.0, 0.5, 0), (1, 0.5, 0), (0, 0.5, 1)]))
     view = view_along(np.array([0.0, -1.0, 0.2]))
@@ -302,7 +302,7 @@ def test_behind_a_plane() -> None:
     assert 0 < (lower[1] < 0.9).any(axis=2).mean() < (lower[0] < 0.9).any(axis=2).mean()
 
 
-def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
+def test_section_of_a_cube_has_the_area_and_values_of_the_plane():
     mesh = cube(3)
     plane = Plane.through(*np.array([(0.0, 0, 0), (1, 0, 1), (0, 1, 0)]))  # z = x
     values = mesh.nodes.coordinates @ np.array([1.0, 2.0, 3.0])
@@ -313,7 +313,7 @@ def test_section_of_a_cube_has_the_area_and_values_of_the_plane() -> None:
     assert set(colours) == {0}
 
 
-def test_section_of_surfaces_is_a_line_that_leaves_joints_out() -> None:
+def test_section_of_surfaces_is_a_line_that_leaves_joints_out():
     table = NodeTable()
     ids = table.add(np.array([(x, y, 0.0) for y in (0, 1, 3) for x in (0, 2, 5)]))
     above = table.add(np.array([(0, 0, 0.5), (2, 0, 0.5), (2, 1, 0.5), (0, 1, 0.5)]))
@@ -335,7 +335,7 @@ def test_section_of_surfaces_is_a_line_that_leaves_joints_out() -> None:
     assert ends == {1: [[1.0, 2.5]], 2: [[0.0, 1.0]]}  # the joint's colour is 0
 
 
-def test_a_plane_needs_three_points_off_a_line() -> None:
+def test_a_plane_needs_three_points_off_a_line():
     with pytest.raises(OutputError, match="on a line"):
         Plane.through(np.zeros(3), np.ones(3), 2 * np.ones(3))
 
@@ -346,7 +346,7 @@ def stresses(mesh: Mesh, **values: float) -> CellField:
     return CellField((CellFieldBlock(mesh.blocks[0], parts, "STRESSES", "QUA4"),), "CONTRAINTES")
 
 
-def test_von_mises_of_a_uniform_stress() -> None:
+def test_von_mises_of_a_uniform_stress():
     mesh = grid(1)
     stress = stresses(mesh, SMXX=3.0, SMYY=-1.0, SMZZ=0.0, SMXY=2.0)
     assert component_names(stress)[0] == VON_MISES
@@ -356,7 +356,7 @@ def test_von_mises_of_a_uniform_stress() -> None:
 
 
 @together("mesh, kind", [(grid(1), "QUA4"), (cube(1), "CUB8")])
-def test_values_at_integration_points_are_extended_to_the_nodes(mesh: Mesh, kind: str) -> None:
+def test_values_at_integration_points_are_extended_to_the_nodes(mesh, kind):
     """Linear values and the products of their axes are kept."""
     from ssilang.kernel.elements.catalog import ELEMENTS, support_rule
 
@@ -371,7 +371,7 @@ def test_values_at_integration_points_are_extended_to_the_nodes(mesh: Mesh, kind
         assert np.allclose(values_on(faces, field, "T")[0], exact[faces.local])
 
 
-def test_values_along_a_joint_are_the_same_on_both_sides() -> None:
+def test_values_along_a_joint_are_the_same_on_both_sides():
     from ssilang.kernel.elements.catalog import support_rule
 
     table = NodeTable()
@@ -387,14 +387,14 @@ def test_values_along_a_joint_are_the_same_on_both_sides() -> None:
         assert np.allclose(found, 3 + 2 * table.coordinates[faces.nodes, 0])
 
 
-def test_principal_strokes_of_a_shear() -> None:
+def test_principal_strokes_of_a_shear():
     arrows = deformed.principal_strokes(stresses(grid(1), SMXX=0.0, SMYY=0.0, SMZZ=0.0, SMXY=5.0))
     large = {p.name: p.vectors[0] for p in arrows.parts}
     assert np.allclose(np.abs(large["SI11"]), 5.0 / np.sqrt(2) * np.array([1, 1, 0]))
     assert large["SI11"] @ large["SI33"] == pytest.approx(0.0)
 
 
-def test_a_closed_joint_shows_its_values_along_its_lines() -> None:
+def test_a_closed_joint_shows_its_values_along_its_lines():
     table = NodeTable()
     ids = table.add(np.array([(0.0, 0), (1, 0), (0, 0), (1, 0)]))
     joint = Mesh.of(table, "RAC2", ids[None, :])
@@ -410,7 +410,7 @@ def test_a_closed_joint_shows_its_values_along_its_lines() -> None:
 
 
 @together("how", ["bounds", "frame", "own"])
-def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
+def test_the_sheet_shows_what_is_asked_for(how):
     """Bounds as they are; what is framed, or all that is drawn, with a twentieth around it."""
     small, large = grid(2, 2.0), grid(3, 4.0)
     given = np.array([[-1.0, 2.0], [7.0, 5.0]])
@@ -424,8 +424,8 @@ def test_the_sheet_shows_what_is_asked_for(how: str) -> None:
 
 
 def test_labels_that_are_seen_are_written_where_they_stand_up_to_so_many(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     monkeypatch.setattr("ssilang.io.plots.annotations._MOST_LABELS", 2)
     places, view = np.arange(15.0).reshape(5, 3), view_along(np.array([0.0, 0.0, 1.0]))
     made, written = Labels(view), []

@@ -73,7 +73,7 @@ def texts(figure: Any) -> set[str]:
     return {t.get_text() for t in figure.axes[0].texts}
 
 
-def test_the_nearer_of_two_squares_is_seen_and_where_it_is(stage: Stage) -> None:
+def test_the_nearer_of_two_squares_is_seen_and_where_it_is(stage):
     red, blue = (1.0, 0, 0, 1), (0.0, 0, 1, 1)
     low, high = _LINES[None], 0.5 * _LINES[None] + (0.25, 0.25, 1)
     above = photograph(stage, view_along(np.array([0.0, 0, 1])), (high, red, red, 0, ""),
@@ -93,7 +93,7 @@ def test_the_nearer_of_two_squares_is_seen_and_where_it_is(stage: Stage) -> None
     assert list(above.shows(middle, near, bounds)) == [False, True, True]
 
 
-def test_dots_and_arrows_in_space_stand_where_they_are_in_their_inks(stage: Stage) -> None:
+def test_dots_and_arrows_in_space_stand_where_they_are_in_their_inks(stage):
     """A dot of 14.4 points is a tenth of the sheet of two inches, lit; a stroke has 1.8 points."""
     bounds, areas = np.array([[-1.0, -1], [2, 2]]), []
     for heads in (False, True):
@@ -118,7 +118,7 @@ def test_dots_and_arrows_in_space_stand_where_they_are_in_their_inks(stage: Stag
     assert areas[3] > 1.3 * areas[0]
 
 
-def test_a_stage_that_was_closed_opens_again_and_looks_for_depths_on_demand(stage: Stage) -> None:
+def test_a_stage_that_was_closed_opens_again_and_looks_for_depths_on_demand(stage):
     red, made = (1.0, 0, 0, 1), []
     for deep in (True, False):
         painter = Painter(view_along(np.array([0.0, 0, 1])))
@@ -134,7 +134,7 @@ def test_a_stage_that_was_closed_opens_again_and_looks_for_depths_on_demand(stag
     assert at_0 + float(made[0].depth.min()) * (at_1 - at_0) == pytest.approx(0.25, abs=1e-4)
 
 
-def test_the_faces_of_a_cube_have_a_shade_each(stage: Stage) -> None:
+def test_the_faces_of_a_cube_have_a_shade_each(stage):
     layer = Layer(cube(), colour=index_of("ROUG"), edges=False)
 
     def found(filled: str) -> list[tuple[int, ...]]:
@@ -152,7 +152,7 @@ def test_the_faces_of_a_cube_have_a_shade_each(stage: Stage) -> None:
         assert 0.4 < ratio.mean() <= 1.0
 
 
-def test_edges_of_the_back_are_hidden_on_demand(stage: Stage) -> None:
+def test_edges_of_the_back_are_hidden_on_demand(stage):
     """Of the twelve edges of a cube nine are seen, three behind it."""
     layer = Layer(cube(), colour=index_of("NOIR"))
 
@@ -163,7 +163,7 @@ def test_edges_of_the_back_are_hidden_on_demand(stage: Stage) -> None:
     assert darkness(hidden=True) / darkness() == pytest.approx(9 / 12, abs=0.05)
 
 
-def test_numbers_of_hidden_nodes_are_not_written(stage: Stage) -> None:
+def test_numbers_of_hidden_nodes_are_not_written(stage):
     mesh = cube()
     options = {"node_numbers": True, "labels": (("P", mesh),)}
     seen = draw_scene((Layer(mesh),), (_CORNER,), PictureOptions(hidden=True, **options),
@@ -174,7 +174,7 @@ def test_numbers_of_hidden_nodes_are_not_written(stage: Stage) -> None:
     assert texts(whole) == {*"12345678", "P"}
 
 
-def test_arrows_behind_a_face_are_hidden(stage: Stage) -> None:
+def test_arrows_behind_a_face_are_hidden(stage):
     mesh = cube()
     ids = mesh.sorted_node_ids
     force = NodeField.of(mesh.nodes, ids[:4], {"FZ": np.ones(4)})
@@ -190,7 +190,7 @@ def test_arrows_behind_a_face_are_hidden(stage: Stage) -> None:
     assert 0 < redness(hidden=True) < 0.85 * redness()
 
 
-def test_windows_of_others_stay_theirs(stage: Stage) -> None:
+def test_windows_of_others_stay_theirs(stage):
     """How a scene's window is chosen is gone when it stands: a program may open its own."""
     before = dict(os.environ)
     other = Stage()
@@ -200,7 +200,7 @@ def test_windows_of_others_stay_theirs(stage: Stage) -> None:
     assert dict(os.environ) == before
 
 
-def test_coordinates_far_from_the_origin_are_drawn_alike(stage: Stage) -> None:
+def test_coordinates_far_from_the_origin_are_drawn_alike(stage):
     """As those of a map: a block of one metre at 10 000 km."""
     image = {}
     for away in (0.0, 1e7):
@@ -212,7 +212,7 @@ def test_coordinates_far_from_the_origin_are_drawn_alike(stage: Stage) -> None:
     assert np.abs(image[0.0] - image[1e7]).mean() < 0.5
 
 
-def test_bands_in_space_have_the_colours_of_the_bar_toned_by_light(stage: Stage) -> None:
+def test_bands_in_space_have_the_colours_of_the_bar_toned_by_light(stage):
     mesh = cube()
     ids = mesh.sorted_node_ids
     height = NodeField.of(mesh.nodes, ids, {"Z": mesh.nodes.coordinates[ids, 2]})
@@ -224,7 +224,7 @@ def test_bands_in_space_have_the_colours_of_the_bar_toned_by_light(stage: Stage)
     assert made.axes[-1].get_ylabel().startswith("Z ")
 
 
-def test_pictures_of_vectors_hold_the_scene_as_an_image(stage: Stage) -> None:
+def test_pictures_of_vectors_hold_the_scene_as_an_image(stage):
     made = draw_scene((Layer(cube()),), (_CORNER,), PictureOptions(title="A cube"), stage=stage)
     text = figure_bytes(made, "svg").decode()
     assert "data:image/png" in text
@@ -265,9 +265,9 @@ def unknown_system(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[
     ],
 )
 def test_the_first_window_that_draws_is_taken_and_remembered(
-    there: str, lives: str, screen: str, expected: str | None, unknown_system: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:  # fmt: skip
+    there, lives, screen, expected, unknown_system,
+    monkeypatch,
+) :  # fmt: skip
     """Windows that die are tried in a process of their own; what has worked is not tried again."""
     monkeypatch.setattr(stages, "_library", lambda name: name.split(".")[0] in there.split())
     monkeypatch.setenv("DISPLAY", screen)
@@ -291,9 +291,7 @@ def test_the_first_window_that_draws_is_taken_and_remembered(
 
 
 @pytest.mark.parametrize("missing", ["window", "library", "driver"])
-def test_a_system_that_cannot_draw_keeps_the_run(
-    missing: str, unknown_system: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_system_that_cannot_draw_keeps_the_run(missing, unknown_system, tmp_path, monkeypatch):
     if missing == "window":
         monkeypatch.setattr(stages, "_KINDS", {})
     elif missing == "driver":
@@ -309,7 +307,7 @@ def test_a_system_that_cannot_draw_keeps_the_run(
 
 
 @needs_window
-def test_edges_of_another_mesh_over_what_hides_them(tmp_path: Path) -> None:
+def test_edges_of_another_mesh_over_what_hides_them(tmp_path):
     """ARET: the box hides, edges of its cells (red) are not drawn but those of the other mesh."""
     from PIL import Image
 

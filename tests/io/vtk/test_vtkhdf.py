@@ -112,7 +112,7 @@ def bar(count: int = 3) -> Mesh:
     return Mesh.of(table, "SEG2", np.stack([ids[:-1], ids[1:]], axis=1))
 
 
-def test_all_cells_and_fields_are_those_of_the_series_of_files(tmp_path: Path) -> None:
+def test_all_cells_and_fields_are_those_of_the_series_of_files(tmp_path):
     mesh, stress = all_cells()
     times = [0.0, 0.1, 0.30000000000000004, 1.0 / 3.0]
     labels = labels_of(mesh, {"group": {"a": mesh.blocks[:3], "b": mesh.blocks[2:5]}})
@@ -138,7 +138,7 @@ def test_all_cells_and_fields_are_those_of_the_series_of_files(tmp_path: Path) -
 
 
 @pytest.mark.parametrize("count", [1, 2, BRANCHES, BRANCHES + 1, BRANCHES**2 + 3])
-def test_every_step_is_found_however_many_there_are(tmp_path: Path, count: int) -> None:
+def test_every_step_is_found_however_many_there_are(tmp_path, count):
     mesh = bar()
     with VtkHdfWriter(tmp_path / "long") as series:
         for i in range(count):
@@ -151,7 +151,7 @@ def test_every_step_is_found_however_many_there_are(tmp_path: Path, count: int) 
         assert step_of(reader, i).point_data["T"].tolist() == [float(i)] * 3
 
 
-def test_pyvista_reads_the_file_by_its_name(tmp_path: Path) -> None:
+def test_pyvista_reads_the_file_by_its_name(tmp_path):
     mesh = bar()
     with VtkHdfWriter(tmp_path / "p.vtu") as series:
         series.write(1.0, mesh, {"": moving(mesh, 0)})
@@ -159,7 +159,7 @@ def test_pyvista_reads_the_file_by_its_name(tmp_path: Path) -> None:
     assert pyvista.read(tmp_path / "p.vtkhdf").n_cells == 2
 
 
-def test_arrays_that_come_late_or_leave_out_a_step_are_nan_there(tmp_path: Path) -> None:
+def test_arrays_that_come_late_or_leave_out_a_step_are_nan_there(tmp_path):
     mesh = bar()
     given = [None, {"u": 1}, {"u": 2, "w": 3}, {"w": 4}, {"u": 5, "w": 6}]
     with VtkHdfWriter(tmp_path / "late") as series:
@@ -177,7 +177,7 @@ def test_arrays_that_come_late_or_leave_out_a_step_are_nan_there(tmp_path: Path)
                 assert np.isnan(grid.point_data[name]).all()
 
 
-def test_named_parts_are_blocks_of_their_own_arrays(tmp_path: Path) -> None:
+def test_named_parts_are_blocks_of_their_own_arrays(tmp_path):
     soil, block = bar(4), bar(3)
     with VtkHdfWriter(tmp_path / "two") as series:
         for i in range(3):
@@ -197,7 +197,7 @@ def test_named_parts_are_blocks_of_their_own_arrays(tmp_path: Path) -> None:
         assert "velocity" not in blocks["soil"].point_data
 
 
-def test_the_file_is_smaller_than_the_series_and_has_the_mesh_once(tmp_path: Path) -> None:
+def test_the_file_is_smaller_than_the_series_and_has_the_mesh_once(tmp_path):
     mesh = bar(2000)
     for writer in (SeriesWriter(tmp_path / "s"), VtkHdfWriter(tmp_path / "s")):
         with writer:
@@ -209,7 +209,7 @@ def test_the_file_is_smaller_than_the_series_and_has_the_mesh_once(tmp_path: Pat
 
 
 @together("how", ["mesh", "gone", "array", "moved", "parts", "time"])
-def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, how: str) -> None:
+def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path, how):
     mesh = bar()
     path = tmp_path / "r.vtkhdf"
     series = VtkHdfWriter(tmp_path / "r")
@@ -243,7 +243,7 @@ def test_what_cannot_follow_is_refused_and_the_file_stays_whole(tmp_path: Path, 
         assert times_of(opened(path)) == [0.0, 1.0]
 
 
-def test_an_error_in_a_field_leaves_no_half_step(tmp_path: Path) -> None:
+def test_an_error_in_a_field_leaves_no_half_step(tmp_path):
     mesh = bar()
 
     class Broken(NodeField):
@@ -260,7 +260,7 @@ def test_an_error_in_a_field_leaves_no_half_step(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["h.vtkhdf"]
 
 
-def test_an_older_file_is_replaced_when_the_first_step_is_whole(tmp_path: Path) -> None:
+def test_an_older_file_is_replaced_when_the_first_step_is_whole(tmp_path):
     mesh, path = bar(), tmp_path / "o.vtkhdf"
     path.write_bytes(b"older")
     series = VtkHdfWriter(tmp_path / "o")
@@ -277,15 +277,13 @@ def test_an_older_file_is_replaced_when_the_first_step_is_whole(tmp_path: Path) 
     assert [p.name for p in tmp_path.iterdir()] == ["o.vtkhdf"]
 
 
-def test_a_place_that_cannot_be_written_is_named(tmp_path: Path) -> None:
+def test_a_place_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     with refusal(OutputError, "io.cannot-written"):
         VtkHdfWriter(tmp_path / "file" / "x").write(0.0, bar())
 
 
-def test_a_full_disk_is_told_and_leaves_the_steps_before(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_is_told_and_leaves_the_steps_before(tmp_path, monkeypatch):
     mesh, real, left = bar(), os.pwrite, [40]
 
     def full(handle: int, data: bytes, at: int) -> int:
@@ -360,7 +358,7 @@ def found_in(paths: list[Path]) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in (line.split() for line in lines)]
 
 
-def test_every_state_of_the_file_is_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_state_of_the_file_is_whole(tmp_path, monkeypatch):
     """What stands on the disk after any write, from the first commit on, can be read."""
     Logged.log = []
     monkeypatch.setattr("ssilang.io.vtk.vtkhdf.GrowingFile", Logged)
@@ -407,7 +405,7 @@ with VtkHdfWriter(pathlib.Path(sys.argv[1])) as series:
 """
 
 
-def test_a_killed_process_leaves_its_last_whole_step(tmp_path: Path) -> None:
+def test_a_killed_process_leaves_its_last_whole_step(tmp_path):
     rng = np.random.default_rng(int(os.environ.get("KILL_SEED", "5")))
     script = WRITE.format(paths=sys.path)
     paths = []
@@ -429,7 +427,7 @@ def test_a_killed_process_leaves_its_last_whole_step(tmp_path: Path) -> None:
     assert set(tmp_path.iterdir()) == set(paths)
 
 
-def test_the_smallest_named_set_names_a_cell(tmp_path: Path) -> None:
+def test_the_smallest_named_set_names_a_cell(tmp_path):
     mesh = bar(6)
     (block,) = mesh.blocks
     whole = mesh.blocks
@@ -451,7 +449,7 @@ def test_the_smallest_named_set_names_a_cell(tmp_path: Path) -> None:
     assert labels_of(twice, both).numbers["group"].tolist() == [2, 1, 2, 1]
 
 
-def test_parts_have_names_of_their_own_that_a_path_can_have() -> None:
+def test_parts_have_names_of_their_own_that_a_path_can_have():
     names = ("a/b", "a.b", "Assembly", "", "a_b", "_")
     made = _link_names(names)
     assert [*made] == [*names]

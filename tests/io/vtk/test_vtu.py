@@ -2,7 +2,6 @@
 
 import itertools
 from dataclasses import replace
-from pathlib import Path
 
 import meshio
 import numpy as np
@@ -62,9 +61,7 @@ def quadratic_cell(name: str) -> Mesh:
 
 
 @together("name", sorted(VTK_EDGES))
-def test_quadratic_middles_follow_vtk_edges(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_quadratic_middles_follow_vtk_edges(name, tmp_path, monkeypatch):
     # meshio 5.3 knows the node order of these two but not their dimension
     monkeypatch.setitem(meshio._mesh.topological_dimension, "wedge15", 3)
     monkeypatch.setitem(meshio._mesh.topological_dimension, "pyramid13", 3)
@@ -77,7 +74,7 @@ def test_quadratic_middles_follow_vtk_edges(
         assert np.allclose(middle, (points[a] + points[b]) / 2, atol=0)
 
 
-def test_every_cell_type_of_the_kernel_can_be_written() -> None:
+def test_every_cell_type_of_the_kernel_can_be_written():
     # cells of any number of nodes, made as they are asked for, carry matrices and have no shape
     shapes = {name for name, kind in CELL_TYPES.items() if kind.dimension or name == "POI1"}
     assert len(shapes) > 20
@@ -128,7 +125,7 @@ JOINTS = {
 
 
 @pytest.mark.parametrize("name", sorted(JOINTS))
-def test_an_opened_joint_fills_its_gap(name: str, tmp_path: Path) -> None:
+def test_an_opened_joint_fills_its_gap(name, tmp_path):
     """VTK's simplices of the cell between the faces, 1 apart: nodes in their right places.
 
     Their signs, and VTK's measure of a whole wedge, changed between VTK 9.6 and 9.7.
@@ -161,9 +158,7 @@ def test_an_opened_joint_fills_its_gap(name: str, tmp_path: Path) -> None:
         ("strain", ("EPRR", "EPZZ", "EPTT", "GARZ", "GAZT", "GART")),
     ],
 )
-def test_six_different_components_stand_in_the_order_of_vtk(
-    family: str, names: tuple[str, ...], tmp_path: Path
-) -> None:
+def test_six_different_components_stand_in_the_order_of_vtk(family, names, tmp_path):
     """XX YY ZZ XY YZ XZ, also where the components were given in another order."""
     mesh, _, _ = square_with_fields()
     values = {c: np.full((6, 4), 10.0 + k) for k, c in enumerate(names)}
@@ -175,7 +170,7 @@ def test_six_different_components_stand_in_the_order_of_vtk(
 
 
 @together("encoding", list(Encoding))
-def test_fields_come_back_exactly(encoding: Encoding, tmp_path: Path) -> None:
+def test_fields_come_back_exactly(encoding, tmp_path):
     mesh, field, stress = square_with_fields()
     write_vtu(tmp_path / "f.vtu", grid_of(mesh, {"": field}, {"": stress}), encoding, time=0.25)
     read = meshio.read(tmp_path / "f.vtu")
@@ -192,13 +187,13 @@ def test_fields_come_back_exactly(encoding: Encoding, tmp_path: Path) -> None:
     assert np.array_equal(read.cell_data["VONM"][0], np.arange(6.0))
 
 
-def test_a_named_field_gives_its_name_to_the_first_vector(tmp_path: Path) -> None:
+def test_a_named_field_gives_its_name_to_the_first_vector(tmp_path):
     mesh, field, _ = square_with_fields()
     write_vtu(tmp_path / "v.vtu", grid_of(mesh, {"velocity": field}))
     assert set(meshio.read(tmp_path / "v.vtu").point_data) == {"velocity", "velocity_TEMP"}
 
 
-def test_forces_of_a_shell_are_named_each_by_its_component() -> None:
+def test_forces_of_a_shell_are_named_each_by_its_component():
     mesh, _, _ = square_with_fields()
     ones = {c: np.ones((6, 1)) for c in ("N11", "M11")}
     forces = CellField((CellFieldBlock(mesh.blocks[0], ones, "STRESSES"),))
@@ -207,7 +202,7 @@ def test_forces_of_a_shell_are_named_each_by_its_component() -> None:
 
 @together("encoding", Encoding)
 @together("kind", ["<f8", ">f8", "<f4", ">f4", "<i4", ">i8", "u1", "?"])
-def test_numbers_of_any_kind_and_order_are_read_back(kind, encoding, tmp_path: Path) -> None:
+def test_numbers_of_any_kind_and_order_are_read_back(kind, encoding, tmp_path):
     mesh, _, _ = square_with_fields()
     values = np.arange(24).reshape(2, 12).astype(kind).T  # neither contiguous nor of one value
     grid = replace(grid_of(mesh), point_data={"V": DataArray(values)})
@@ -215,7 +210,7 @@ def test_numbers_of_any_kind_and_order_are_read_back(kind, encoding, tmp_path: P
     assert np.array_equal(meshio.read(tmp_path / "k.vtu").point_data["V"], values)
 
 
-def test_component_names_of_gibiane_stay_readable(tmp_path: Path) -> None:
+def test_component_names_of_gibiane_stay_readable(tmp_path):
     mesh, field, stress = square_with_fields()
     write_vtu(tmp_path / "n.vtu", grid_of(mesh, {"": field}, {"": stress}), Encoding.TEXT)
     text = (tmp_path / "n.vtu").read_text()
@@ -223,7 +218,7 @@ def test_component_names_of_gibiane_stay_readable(tmp_path: Path) -> None:
     assert 'ComponentName3="SMXY"' in text
 
 
-def test_nodes_without_a_value_stay_in_place_and_scalars_are_unknown_there() -> None:
+def test_nodes_without_a_value_stay_in_place_and_scalars_are_unknown_there():
     mesh, field, _ = square_with_fields()
     some = field.node_ids[:5]
     part = NodeField.of(mesh.nodes, some, {"UX": np.ones(5), "TEMP": np.ones(5)})
@@ -232,14 +227,14 @@ def test_nodes_without_a_value_stay_in_place_and_scalars_are_unknown_there() -> 
     assert np.isnan(data["TEMP"].values[5:].astype(float)).all()
 
 
-def test_multipliers_make_no_array() -> None:
+def test_multipliers_make_no_array():
     mesh, field, _ = square_with_fields()
     away = mesh.nodes.add(np.zeros((1, 2)))
     both = NodeField(mesh.nodes, {**field.components, "LX": NodeValues(away, np.ones(1))})
     assert set(grid_of(mesh, {"": both}).point_data) == set(grid_of(mesh, {"": field}).point_data)
 
 
-def test_cell_values_find_their_cells_in_another_order() -> None:
+def test_cell_values_find_their_cells_in_another_order():
     mesh, _, stress = square_with_fields()
     block = mesh.blocks[0]
     turned = CellBlock.make(mesh.nodes, "QUA4", np.roll(block.connectivity[::-1], 1, axis=1))
@@ -248,7 +243,7 @@ def test_cell_values_find_their_cells_in_another_order() -> None:
     assert np.array_equal(data["VONM"].values, np.arange(6.0)[::-1])
 
 
-def test_cells_without_a_value_are_unknown() -> None:
+def test_cells_without_a_value_are_unknown():
     mesh, _, stress = square_with_fields()
     points = Mesh.of(mesh.nodes, "POI1", mesh.sorted_node_ids[:2, None])
     both = Mesh(mesh.nodes, (*points.blocks, *mesh.blocks))
@@ -257,7 +252,7 @@ def test_cells_without_a_value_are_unknown() -> None:
     assert np.array_equal(values[2:], np.arange(6.0))
 
 
-def test_joint_is_the_cell_between_its_faces() -> None:
+def test_joint_is_the_cell_between_its_faces():
     table = NodeTable()
     ids = table.add(np.array([(0.0, 0), (1, 0), (0, 1), (1, 1)]))
     grid = grid_of(Mesh.of(table, "RAC2", ids[None, :]))
@@ -266,7 +261,7 @@ def test_joint_is_the_cell_between_its_faces() -> None:
     assert area == 1.0
 
 
-def test_nothing_is_left_when_a_file_cannot_be_written(tmp_path: Path) -> None:
+def test_nothing_is_left_when_a_file_cannot_be_written(tmp_path):
     mesh, field, _ = square_with_fields()
     (tmp_path / "blocked").write_text("a file where a directory is needed")
     with pytest.raises(OutputError, match="cannot be written"):
@@ -274,7 +269,7 @@ def test_nothing_is_left_when_a_file_cannot_be_written(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["blocked"]
 
 
-def test_tractions_and_openings_of_joints_are_vectors_in_their_axes() -> None:
+def test_tractions_and_openings_of_joints_are_vectors_in_their_axes():
     table = NodeTable()
     ids = table.add(np.array([(0.0, 0), (1, 0), (0, 0), (1, 0), (0, 1), (1, 1)]))
     joint = CellBlock.make(table, "RAC2", ids[None, :4])
@@ -293,7 +288,7 @@ def test_tractions_and_openings_of_joints_are_vectors_in_their_axes() -> None:
     assert np.isnan(data["t"].values[1].astype(float)).all()
 
 
-def test_axial_force_of_a_bar_is_a_number() -> None:
+def test_axial_force_of_a_bar_is_a_number():
     table = NodeTable()
     ids = table.add(np.array([(0.0, 0), (1, 0)]))
     mesh = Mesh.of(table, "SEG2", ids[None, :])
@@ -302,7 +297,7 @@ def test_axial_force_of_a_bar_is_a_number() -> None:
     assert data["EFFX"].values.shape == (1,)
 
 
-def test_pyvista_reads_a_joint_with_its_traction(tmp_path: Path) -> None:
+def test_pyvista_reads_a_joint_with_its_traction(tmp_path):
     pyvista = pytest.importorskip("pyvista")
     table = NodeTable()
     ids = table.add(np.array([(0.0, 0), (1, 0), (0, 0), (1, 0)]))

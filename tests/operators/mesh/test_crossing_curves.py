@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.special import ellipe, ellipeinc
-from script_runs import failed, found
+from script_runs import found
 
 SPACE = "OPTI DIME 3 ELEM SEG2 ; A = 1. 0. 0. ; B = 0. 1. 0. ; "
 
@@ -13,10 +13,6 @@ def line(text):
     block = mesh.blocks[0]
     chain = np.append(block.connectivity[:, 0], block.connectivity[-1, -1])
     return mesh.nodes.coordinates[chain]
-
-
-def refused(text):
-    return failed(SPACE + text).message
 
 
 def length(x):

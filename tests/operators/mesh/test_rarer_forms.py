@@ -4,19 +4,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from script_runs import failed, found, ran
+from script_runs import found, ran
 from together import together
-
-PLANE = "OPTI DIME 2 ELEM QUA4 ; O = 0. 0. ; A = 1. 0. ; B = 1. 1. ; E = 0. 1. ; "
-SPACE = "OPTI DIME 3 ELEM CUB8 ; O = 0. 0. 0. ; A = 1. 0. 0. ; Z = 0. 0. 1. ; "
 
 
 def value(script: str, name: str = "X") -> Any:
     return ran(script).session.root.find(name)
-
-
-def message(script: str) -> str:
-    return failed(script).message
 
 
 FRAME = """OPTI DIME 2 ELEM SEG2 ; O = 0. 0. ; A = 4. 0. ; B = 4. 4. ; E = 0. 4. ;
