@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from references.straight_line import line_between, straight_line
+from references.straight_line import line_between
 from together import together
 
 from ssilang.kernel.base.errors import MeshError
@@ -12,23 +12,15 @@ from ssilang.kernel.mesh.boundary import chained, contour, edges, envelope, face
 from ssilang.kernel.mesh.changes.degree import QUADRATIC, linear, middle_places, quadratic
 from ssilang.kernel.mesh.changes.split import split_quadrangles, tetrahedra
 from ssilang.kernel.mesh.changes.transform import (
-    NodeCopier,
-    affine_through,
-    affinity,
-    mirror_plane,
     straighten_middles,
-    turn,
 )
-from ssilang.kernel.mesh.combine import cell_keys, difference, intersection, union
-from ssilang.kernel.mesh.generators import sweep
+from ssilang.kernel.mesh.combine import difference, union
 from ssilang.kernel.mesh.generators.sweep import sweep_line, sweep_surface, translation
-from ssilang.kernel.mesh.lines.lines import line_chain
 from ssilang.kernel.mesh.lines.subdivision import subdivide
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.mesh.orientation import check_consistent, flip, signed_volumes
 from ssilang.kernel.mesh.queries.measure import enclosed_volume, total_measure
-from ssilang.kernel.mesh.queries.select import containing, inside_contour, inside_volume, stretch
 
 
 def box(surface: str = "QUA4") -> Mesh:
@@ -146,15 +138,6 @@ def test_cells_in_any_order_are_put_end_to_end(sizes: tuple[int, ...], closed: b
     assert found.colours.tolist() == [a for a, _ in wanted]
 
 
-def test_part_of_a_closed_line_follows_its_sense() -> None:
-    base = line_between(NodeTable(), [0, 0], [1, 0], 3)
-    plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=4), "QUA4")
-    loop = chained(contour(plate))
-    chain = line_chain(loop)
-    part = line_chain(stretch(loop, int(chain[5]), int(chain[1])))
-    assert part.tolist() == [*chain[5:].tolist(), int(chain[1])]
-
-
 def test_opposed_neighbours_are_found() -> None:
     base = line_between(NodeTable(), [0, 0], [1, 0], 2)
     plate = sweep_line(base, translation(np.array([0.0, 2, 0])), subdivide(2.0, count=1), "QUA4")
@@ -164,74 +147,6 @@ def test_opposed_neighbours_are_found() -> None:
         check_consistent(Mesh(plate.nodes, (flip(block, np.array([True, False])),)))
 
 
-def test_sets_of_cells_do_not_see_the_order_of_nodes() -> None:
-    volume = box()
-    block = volume.single_block()
-    some = Mesh(volume.nodes, (flip(block, np.ones(len(block), dtype=bool)),))
-    part = Mesh.of(volume.nodes, "CUB8", some.single_block().connectivity[:4])
-    assert intersection(volume, part).n_cells == 4
-    assert difference(volume, part).n_cells == 8
-    assert len(np.unique(cell_keys(block))) == 12
-
-
-def test_copies_share_the_nodes_that_originals_share() -> None:
-    nodes = NodeTable()
-    first = line_between(nodes, [0, 0], [1, 0], 2)
-    last = int(line_chain(first)[-1])
-    second = straight_line(nodes, last, int(nodes.add(np.array([[2.0, 0]]))[0]), 2)
-    copier = NodeCopier(nodes, turn(90.0, np.zeros(3), np.array([0.0, 0, 1])))
-    one, two = copier.mesh(first), copier.mesh(second)
-    assert line_chain(one)[-1] == line_chain(two)[0]
-    assert nodes.coordinates[line_chain(two)[-1]] == pytest.approx([0, 2, 0], abs=1e-12)
-
-
-def test_affine_map_is_found_from_its_points() -> None:
-    rng = np.random.default_rng(3)
-    old, matrix, shift = rng.normal(size=(4, 3)), rng.normal(size=(3, 3)), rng.normal(size=3)
-    image = affine_through(old, old @ matrix.T + shift, 3)
-    x = rng.normal(size=(5, 3))
-    assert image(x) == pytest.approx(x @ matrix.T + shift)
-
-
-def test_mirror_and_affinity_about_a_tilted_plane() -> None:
-    a, b, c = np.array([[0.0, 0, 0], [1, 1, 0], [0, 0, 1]])
-    x = np.array([[1.0, 0, 5]])
-    assert mirror_plane(a, b, c)(x) == pytest.approx(np.array([[0, 1, 5]]))
-    assert affinity(2.0, a, np.array([1.0, 0, 0]))(x) == pytest.approx(np.array([[2, 0, 5]]))
-
-
-def test_points_are_located() -> None:
-    volume = box()
-    assert containing(volume, np.array([0.3, 0.2, 0.1])).n_cells == 1
-    assert containing(volume, np.array([0.5, 0.2, 0.1]), every=True).n_cells == 2
-    assert containing(volume, np.array([1.3, 0.2, 0.1])).n_cells == 0
-    at = np.array([[0.5, 1.0, 1.5], [1.2, 1, 1], [0.99, 1.99, 2.99]])
-    assert inside_volume(at, volume, 1e-6).tolist() == [True, False, True]
-    floor = contour(volume.sides[0])
-    flat = np.array([[0.5, 1.0, 0], [1.0, 1, 0], [1.1, 1, 0]])
-    assert inside_contour(flat, floor, strict=False).tolist() == [True, True, False]
-    assert inside_contour(flat, floor, strict=True).tolist() == [True, False, False]
-
-
-def test_stitched_lines_of_unequal_cuts_leave_no_hole() -> None:
-    nodes = NodeTable()
-    made = sweep.stitch(
-        line_between(nodes, [0, 0], [1, 0], 5), line_between(nodes, [0, 1], [1, 1], 2)
-    )
-    assert made.n_cells == 7
-    assert total_measure(made) == pytest.approx(1.0)
-
-
-def test_cone_on_a_skin_fills_the_box() -> None:
-    volume = box()
-    skin = envelope(volume)
-    tip = int(volume.nodes.add(np.array([[0.4, 0.9, 1.1]]))[0])
-    made = sweep.cone(skin, tip)
-    assert total_measure(made) == pytest.approx(6.0)
-    corner = int(skin.single_block().connectivity[0, 0])
-    assert total_measure(sweep.cone(skin, corner)) == pytest.approx(6.0)
-
-
 def test_split_squares_alternate_their_diagonals() -> None:
     base = line_between(NodeTable(), [0, 0], [1, 0], 2)
     plate = sweep_line(base, translation(np.array([0.0, 1, 0])), subdivide(1.0, count=1), "QUA4")
@@ -239,14 +154,3 @@ def test_split_squares_alternate_their_diagonals() -> None:
     shared = difference(edges(made), edges(plate)).single_block().coordinates
     slopes = np.sign(shared[:, 1] - shared[:, 0])
     assert (slopes[0, :2].prod(), slopes[1, :2].prod()) in ((1, -1), (-1, 1))
-
-
-def test_lines_join_in_the_order_in_which_they_continue() -> None:
-    nodes = NodeTable()
-    first = line_between(nodes, [0, 0], [1, 0], 2)
-    second = straight_line(
-        nodes, int(line_chain(first)[-1]), int(nodes.add(np.array([[2.0, 0]]))[0]), 2
-    )
-    assert (line_chain(union(second, first)) == line_chain(union(first, second))).all()
-    raw = union(second, first, as_given=True).single_block()
-    assert raw.connectivity[0, 0] == line_chain(second)[0]

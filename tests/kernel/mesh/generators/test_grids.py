@@ -25,7 +25,7 @@ from ssilang.kernel.mesh.lines.lines import chain_mesh, line_chain
 from ssilang.kernel.mesh.lines.subdivision import Subdivision
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes
+from ssilang.kernel.mesh.orientation import reversed_line, signed_volumes, surface_normals
 from ssilang.kernel.mesh.queries.measure import enclosed_volume
 from ssilang.kernel.mesh.surfaces.analytic import (
     PolynomialSurface,
@@ -159,6 +159,7 @@ def test_a_grid_stands_on_the_bilinear_map_of_its_sides(quadratic):
     np.testing.assert_allclose(nodes.density[before:], mean[wanted])
     block = made.single_block()
     assert (block.cell_type, len(block)) == ("QUA8" if quadratic else "QUA4", 6)
+    assert (surface_normals(block)[:, 2] > 0.0).all()
     rim = {tuple(sorted(c)) for m in sides for c in m.single_block().connectivity.tolist()}
     assert rim == {tuple(sorted(c)) for c in contour(made).single_block().connectivity.tolist()}
 
@@ -268,12 +269,14 @@ def test_a_swept_surface_has_its_layers_sides_and_volume(degree, turned):
     kinds = {b.cell_type: len(b) for b in made.blocks}
     assert kinds == ({"CUB8": 2, "PRI6": 2} if degree == 1 else {"CU20": 2, "PR15": 2})
     assert [b.colours.tolist() for b in made.blocks] == [[2, 2], [5, 5]]
-    volumes = [np.abs(signed_volumes(b)).sum() for b in made.blocks]
+    ahead = -1.0 if turned else 1.0  # the normals of the base look there
+    volumes = [ahead * signed_volumes(b) for b in made.blocks]
+    assert all((v > 0.0).all() for v in volumes)
     area = [2.055, 0.5 * abs(np.linalg.det([[1.2, 0.7], [-0.2, 1.3]]))]
     corners = base.nodes.coordinates[:4]
     area[0] = 0.5 * abs(np.cross(corners[2] - corners[0], corners[3] - corners[1])[2])
     if not turned:
-        np.testing.assert_allclose(volumes, 2.0 * np.array(area), rtol=1e-12)
+        np.testing.assert_allclose([v.sum() for v in volumes], 2.0 * np.array(area), rtol=1e-12)
     assert path.length == pytest.approx(
         np.radians(50) * (mean_position(base)[0] + 1.0) if turned else np.linalg.norm(way)
     )
