@@ -7,7 +7,6 @@ from together import together
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.isovalue import isovalue
-from ssilang.kernel.fields.node_algebra import added, restricted
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -133,18 +132,6 @@ def two_lines(nature: str = "") -> tuple[NodeTable, NodeField, NodeField]:
     b = NodeField.of(table, second, {"UX": np.array([10.0, 20, 30])}, nature)  # type: ignore[arg-type]
     table.merge(first, second)
     return table, a, b
-
-
-def test_fields_on_merged_nodes_meet() -> None:
-    _, a, b = two_lines()
-    sum_ = added(a, b).components["UX"]
-    assert np.array_equal(sum_.nodes, [0, 1, 2])
-    assert np.array_equal(sum_.values, [11, 22, 33])
-
-
-def test_a_field_is_found_on_the_surviving_nodes() -> None:
-    _, _, b = two_lines()
-    assert np.array_equal(restricted(b, np.array([1])).components["UX"].values, [20.0])
 
 
 def test_discrete_values_of_one_node_add_up_and_others_must_agree() -> None:
