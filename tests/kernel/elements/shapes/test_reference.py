@@ -94,15 +94,6 @@ def test_heights_of_a_pyramid_s_points_are_those_of_jacobi(n: int) -> None:
     np.testing.assert_allclose(layers.sum(1), 4 * weights / 8, rtol=2e-15)
 
 
-@together("powers", [p for p in itertools.product(range(6), repeat=3) if sum(p) < 6])
-def test_the_conical_rule_integrates_polynomials_of_degree_5(powers: tuple[int, ...]) -> None:
-    rule = quadrature("tetrahedron", 27)
-    i, j, k = powers
-    exact = factorial(i) * factorial(j) * factorial(k) / factorial(i + j + k + 3)
-    found = rule.weights @ np.prod(rule.points**powers, axis=1)
-    assert found == pytest.approx(exact, rel=1e-14)
-
-
 def exact(shape: str, powers: tuple[int, ...]) -> float:
     """The integral of x^i y^j z^k over a reference domain, in closed form."""
     i, j, k = (*powers, 0, 0)[:3]
@@ -138,7 +129,7 @@ def test_rules_integrate_polynomials_of_their_degree(shape, n_points, degree):
     for powers in itertools.product(range(degree + 1), repeat=dimension):
         if sum(powers) <= degree:
             found = rule.weights @ np.prod(rule.points**powers, axis=1)
-            assert found == pytest.approx(exact(shape, powers), rel=1e-13, abs=1e-15), powers
+            assert found == pytest.approx(exact(shape, powers), rel=1e-14, abs=1e-15), powers
 
 
 @pytest.mark.parametrize("shape", ["quadrangle", "hexahedron"])
