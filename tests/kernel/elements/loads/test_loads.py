@@ -48,15 +48,6 @@ def test_pressure_all_around_is_in_balance_with_minus_the_identity(element):
         np.testing.assert_allclose(got.values_at(name, part.nodes), part.values, atol=exact * 50)
 
 
-def test_pressure_on_a_ring_counts_the_circumference():
-    zone = cell_zone("QUA8", Mode.AXISYMMETRIC)
-    got = pressure(Model((zone,)), _skin(zone), P)
-    assert got.components["FZ"].values.sum() == pytest.approx(0.0, abs=1e-10)
-    section = cell_zone("QUA8", Mode.PLANE_STRAIN)  # the same shape: its weights are the area
-    area = families.integration_weights(section, "RIGIDITE").sum()
-    assert got.components["FR"].values.sum() == pytest.approx(-2 * np.pi * P * area, rel=1e-10)
-
-
 @together("element", [*PLANE, *SPACE])
 def test_weight_equals_mass_times_gravity(element):
     zone = cell_zone(element, _mode(element))

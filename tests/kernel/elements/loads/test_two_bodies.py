@@ -276,17 +276,6 @@ def test_curves_that_vary_inside_a_cell_and_wrong_numbers_of_points_are_refused(
         carry(np.ones((1, 3)), "QUA4", "NOEUD", "RIGIDITE")
 
 
-@together("element", ["QUA8", "TRI6", "CU20", "QUA4", "TE10", "PR15"])
-def test_linear_values_go_from_points_to_nodes_and_back(element):
-    at = REFERENCE_CELLS[ELEMENTS[element].cell_type].nodes
-    points = support_rule(element, "RIGIDITE").points
-    linear, inner = (1.0 + x @ np.arange(2.0, x.shape[1] + 2) for x in (at, points))
-    out = transfer_matrix(element, "RIGIDITE", "NOEUD")
-    np.testing.assert_allclose(out @ inner, linear, atol=1e-10)
-    back = transfer_matrix(element, "NOEUD", "RIGIDITE")
-    np.testing.assert_allclose(back @ linear, inner, atol=1e-10)
-
-
 @pytest.mark.parametrize("source", ["STRESSES", "RIGIDITE", "MASSE"])
 def test_what_is_alike_at_all_points_is_so_at_the_nodes(source):
     """Of thick shells too, whose points stand above one another."""
