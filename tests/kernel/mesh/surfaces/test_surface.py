@@ -180,14 +180,6 @@ def test_open_contour_is_refused() -> None:
         filled(line, "TRI3")
 
 
-def test_contour_out_of_plane_is_refused() -> None:
-    nodes = NodeTable()
-    line = square(nodes, 1.0, 3)
-    nodes.coordinates[0, 2] = 0.3
-    with pytest.raises(MeshError, match="not plane"):
-        filled(line, "TRI3")
-
-
 def test_rays_in_the_plane_meet_the_nearest_line_that_they_cross():
     rng, nodes = np.random.default_rng(6), NodeTable()
     x = np.column_stack([rng.uniform(20.0, 24.0, (6, 2)), np.zeros(6)])
