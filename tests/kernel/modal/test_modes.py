@@ -27,16 +27,26 @@ from ssilang.kernel.statics import stability
 from ssilang.kernel.statics.stability import NUDGE, count_negative, negative_eigenvalues
 
 
+def springs(table, pairs, k):
+    """Springs along UX between pairs of points."""
+    values = np.tile(k * np.array([[1.0, -1.0], [-1.0, 1.0]]), (len(pairs), 1, 1))
+    return ElementMatrices(table, pairs, np.arange(2), ("UX",) * 2, ("FX",) * 2, values)
+
+
+def at_points(table, nodes, values, kind="RIGIDITE", names=("UX",)):
+    """A matrix (or one number, for UX) at each point by itself."""
+    values = np.asarray(values, float).reshape(len(nodes), len(names), len(names))
+    duals = tuple("F" + name[1:] for name in names)
+    zero = np.zeros(len(names), np.int64)
+    return ElementMatrices(table, np.array(nodes)[:, None], zero, names, duals, values, kind)
+
+
 def chain(n, k=1.0, m=1.0):
     """n masses on a line joined by springs, both ends free; table, stiffness, mass."""
     table = NodeTable()
     ids = table.add(np.column_stack([np.arange(n), np.zeros(n)]))
-    pairs = np.column_stack([ids[:-1], ids[1:]])
-    spring = np.tile(k * np.array([[1.0, -1.0], [-1.0, 1.0]]), (n - 1, 1, 1))
-    stiffness = ElementMatrices(table, pairs, np.arange(2), ("UX",) * 2, ("FX",) * 2, spring)
-    masses = np.full((n, 1, 1), m)
-    zero = np.zeros(1, np.int64)
-    mass = ElementMatrices(table, ids[:, None], zero, ("UX",), ("FX",), masses, "MASSE")
+    stiffness = springs(table, np.column_stack([ids[:-1], ids[1:]]), k)
+    mass = at_points(table, ids, np.full(n, m), "MASSE")
     return table, Matrix(table, (stiffness,)), Matrix(table, (mass,), (), "MASSE")
 
 
@@ -152,8 +162,7 @@ def test_a_condition_on_all_masses_is_kept_where_it_cannot_be_eliminated():
 
 def test_unstable_system_has_a_negative_frequency():
     table, K, M = chain(2)
-    push = ElementMatrices(table, np.array([[1]]), np.zeros(1, np.int64), ("UX",), ("FX",),
-                           np.array([[[-3.0]]]))  # fmt: skip
+    push = at_points(table, [1], [-3.0])
     matrix = together(held(table, K, [0]), Matrix(table, (push,)))
     assert negative_eigenvalues(matrix) == 1
     mode = modes_near(matrix, M, [(0.0, 1)])[0]
@@ -227,12 +236,8 @@ def test_damped_modes_under_a_condition_that_is_kept_are_in_balance_and_meet_it(
 def test_motions_without_stiffness_and_mass_are_left_out():
     table, K, M = chain(8, 3.0, 0.5)
     slanted = np.array([[0.36, 0.48], [0.48, 0.64]])  # stiff along (0.6, 0.8), idle across
-    nodes = np.arange(3, 6)[:, None]
-    twice, zero = ("UY", "UZ"), np.zeros(2, np.int64)
     parts = [
-        ElementMatrices(
-            table, nodes, zero, twice, ("FY", "FZ"), factor * np.tile(slanted, (3, 1, 1)), kind
-        )
+        at_points(table, [3, 4, 5], factor * np.tile(slanted, (3, 1, 1)), kind, ("UY", "UZ"))
         for factor, kind in ((8.0, "RIGIDITE"), (2.0, "MASSE"))
     ]
     K2 = together(held(table, K, [0]), Matrix(table, (parts[0],)))
@@ -252,18 +257,8 @@ def test_idle_motions_are_told_from_massless_ones_whatever_the_units():
     along = np.array([[0.36, 0.48], [0.48, 0.64]])
     across = np.array([[0.64, -0.48], [-0.48, 0.36]])
     held_both, idle = 2.0 * along + across, np.zeros((2, 2))
-    nodes, zero, twice = np.array([[0], [1]]), np.zeros(2, np.int64), ("UY", "UZ")
     K, M = (
-        Matrix(
-            table,
-            (
-                ElementMatrices(
-                    table, nodes, zero, twice, ("FY", "FZ"), np.array([there, idle]), kind
-                ),
-            ),
-            (),
-            kind,
-        )
+        Matrix(table, (at_points(table, [0, 1], [there, idle], kind, ("UY", "UZ")),), (), kind)
         for there, kind in ((held_both, "RIGIDITE"), (1e9 * along, "MASSE"))
     )
     (mode,) = modes_near(K, M, [(0.0, 5)])
@@ -280,14 +275,9 @@ def test_a_grid_of_springs_finds_its_modes_near_any_frequency(shift):
         [np.column_stack([ids[:-1].ravel(), ids[1:].ravel()]),
          np.column_stack([ids[:, :-1].ravel(), ids[:, 1:].ravel()])]
     )  # fmt: skip
-    spring = np.tile(k * np.array([[1.0, -1.0], [-1.0, 1.0]]), (len(pairs), 1, 1))
-    stiffness = ElementMatrices(table, pairs, np.arange(2), ("UX",) * 2, ("FX",) * 2, spring)
-    mass = ElementMatrices(
-        table, ids.reshape(-1, 1), np.zeros(1, np.int64), ("UX",), ("FX",),
-        np.full((ids.size, 1, 1), m), "MASSE",
-    )  # fmt: skip
+    mass = at_points(table, ids.ravel(), np.full(ids.size, m), "MASSE")
     rim = np.setdiff1d(ids, ids[1:-1, 1:-1])
-    K = held(table, Matrix(table, (stiffness,)), rim)
+    K = held(table, Matrix(table, (springs(table, pairs, k),)), rim)
     one = 2.0 - 2.0 * np.cos(np.arange(1, n + 1) * np.pi / (n + 1))
     exact = np.sort(np.sqrt(k / m * (one[:, None] + one).ravel())) / (2.0 * np.pi)
     wanted = np.sort(exact[np.argsort(np.abs(exact**2 - shift**2), kind="stable")[:9]])
@@ -311,14 +301,11 @@ def test_loads_that_buckle_are_found_below_and_above_the_first(limit, frequency,
     monkeypatch.setattr(eigen, "DENSE", limit)
     n = 24
     table, stiffness, _ = chain(n, k=0.0)
-    nodes = stiffness.blocks[0].nodes
-    springs, loads = 2.0 + np.arange(n), np.where(np.arange(n) % 3 == 0, -1.0, 1.0)
-    ids = np.unique(nodes)
-    zero = np.zeros(1, np.int64)
-    ground = ElementMatrices(table, ids[:, None], zero, ("UX",), ("FX",), springs[:, None, None])
+    stiff, loads = 2.0 + np.arange(n), np.where(np.arange(n) % 3 == 0, -1.0, 1.0)
+    ground = at_points(table, np.unique(stiffness.blocks[0].nodes), stiff)
     load = replace(ground, values=loads[:, None, None])  # not a mass, though of its kind
     K, G = Matrix(table, (ground,)), Matrix(table, (load,), (), "MASSE")
-    exact = springs / loads
+    exact = stiff / loads
     nearest = exact[np.argsort(np.abs(exact - eigenvalue(frequency)))][:3]
     found = [eigenvalue(m.frequency) for m in modes_near(K, G, [(frequency, 3)])]
     assert found == pytest.approx(sorted(nearest))
