@@ -2,11 +2,21 @@
 
 import numpy as np
 
+from ssilang.kernel.base.scientific import spla
+from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.elements import families
 from ssilang.kernel.elements.catalog import ELEMENTS
 from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
+from ssilang.kernel.matrices.assembly import (
+    assemble,
+    field_to_vector,
+    numbering_of,
+    vector_to_field,
+)
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -88,3 +98,14 @@ def field(zone, **functions):
     x = table.coordinates
     values = {k: np.broadcast_to(f(x), len(table)) for k, f in functions.items()}
     return NodeField.of(table, ids, values, "DIFFUS")
+
+
+def solved(zone, given, fixed, load):
+    """Displacements under nodal forces; `fixed(numbering)` says which unknowns are held."""
+    K = Matrix(zone.cells.nodes, (families.stiffness(zone, given),))
+    numbering = numbering_of(K)
+    free = ~fixed(numbering)
+    A = sp.csc_array(assemble(K, numbering))[free][:, free]
+    u = np.zeros(numbering.size)
+    u[free] = spla.spsolve(A, field_to_vector(load, numbering)[free])
+    return vector_to_field(u, numbering)

@@ -12,31 +12,20 @@ from ssilang.kernel.elements.results.integrals import green_strain, green_stress
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.assembly import (
-    assemble,
-    field_to_vector,
-    numbering_of,
-    vector_to_field,
-)
+from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
-from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
+from tests.kernel.elements.samples import ELASTIC, field, line_zone, material, solved
 
 E, NU, A, IY, IZ, J, L = 2.0e11, 0.25, 0.02, 3e-5, 5e-5, 6e-5, 3.0
 SECTION = {"YOUN": E, "NU": NU, "RHO": 7800.0, "SECT": A, "INRY": IY, "INRZ": IZ, "TORS": J}
 AXIS = np.array([2.0, 1.0, 2.0]) / 3.0
 
 
-def _clamped(zone, mat, load, clamped=0):
+def _clamped(zone, mat, load):
     """Displacements under nodal forces, the first node being fixed."""
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
-    numbering = numbering_of(K)
-    free = numbering.nodes != clamped
-    u = np.zeros(numbering.size)
-    dense = assemble(K, numbering).toarray()
-    u[free] = np.linalg.solve(dense[np.ix_(free, free)], field_to_vector(load, numbering)[free])
-    return vector_to_field(u, numbering)
+    return solved(zone, mat, lambda numbering: numbering.nodes == 0, load)
 
 
 def _free_parts(blocks, is_free):
@@ -115,18 +104,6 @@ def test_projected_load_counts_the_projected_length():
     zone = line_zone("POUT", [(0, 0), (3, 4)], Mode.PLANE_STRESS)
     load = line_load(Model((zone,)), np.array([0.0, -1.0, 0.0]), np.array([0.0, 1.0, 0.0]))
     assert load.components["FY"].values.sum() == pytest.approx(-3.0)
-
-
-def test_beam_mass_gives_the_cantilever_frequency():
-    n = 6
-    zone = line_zone("POUT", [(x, 0) for x in np.linspace(0, L, n + 1)], Mode.PLANE_STRESS)
-    slender = SECTION | {"SECT": 1e4 * A}  # no rotary inertia to speak of
-    mat = material(zone, **slender)
-    blocks = families.stiffness(zone, mat), families.mass(zone, mat)
-    k, m = _free_parts(blocks, lambda node, name: node != 0)
-    omega = np.sqrt(np.sort(np.linalg.eigvals(np.linalg.solve(m, k)).real)[:2])
-    beta = np.array([1.875104, 4.694091])
-    np.testing.assert_allclose(omega, (beta / L) ** 2 * np.sqrt(E * IZ / (7800e4 * A)), rtol=5e-4)
 
 
 def test_sections_of_a_beam_turn_with_its_slope():

@@ -5,8 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.linalg import eigh
-from scipy.sparse import csc_array
-from scipy.sparse.linalg import spsolve
 from together import together
 
 from ssilang.kernel.elements import families
@@ -18,18 +16,13 @@ from ssilang.kernel.elements.zone_fields import zone_field
 from ssilang.kernel.fields.cell_field import CellField
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Model, Zone
-from ssilang.kernel.matrices.assembly import (
-    assemble,
-    field_to_vector,
-    numbering_of,
-    vector_to_field,
-)
+from ssilang.kernel.matrices.assembly import assemble, numbering_of
 from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.matrices.relations import blocked
 from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 from ssilang.kernel.modal.modes import modes_near
-from tests.kernel.elements.samples import ELASTIC, field, line_zone, material
+from tests.kernel.elements.samples import ELASTIC, field, line_zone, material, solved
 
 E, NU, H, RHO = 2.0e11, 0.3, 0.01, 7800.0
 PLATE = {"YOUN": E, "NU": NU, "EPAI": H, "RHO": RHO}
@@ -79,16 +72,6 @@ def flat_zone(element, n, length, width, across=1):
         return quadrangles(element, n, across, length, width)
     zone, x = plate(n, across, length, width)
     return replace(zone, element=element), x, np.arange(len(x))
-
-
-def solved(zone, mat, fixed, load):
-    K = Matrix(zone.cells.nodes, (families.stiffness(zone, mat),))
-    numbering = numbering_of(K)
-    free = ~fixed(numbering)
-    A = csc_array(assemble(K, numbering))[free][:, free]
-    u = np.zeros(numbering.size)
-    u[free] = spsolve(A, field_to_vector(load, numbering)[free])
-    return vector_to_field(u, numbering)
 
 
 SKEW = np.array([[1.0, 0.4, 0.0], [0.0, 0.8, 0.0], [0.0, 0.0, 1.0]])

@@ -6,6 +6,7 @@ from together import together
 
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.elements import families
+from ssilang.kernel.elements.shapes.reference import REFERENCE_CELLS
 from ssilang.kernel.elements.solids import solid
 from ssilang.kernel.elements.solids.solid_products import _cofactors
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock
@@ -14,20 +15,12 @@ from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.nodes import NodeTable
 
 SPACE, PLANE = Mode.THREE_DIMENSIONAL, Mode.PLANE_STRAIN
-CORNERS = {
-    "TRI3": [(0, 0), (1, 0), (0, 1)],
-    "QUA4": [(0, 0), (1, 0), (1, 1), (0, 1)],
-    "TET4": [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
-    "CUB8": [
-        (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)
-    ],
-}  # fmt: skip
 
 
 def zone_of(cell_type, mode, spoilt="", n=5, axes="ISOTROPE"):
     """Crooked cells that share nothing, one of them folded or flat if asked."""
     random, table = np.random.default_rng(0), NodeTable()
-    corners = np.array(CORNERS[cell_type], dtype=float)
+    corners = REFERENCE_CELLS[cell_type].nodes.clip(0.0)  # of side one
     points = corners + 0.15 * random.standard_normal((n, *corners.shape))
     if spoilt == "folded":
         points[1] = points[1, [1, 0, *range(2, len(corners))]]
