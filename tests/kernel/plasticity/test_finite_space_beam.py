@@ -6,7 +6,14 @@ from scipy.spatial.transform import Rotation
 from script_runs import finder
 from together import together
 
-from ssilang.kernel.elements.families import family_of, stress
+from ssilang.kernel.elements.families import (
+    family_of,
+    integration_weights,
+    stiffness,
+    stress,
+)
+from ssilang.kernel.elements.zone_fields import zone_field
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.plasticity.finite import finite_plane_shell
 from ssilang.kernel.plasticity.finite_space_beam import (
     finite_space_beam,
@@ -23,6 +30,20 @@ P1 = 0. 0. 0. ; P2 = 3. 4. 2. ; L1 = DROI 3 P1 P2 ;
 MO = MODE L1 'MECANIQUE' 'ELASTIQUE' {element} ;
 MA = MATE MO 'YOUN' 1.E7 'NU' 0.3 'SECT' 1. 'INRY' 1.E-2 'INRZ' 3.E-2 'TORS' 2.E-2 ;
 """
+STEPS = """
+T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
+T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' P1 ; T . 'GRANDS_DEPLACEMENTS' = VRAI ;
+T . 'CHARGEMENT' = CHAR 'MECA' ({load}) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
+T . 'TEMPS_CALCULES' = PROG 0. 'PAS' {step} 1. ;
+PASAPAS T ;
+"""
+
+
+def pushed(body, folder, load, step=0.5, names=("UX", "UY", "RZ")):
+    """The results of a body clamped at P1 under a load that grows, how P2 moves at the end."""
+    find = finder(body + STEPS.format(load=load, step=step), folder)
+    field, node = find("T").get("DEPLACEMENTS").get(round(1 / step)), np.array([find("P2").node])
+    return find, [field.values_at(name, node)[0] for name in names]
 
 
 @together("size", [0.0, 1e-6, 1e-3, 0.02, 0.09, 0.11, 0.3, 0.8, 1.5, 3.1])
@@ -41,8 +62,6 @@ def test_rotations_are_those_of_quaternions(size):
 
 
 def test_small_displacements_give_the_usual_stiffness(tmp_path):
-    from ssilang.kernel.elements.families import stiffness
-
     for element, points in (("POUT", 2), ("TIMO", 1)):
         find = finder(BEAMS.format(element=element), tmp_path)
         zone = find("MO").zones[0]
@@ -54,8 +73,6 @@ def test_small_displacements_give_the_usual_stiffness(tmp_path):
 
 
 def test_shown_forces_of_small_displacements_are_the_usual_ones(tmp_path):
-    from ssilang.kernel.elements.families import family_of, stress
-
     for element, points in (("POUT", 2), ("TIMO", 1)):
         text = BEAMS.format(element=element) + (
             "K = (RIGI MO MA) ET (BLOQ 'DEPL' 'ROTA' P1) ; "
@@ -84,18 +101,11 @@ L1 = CERC 16 P1 C0 P2 ;
 MO = MODE L1 'MECANIQUE' 'ELASTIQUE' POUT ;
 MA = MATE MO 'YOUN' 1.E7 'NU' 0. 'SECT' 1. 'INRY' (1. / 12.) 'INRZ' (1. / 12.)
   'TORS' (1. / 6.) 'VECT' (0. 0. 1.) ;
-T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
-T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' P1 ; T . 'GRANDS_DEPLACEMENTS' = VRAI ;
-T . 'CHARGEMENT' = CHAR 'MECA' (FORC (0. 0. 600.) P2) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 0.5 1. ;
-PASAPAS T ;
 """
 
 
 def test_a_bent_cantilever_leaves_its_plane_as_published(tmp_path):
-    find = finder(BENT, tmp_path)
-    field, node = find("T").get("DEPLACEMENTS").get(2), np.array([find("P2").node])
-    moved = [field.values_at(c, node)[0] for c in ("UX", "UY", "UZ")]
+    find, moved = pushed(BENT, tmp_path, "FORC (0. 0. 600.) P2", names=("UX", "UY", "UZ"))
     x, y, z = np.asarray(find("P2").coordinates) + moved
     # Simo and Vu-Quoc 1986, Crisfield 1990: (15.79, 47.23, 53.37) in their axes; tables differ
     # by 0.3 between elements
@@ -109,11 +119,6 @@ OPTI DIME {dim} {mode} ELEM SEG2 ;
 P1 = 0. 0. {z} ; P2 = 10. 0. {z} ; L1 = DROI 8 P1 P2 ;
 MO = MODE L1 'MECANIQUE' 'ELASTIQUE' POUT ;
 MA = MATE MO 'YOUN' 1.E7 'NU' 0. 'SECT' 1. 'INRZ' 1.E-2 {more} ;
-T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
-T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' P1 ; T . 'GRANDS_DEPLACEMENTS' = VRAI ;
-T . 'CHARGEMENT' = CHAR 'MECA' (FORC (-500. 5.E3 {z}) P2) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 0.5 1. ;
-PASAPAS T ;
 """
 
 
@@ -121,9 +126,8 @@ def test_plane_motions_are_those_of_beams_of_the_plane(tmp_path):
     ends = []
     space = {"dim": 3, "mode": "", "z": "0.", "more": "'INRY' 2.E-2 'TORS' 1.E-2"}
     for words in ({"dim": 2, "mode": "MODE PLAN CONT", "z": "", "more": ""}, space):
-        find = finder(PLANE.format(**words), tmp_path)
-        field, node = find("T").get("DEPLACEMENTS").get(2), np.array([find("P2").node])
-        ends.append([field.values_at(c, node)[0] for c in ("UX", "UY", "RZ")])
+        load = f"FORC (-500. 5.E3 {words['z']}) P2"
+        ends.append(pushed(PLANE.format(**words), tmp_path, load)[1])
     assert ends[1] == pytest.approx(ends[0], rel=1e-8)
     assert abs(ends[0][2]) > 0.5
 
@@ -131,30 +135,16 @@ def test_plane_motions_are_those_of_beams_of_the_plane(tmp_path):
 E, SECTION, INERTIA = 1e7, 1.0, 1e-2
 CANTILEVER = """
 OPTI DIME 2 MODE PLAN CONT ELEM SEG2 ;
-P1 = 0. 0. ; P2 = {end} ; L1 = DROI {count} P1 P2 ;
+P1 = 0. 0. ; P2 = 10. 0. ; L1 = DROI {count} P1 P2 ;
 MO = MODE L1 'MECANIQUE' 'ELASTIQUE' {element} ;
 MA = MATE MO 'YOUN' 1.E7 'NU' 0. 'SECT' 1. 'INRZ' 1.E-2 ;
-T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
-T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' P1 ; T . 'GRANDS_DEPLACEMENTS' = VRAI ;
-T . 'CHARGEMENT' = CHAR 'MECA' ({load}) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 'PAS' {step} 1. ;
 """
-
-
-def cantilever(load, end="10. 0.", count=20, element="POUT", step=0.1):
-    return CANTILEVER.format(load=load, end=end, count=count, element=element, step=step)
-
-
-def tip(find):
-    field, node = find("T").get("DEPLACEMENTS").get(10), np.array([find("P2").node])
-    return [field.values_at(c, node)[0] for c in ("UX", "UY", "RZ")]
 
 
 def test_end_moment_rolls_a_cantilever_to_a_circle(tmp_path):
     moment = 2 * np.pi * E * INERTIA / 10.0
-    text = cantilever(f"MANU 'CHPO' P2 'MZ' {moment:.16g}", count=40) + "PASAPAS T ;"
-    find = finder(text, tmp_path)
-    ux, uy, turn = tip(find)
+    body, load = CANTILEVER.format(count=40, element="POUT"), f"MANU 'CHPO' P2 'MZ' {moment:.16g}"
+    find, (ux, uy, turn) = pushed(body, tmp_path, load, 0.1)
     assert turn == pytest.approx(2 * np.pi, rel=1e-9)
     assert ux == pytest.approx(-10.0, abs=1e-8)  # chords of equal turns close exactly
     assert uy == pytest.approx(0.0, abs=1e-8)
@@ -166,10 +156,8 @@ def test_end_moment_rolls_a_cantilever_to_a_circle(tmp_path):
 @pytest.mark.parametrize("element", ["POUT", "TIMO"])
 def test_tip_load_bends_a_cantilever_to_the_elastica(element, tmp_path):
     load = 10.0 * E * INERTIA / 100.0  # P L^2 / (E I) = 10
-    find = finder(
-        cantilever(f"FORC (0. {load:.16g}) P2", element=element) + "PASAPAS T ;", tmp_path
-    )
-    ux, uy, _ = tip(find)
+    body = CANTILEVER.format(count=20, element=element)
+    _, (ux, uy, _) = pushed(body, tmp_path, f"FORC (0. {load:.16g}) P2", 0.1)
     # Bisshopp and Drucker 1945; twenty chords, and 1 % of stretch and shear at most
     assert uy / 10.0 == pytest.approx(0.8106, rel=1.5e-2)
     assert -ux / 10.0 == pytest.approx(0.5545, rel=1.5e-2)
@@ -181,13 +169,6 @@ P1 = 0. 0. ; P2 = 6. 8. ; L1 = DROI 5 P1 P2 ;
 MO = MODE L1 'MECANIQUE' 'ELASTIQUE' {element} ;
 MA = MATE MO 'YOUN' 1.E7 'NU' {nu} {section} ;
 """
-STEPS = """
-T = TABL ; T . 'MODELE' = MO ; T . 'CARACTERISTIQUES' = MA ;
-T . 'BLOCAGES_MECANIQUES' = BLOQ 'DEPL' 'ROTA' P1 ; T . 'GRANDS_DEPLACEMENTS' = VRAI ;
-T . 'CHARGEMENT' = CHAR 'MECA' (FORC (-900. 200.) P2) (EVOL 'MANU' (PROG 0. 1.) (PROG 0. 1.)) ;
-T . 'TEMPS_CALCULES' = PROG 0. 0.5 1. ;
-PASAPAS T ;
-"""
 SHELL = "'EPAI' 0.2"
 BEAM = "'SECT' 0.2 'INRZ' (0.2 ** 3 / 12.)"
 
@@ -195,10 +176,8 @@ BEAM = "'SECT' 0.2 'INRZ' (0.2 ** 3 / 12.)"
 def test_a_strip_bends_as_a_beam(tmp_path):
     ends = []
     for element, section in (("COQ2", SHELL), ("POUT", BEAM)):
-        text = SHELLS.format(mode="CONT", element=element, nu="0.", section=section) + STEPS
-        find = finder(text, tmp_path)
-        field, node = find("T").get("DEPLACEMENTS").get(2), np.array([find("P2").node])
-        ends.append([field.values_at(c, node)[0] for c in ("UX", "UY", "RZ")])
+        body = SHELLS.format(mode="CONT", element=element, nu="0.", section=section)
+        ends.append(pushed(body, tmp_path, "FORC (-900. 200.) P2")[1])
     assert ends[0] == pytest.approx(ends[1], rel=1e-8)
     assert abs(ends[0][2]) > 0.3
 
@@ -220,7 +199,8 @@ def test_forces_hold_the_stresses_handed_over(tmp_path):
     find = finder(SHELLS.format(mode="DEFO", element="COQ2", nu="0.3", section=SHELL), tmp_path)
     zone, material = find("MO").zones[0], find("MA")
     rng = np.random.default_rng(3)
-    count = stress(zone, material, run_zero(find)).components["N11"].shape[1]
+    still = NodeField(zone.cells.nodes, {}, "DIFFUS")
+    count = stress(zone, material, still).components["N11"].shape[1]
     shell = finite_plane_shell(zone, material, count)
     u = 0.3 * rng.normal(size=(5, 6))
     given = rng.normal(size=shell.initial.shape) * 1e3
@@ -228,8 +208,6 @@ def test_forces_hold_the_stresses_handed_over(tmp_path):
     np.testing.assert_allclose(loaded.shown(u), given, atol=1e-7)
     # the chord carries them: at rest, what the usual element makes of them less its shear
     at_rest = shell.stressed(given, np.zeros((5, 6))).forces(np.zeros((5, 6)))
-    from ssilang.kernel.elements.zone_fields import zone_field
-
     usual = family_of(zone).force_vectors(zone, given, zone_field(zone, material))
     np.testing.assert_allclose(at_rest, usual, atol=1e-8 * np.abs(usual).max())
     h = 1e-6
@@ -238,12 +216,6 @@ def test_forces_hold_the_stresses_handed_over(tmp_path):
         shift[1, j] = h
         slope = (loaded.stored(u + shift) - loaded.stored(u - shift)) / (2 * h)
         assert loaded.forces(u)[1, j] == pytest.approx(slope, rel=1e-5, abs=1.0)
-
-
-def run_zero(find):
-    from ssilang.kernel.fields.node_field import NodeField
-
-    return NodeField(find("MO").zones[0].cells.nodes, {}, "DIFFUS")
 
 
 PLATE = """
@@ -257,8 +229,6 @@ MA = MATE MO 'YOUN' 1.E6 'NU' 0.3 'EPAI' 0.1 ;
 def shells(tmp_path, element="DKT"):
     find = finder(PLATE.format(element=element), tmp_path)
     zone, material = find("MO").zones[0], find("MA")
-    from ssilang.kernel.elements.families import integration_weights
-
     return finite_plate(zone, material, integration_weights(zone, "STRESSES", material).shape[1])
 
 

@@ -13,7 +13,6 @@ from ssilang.kernel.interface.factors.inverse import (
 )
 from ssilang.kernel.interface.factors.kept import UPDATES, follow_points, list_others, new_factors
 from ssilang.kernel.interface.response import Joints, interface_stiffness
-from ssilang.kernel.solvers.dense import factorise_dense, solve_factors_together
 
 SHARE = 0.9
 
@@ -97,17 +96,6 @@ def test_no_response_is_made_of_a_singular_matrix(n):
     alone = Condensed(np.eye(n), np.zeros((0, 0)), 1.0)
     assert follow_points(joints, alone, factors, D, list_others(factors, D)) < 0
     assert np.isnan(factors.tangents[0]).all()
-
-
-def test_response_from_factors_with_row_exchanges():
-    rng = np.random.default_rng(3)
-    A, S = rng.normal(size=(9, 9)), rng.normal(size=(9, 9))
-    factors, pivots, Y = A.copy(), np.zeros(9, np.int64), np.empty((9, 9))
-    assert factorise_dense(factors, pivots)
-    assert (pivots != np.arange(9)).any()
-    Y[:] = S
-    solve_factors_together(factors, pivots, Y)
-    np.testing.assert_allclose(A @ Y, S, atol=1e-11)
 
 
 def test_change_that_makes_the_interface_singular_is_refused():
