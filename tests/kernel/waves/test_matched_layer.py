@@ -48,18 +48,13 @@ def box(cell="QUA4", across=8, down=4, half=4, deep=4, x=2.01, y=2.01, nu=0.3):
     )  # fmt: skip
 
 
-def ran(script):
-    find = finder(script)
-    return find
-
-
 def values(find, name):
     return np.asarray(find(name).values)
 
 
 @together("cell", ["QUA4", "TRI3", "QUA8", "TRI6"])
 def test_without_stretching_the_layer_is_the_elements(cell):
-    find = ran(box(cell) + "KB = RIGI N B ; MB = MASS N B ;")
+    find = finder(box(cell) + "KB = RIGI N B ; MB = MASS N B ;")
     made = matched_layer(find("N"), find("B"), find("I"), reflection=1.0)
     omega, numbering = 37.0, numbering_of(made.stiffness)
     K, M, C = (
@@ -126,7 +121,7 @@ PULSE = (
 
 
 def test_energy_of_the_ground_leaves_and_never_comes_back():
-    find = ran(
+    find = finder(
         box("QUA4", 12, 6, 6, 6, nu=0.45) + LAYER + PULSE.format(end=3.0)
         + "LE = PROG ; REPE PAS (DIME R) ; J = R . &PAS . 'DEPL' ; V = R . &PAS . 'VITE' ; "
         "LE = LE ET (PROG (0.5 * ((XTMX J KI) + (XTMX V MI)))) ; FIN PAS ; "
@@ -150,17 +145,17 @@ def test_static_limit_of_two_forces_on_the_surface():
         "A2 = I POIN 'PROC' (5. 0.) ; "
         "L = EXTR ((EVOL 'TEMP' R 'DEPL' 'UX' A1) - (EVOL 'TEMP' R 'DEPL' 'UX' A2)) 'ORDO' ; "
     )
-    find = ran(box("QUA4", 40, 14, 20, 14, x=12.01, y=6.01) + LAYER + push)
+    find = finder(box("QUA4", 40, 14, 20, 14, x=12.01, y=6.01) + LAYER + push)
     exact = 2 * 2 * (1 - 0.3**2) * 1e5 / (np.pi * 2e8) * np.log(7 / 3)
     assert values(find, "L")[-1] == pytest.approx(exact, rel=0.04)
     dampers = "E = TABL ; E . 'RIGI' = KI ; E . 'MASS' = MI ; E . 'AMOR' = AMOR M F A ; "
     sides = "F = (CONT I) ELEM 'APPUYE' 'LARGEMENT' ((COOR 2 (CONT I)) POIN 'INFERIEUR' -0.01) ; "
-    find = ran(box("QUA4", 40, 14, 20, 14, x=12.01, y=6.01) + sides + dampers + push)
+    find = finder(box("QUA4", 40, 14, 20, 14, x=12.01, y=6.01) + sides + dampers + push)
     assert values(find, "L")[-1] > 2 * exact  # what a box without ground around it would do
 
 
 def test_a_start_from_weight_is_kept():
-    find = ran(
+    find = finder(
         box() + LAYER
         + "W = MI * (MANU 'CHPO' I 2 'UX' 0. 'UY' -9.81) ; "
         "BL = BLOQ 'UX' 'UY' (COTE 3 S) ; "
