@@ -29,6 +29,7 @@ from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 MOST_TURNS = 60
 FEW_TURNS = 10
 LAST_DIGIT = 1e-13
+CALLS = 5e4  # numbers that are read while those of a correction take place
 LONG, ALL = 0, 1  # places of `spent`
 
 
@@ -192,7 +193,7 @@ def correct_changes(
     add_stiffness_forces(joints, condensed.c, change, g, dK)
     for a in range(n):
         v[a] = dK[jumps[a]]
-    changed.spent[ALL] += n * (q + n)
+    changed.spent[ALL] += n * (q + n) + CALLS
     if not _iterate(joints, condensed.c, change, changed, inverse, g, v, enough):
         return False
     for a in range(n):
