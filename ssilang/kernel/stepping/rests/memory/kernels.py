@@ -244,7 +244,7 @@ def _answers(
     these describe, 0: all.
     """
     c = forces.shape[1]
-    count = min(c, 2 * -(-c // (2 * COLUMNS)))  # an even number keeps two busy
+    count = max(1, min(c, 2 * -(-c // (2 * COLUMNS))))  # an even number keeps two busy
     pieces = zip(*(np.array_split(x, count, axis=-1) for x in (forces, tolerance)), strict=True)
     found = side_by_side(
         [_until_quiet(ground, np.ascontiguousarray(F), steps, little) for F, little in pieces]

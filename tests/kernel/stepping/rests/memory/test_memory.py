@@ -285,6 +285,14 @@ def test_other_loads_on_the_ground_are_answered_anew(file):
     assert max(errors(whole, found)[:3]) < 2e-5
 
 
+def test_a_ground_that_no_load_acts_on_answers_none():
+    problem = record(steps=40)
+    ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
+    alone = replace(ground, loads=ground.loads[:0])
+    loads, mark, _ = kernels.loads_of(alone, 1e-2, 40)
+    assert (loads.shape[1:], mark.size) == ((ground.J.shape[0], 0), 0)
+
+
 @pytest.mark.parametrize(
     ("given", "told"),
     [
