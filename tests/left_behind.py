@@ -40,11 +40,15 @@ def closed_pipes_end_it() -> bool:
 
 
 def open_files() -> set[str]:
-    """Files of the temporary folder that the process holds open, where the system tells."""
+    """Files of the temporary folder that the process holds open, where the system tells.
+
+    Those of an environment that stands there are its own: drawing keeps fonts open.
+    """
     found, shown = set(), Path("/proc/self/fd")
     for place in shown.iterdir() if shown.is_dir() else ():
         with suppress(OSError):
             found.add(os.readlink(place))
+    found = {name for name in found if not name.startswith(sys.prefix)}
     return {name for name in found if name.startswith(tempfile.gettempdir())}
 
 
