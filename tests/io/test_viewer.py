@@ -171,13 +171,7 @@ def test_meshes_are_read_by_the_door_of_scripts(tmp_path):
     ],
 )
 @needs_window
-def test_what_cannot_be_shown_is_said(
-    words,
-    said,
-    results,
-    monkeypatch,
-    capsys,
-):
+def test_what_cannot_be_shown_is_said(words, said, results, monkeypatch, capsys):
     monkeypatch.chdir(results)
     monkeypatch.setattr("ssilang.io.viewer.has_screen", lambda: False)
     monkeypatch.setattr("ssilang.cli.main._silence", lambda: None)  # it would end pytest's stream

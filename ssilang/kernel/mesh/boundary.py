@@ -48,7 +48,9 @@ def faces_inside(faces: Mesh, mesh: Mesh) -> int:
 
 
 def contour(mesh: Mesh, shared: tuple[float, float] = (1, 1)) -> Mesh:
-    """Edges that one surface cell only has, or as many as `shared` says, walked along end to end.
+    """Edges of surface cells that belong to one cell only, walked along end to end.
+
+    `shared` says how many cells they belong to, at least and at most, where it is not one.
 
     The walk starts at the first corner met (of all cells the first corners, then the second ones),
     and its first edge keeps the sense of its cell: the loop follows it, whatever way the others

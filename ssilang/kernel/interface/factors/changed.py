@@ -5,8 +5,9 @@ was added to it since, on the jumps that changed points join,
 
     (1 + S (K + dK))^-1 x = z - Y v ,   z = x - Y K x ,   (1 + dK Y) v = dK z
 
-v is no larger than these jumps, and iterated on (GMRES, Saad and Schultz 1986): to the last digit
-where that reads fewer numbers than z takes, since laws of straight lines then end in one turn.
+z is made of these jumps alone, and v, no larger, is iterated on (GMRES, Saad and Schultz 1986): to
+the last digit where that reads fewer numbers than Y has, since laws of straight lines then end in
+one turn. Then `x - Y (K x + v)` reads Y once.
 """
 
 import math
@@ -29,7 +30,7 @@ from ssilang.kernel.interface.response import Joints, add_stiffness_forces
 MOST_TURNS = 60
 FEW_TURNS = 10
 LAST_DIGIT = 1e-13
-CALLS = 5e4  # numbers that are read while those of a correction take place
+CALLS = 5e4  # numbers that could be read while a correction's calls take place
 LONG, ALL = 0, 1  # places of `spent`
 
 

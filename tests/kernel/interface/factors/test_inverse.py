@@ -4,6 +4,7 @@ import numpy as np
 from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.factors.changed import correct_changes
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
     apply_inverse,
@@ -11,7 +12,13 @@ from ssilang.kernel.interface.factors.inverse import (
     new_inverse,
     update_point,
 )
-from ssilang.kernel.interface.factors.kept import UPDATES, follow_points, list_others, new_factors
+from ssilang.kernel.interface.factors.kept import (
+    UPDATES,
+    follow_points,
+    list_others,
+    new_factors,
+    solve_tangent,
+)
 from ssilang.kernel.interface.response import Joints, interface_stiffness
 
 SHARE = 0.9
@@ -34,7 +41,7 @@ def matrix(joints, condensed, D):
     S, R, c = condensed
     K = np.zeros_like(S)
     interface_stiffness(joints, D, K)
-    return np.eye(len(S)) + S @ (c * K - R)
+    return np.eye(len(S)) + S @ (c * K - (R if np.size(R) else 0.0))
 
 
 @together("few", [False, True])
@@ -64,6 +71,28 @@ def test_response_follows_points_that_change(d, few):
         apply_inverse(joints, condensed, D, inverse, solved)
         exact = np.linalg.solve(matrix(joints, condensed, D), x)
         np.testing.assert_allclose(solved, exact, atol=1e-10 * np.abs(exact).max())
+
+
+@together("spread, enough, good", [(0, 1e-12, True), (3, 1e-17, False)])
+def test_a_correction_that_takes_too_many_turns_leaves_what_was_asked(spread, enough, good):
+    """All points change, alike or by six orders; no turn ends below the last digit."""
+    rng = np.random.default_rng(5)
+    joints, S, D = interface(rng, 2, 40)
+    condensed, factors = Condensed(S, np.zeros((0, 0)), SHARE), new_factors(D.shape[:2], len(S))
+    assert follow_points(joints, condensed, factors, D, list_others(factors, D)) == 0
+    known, asked = D.copy(), rng.normal(size=len(S))
+    D += (10.0 ** rng.uniform(-spread, spread, len(D)))[:, None, None] * np.eye(2)
+    found, solved = asked.copy(), asked.copy()
+    inverse, changed = factors.inverse, factors.changed
+    done = correct_changes(joints, condensed, D, known, inverse, changed, found, enough)
+    assert done == good
+    exact = np.linalg.solve(matrix(joints, condensed, D), asked)
+    assert solve_tangent(joints, condensed, factors, D, solved, enough)
+    np.testing.assert_allclose(solved, exact, atol=1e-9 * np.abs(exact).max())
+    if good:
+        np.testing.assert_allclose(found, exact, atol=1e-9 * np.abs(exact).max())
+    else:
+        np.testing.assert_array_equal(found, asked)
 
 
 @together("n_pairs", [5, PLAIN // 2, PLAIN // 2 + 1, 60])

@@ -7,7 +7,7 @@ from references.soil_block import FRICTION, soil_block
 from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.factors.changed import ALL, LONG
+from ssilang.kernel.interface.factors.changed import ALL, CALLS, LONG
 from ssilang.kernel.interface.factors.kept import LONG_WORTH, solve_tangent
 from ssilang.kernel.interface.response import accept, interface_stiffness
 from ssilang.kernel.solvers.dense import (
@@ -110,7 +110,8 @@ def test_points_that_stay_are_taken_and_others_corrected_for(size):
     assert solved(D) == 0
     D[7] = 0.0
     assert solved(D) == 0  # corrected for
-    assert factors.changed.spent[ALL] >= 4 * (q + 4)  # rows of two pairs, and what is between
+    # rows of two pairs, what is between, calls; then what is between in a turn for each direction
+    assert factors.changed.spent[ALL] == 4 * (q + 4) + CALLS + 2 * 4 * 4
     assert solved(D) == 1  # asked for twice
     assert (factors.updates[0], factors.changed.spent[ALL]) == (1, 0.0)
     for turn in range(4):
