@@ -1,13 +1,13 @@
 """Solves with the panels of `multifrontal`: forward and backward over a range of supernodes."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_threaded
 from ssilang.kernel.solvers.cholesky.multifrontal import WIDTH, Panels
 from ssilang.kernel.solvers.cholesky.panel_products import (
     subtract,
@@ -15,6 +15,8 @@ from ssilang.kernel.solvers.cholesky.panel_products import (
     times_lower,
     times_upper,
 )
+
+TOGETHER = 16  # panels whose block has an inverse of its own: more are read twice
 
 
 @apart
@@ -164,31 +166,49 @@ class Supernode(NamedTuple):
     below: IntArray  # (m,) other rows
     P: FloatArray  # (w, m)
 
-    def forward(self, b: FloatArray) -> None:
-        """Forward solve of its rows of b (n, k), and what they take off those below."""
-        x = b[self.begin : self.end] = self.inverse @ b[self.begin : self.end]
-        if len(self.below):
-            b[self.below] -= self.P.T @ x
-
-    def backward(self, b: FloatArray) -> None:
-        """Backward solve of its rows of b (n, k)."""
-        x = b[self.begin : self.end]
-        if len(self.below):
-            x -= self.P @ b[self.below]
-        b[self.begin : self.end] = self.inverse.T @ x
-
 
 def supernodes(L: Panels, kind: Any) -> Iterator[Supernode]:
-    """The supernodes of a factor in another precision: panels together, a third more memory."""
+    """The supernodes of a factor in another precision, those of many panels in parts."""
     for s in range(len(L.first) - 1):
         begin, end = int(L.first[s]), int(L.first[s + 1])
-        inverse = np.eye(end - begin)
         _, below, panels = _panels(L, s, np.zeros(0), 0)
-        for k0, k1, block, inside, _ in panels:
-            inverse[k0:k1] = block @ inverse[k0:k1]
-            inverse[k1:] -= inside.T @ inverse[k0:k1]
-        P = np.concatenate([P for *_, P in panels])
-        yield Supernode(begin, end, inverse.astype(kind), below, P.astype(kind))
+        for first in range(0, len(panels), TOGETHER):
+            part = panels[first : first + TOGETHER]
+            start, stop = part[0][0], part[-1][1]
+            inverse = np.eye(stop - start)
+            for k0, k1, block, inside, _ in part:
+                own, later = inverse[k0 - start : k1 - start], inverse[k1 - start :]
+                own[:] = block @ own
+                later -= inside[:, : len(later)].T @ own
+            P = np.concatenate(
+                [np.hstack([inside[:, stop - k1 :], P]) for _, k1, _, inside, P in part]
+            )
+            rows = np.concatenate([np.arange(begin + stop, end), below])
+            yield Supernode(begin + start, begin + stop, inverse.astype(kind), rows, P.astype(kind))
+
+
+def solve_together(L: Sequence[Supernode], b: FloatArray) -> None:
+    """b = (L L^T)^-1 b for very many columns b (n, k)."""
+    rows = [max(x) for x in zip(*(s.P.shape for s in L), strict=True)]
+    room, under = (np.empty((n, b.shape[1]), b.dtype) for n in rows)
+    for s in L:
+        x = b[s.begin : s.end]
+        x[:] = np.matmul(s.inverse, x, out=room[: len(x)])
+        _subtract_rows(b, s.below, np.matmul(s.P.T, x, out=under[: len(s.below)]))
+    for s in reversed(L):
+        x = b[s.begin : s.end]
+        below = np.take(b, s.below, axis=0, out=under[: len(s.below)], mode="clip")  # at once
+        x -= np.matmul(s.P, below, out=room[: len(x)])
+        x[:] = np.matmul(s.inverse.T, x, out=room[: len(x)])
+
+
+@compiled_threaded
+def _subtract_rows(b: FloatArray, rows: IntArray, what: FloatArray) -> None:
+    """b[rows] -= what."""
+    for i in range(len(rows)):
+        row, less = b[rows[i]], what[i]
+        for j in range(len(less)):
+            row[j] -= less[j]
 
 
 def longest(L: Panels) -> int:

@@ -20,6 +20,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_threaded
 from ssilang.kernel.base.scientific import fft, la, spla
 from ssilang.kernel.base.threads import side_by_side
+from ssilang.kernel.solvers.cholesky.triangular import solve_together
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
 from ssilang.kernel.stepping.verbs import advance, damped, from_past
@@ -88,10 +89,7 @@ def increments(ground: GroundSteps, changes: Iterable[FloatArray]) -> Iterator[F
             g, Mv, Ma, Cv, Ca = (np.zeros(change.shape, SINGLE) for _ in range(5))
         if len(change):
             b += end * change
-        for part in ground.factor:
-            part.forward(b)
-        for part in reversed(ground.factor):
-            part.backward(b)
+        solve_together(ground.factor, b)
         yield ground.J @ b
         rest = ground.rest @ b if ground.rest.nnz else none
         given = ground.M @ b, rest, change
@@ -152,7 +150,8 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
         count = answers[first].shape[1]
         longest = answers[first : max(WHOLE, int(LONGER * first))]
         part = [Y for Y in longest if Y.shape[1] == count]
-        P = probes if first < WHOLE else _span(part, least * np.sqrt(count / q), MOST * count)
+        as_it_is = first < WHOLE or (count == q and _rank(part[-1], least) > FEW * q)
+        P = probes if as_it_is else _span(part, least * np.sqrt(count / q), MOST * count)
         if count == q and first == len(whole) and P.shape[1] > FEW * q:
             whole += [_symmetric(Y @ probes.T) for Y in part]  # sums
         elif P.shape[1]:
