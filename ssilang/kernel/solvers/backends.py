@@ -96,35 +96,6 @@ class PardisoFactor:
         return self._solver._call_pardiso(self._matrix, np.asfortranarray(b))
 
 
-class CholmodFactor:
-    """SuiteSparse's CHOLMOD by cvxopt: supernodal Cholesky, positive matrices only."""
-
-    name = "CHOLMOD"
-
-    def __init__(self, A: sp.csr_array, positive: bool) -> None:
-        from cvxopt import cholmod, spmatrix
-
-        if not positive:
-            raise SingularFactorError("CHOLMOD takes positive matrices")
-        lower = sp.coo_array(sp.tril(A))
-        rows, columns = (x.astype(int).tolist() for x in lower.coords)
-        matrix = spmatrix(lower.data.tolist(), rows, columns, A.shape)
-        cholmod.options["supernodal"] = 2
-        self._factor = cholmod.symbolic(matrix)
-        try:
-            cholmod.numeric(matrix, self._factor)
-        except ArithmeticError as error:
-            raise SingularFactorError(str(error)) from None
-
-    def solve(self, b: FloatArray) -> FloatArray:
-        """Solution of A x = b."""
-        from cvxopt import cholmod, matrix
-
-        x = matrix(np.asfortranarray(b, dtype=float))
-        cholmod.solve(self._factor, x)
-        return np.array(x).reshape(b.shape)
-
-
 @dataclass(frozen=True)
 class Backend:
     """A solver: what makes it, the package it needs, how to get that, when it is chosen."""
@@ -132,7 +103,7 @@ class Backend:
     make: Callable[[sp.csr_array, bool], Factor]
     package: str
     remedy: str
-    suits: Callable[[int, bool], bool]
+    least: int = 0  # unknowns from which it is chosen
 
     @property
     def installed(self) -> bool:
@@ -141,16 +112,8 @@ class Backend:
 
 
 BACKENDS: dict[str, Backend] = {
-    "PARDISO": Backend(
-        PardisoFactor, "pypardiso", "pip install 'ssilang[pardiso]'", lambda n, positive: n >= LARGE
-    ),
-    "CHOLMOD": Backend(
-        CholmodFactor,
-        "cvxopt",
-        "pip install 'ssilang[cholmod]'",
-        lambda n, positive: positive and n >= 2000,
-    ),
-    "SuperLU": Backend(SuperLUFactor, "scipy", "pip install scipy", lambda n, positive: True),
+    "PARDISO": Backend(PardisoFactor, "pypardiso", "pip install 'ssilang[pardiso]'", LARGE),
+    "SuperLU": Backend(SuperLUFactor, "scipy", "pip install scipy"),
 }
 
 
@@ -160,7 +123,7 @@ def dissection_pays(n: int) -> bool:
     Below, loading its compiled code costs more than SuperLU; PARDISO's threads factorise large
     ones faster where it is installed.
     """
-    return n >= DISSECTED and choose(n, True) != "PARDISO"
+    return n >= DISSECTED and choose(n) != "PARDISO"
 
 
 def goes_to_petsc(solver: Solver, n: int) -> bool:
@@ -170,9 +133,9 @@ def goes_to_petsc(solver: Solver, n: int) -> bool:
     )
 
 
-def choose(n: int, positive: bool) -> str:
+def choose(n: int) -> str:
     """Name of the backend for n unknowns."""
-    return next(k for k, b in BACKENDS.items() if b.suits(n, positive) and b.installed)
+    return next(k for k, b in BACKENDS.items() if n >= b.least and b.installed)
 
 
 _kept: OrderedDict[bytes, Factor] = OrderedDict()
@@ -231,7 +194,7 @@ def factorise(
     if goes_to_petsc(asked, A.shape[0]):
         return _by_petsc(A, positive, asked, ordering)
     dissected = ordering is not None and positive and asked.name in (None, DISSECTION)
-    name = DISSECTION if dissected else asked.name or choose(A.shape[0], positive)
+    name = DISSECTION if dissected else asked.name or choose(A.shape[0])
     backend = BACKENDS.get(name)
     if backend is None and not dissected and name != MULTIGRID:
         known = (*BACKENDS, MULTIGRID)

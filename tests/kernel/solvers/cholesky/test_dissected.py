@@ -10,6 +10,7 @@ from together import together
 
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.solvers.backends import factorise
+from ssilang.kernel.solvers.cholesky import triangular
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.dissection import dissection
 from ssilang.kernel.solvers.cholesky.inverse import invert
@@ -74,6 +75,25 @@ def test_large_fronts_take_blas():
     factor = DissectedFactor(A, points, np.arange(100, 400))
     b = dense[0]
     np.testing.assert_allclose(A @ factor.solve(b), b, atol=1e-10)
+
+
+@pytest.mark.parametrize("parts", [1, 3, 16])
+def test_many_columns_are_solved_by_supernodes_in_parts(monkeypatch, parts):
+    """Of a grid in space and of a full matrix, in two precisions: no row below the last ones."""
+    monkeypatch.setattr(triangular, "TOGETHER", parts)
+    dense = np.random.default_rng(3).standard_normal((250, 250))
+    full = sp.csr_array(dense @ dense.T + 250 * np.eye(250))
+    for A, points in (grid(9, 8, 7, unknowns=3), (full, grid(250, 1)[1])):
+        factor = DissectedFactor(A, points, np.arange(140))
+        A = A[factor.tree.order][:, factor.tree.order]
+        for kind, error in ((np.float64, 1e-12), (np.float32, 1e-5)):
+            L = list(triangular.supernodes(factor.panels, kind))
+            widest = np.diff(factor.panels.first).max()
+            assert max(s.end - s.begin for s in L) == min(widest, 32 * parts)
+            b = np.random.default_rng(1).standard_normal((A.shape[0], 5)).astype(kind)
+            x = b.copy()
+            triangular.solve_together(L, x)
+            np.testing.assert_allclose(A @ x.astype(float), b, atol=error * np.abs(b).max())
 
 
 def test_order_is_a_permutation_with_children_first():
