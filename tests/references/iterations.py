@@ -41,7 +41,7 @@ def compiled_newton(joints, condensed, now, y0, work):
 
 def plain_newton(joints, condensed, now, y0, turns=30):
     """The same by full matrices, made anew in each turn: turns and end of the step."""
-    q, (S, R, c) = len(y0), condensed
+    q, (S, R, c, *_) = len(y0), condensed
     end = new_trial((len(joints.weights), joints.B.shape[1]), q)
     R = R if len(R) else np.zeros((q, q))
     K, end.y[:] = np.zeros((q, q)), y0

@@ -14,7 +14,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
-from ssilang.kernel.interface.copies import dot
+from ssilang.kernel.interface.copies import add_product, add_symmetric_product, largest
 from ssilang.kernel.interface.response import InterfaceState, Trial
 
 
@@ -24,6 +24,7 @@ class Condensed(NamedTuple):
     S: FloatArray  # (q, q) compliance
     R: FloatArray  # (q, q) stiffness that it holds in excess (no rows: none)
     c: float  # share of the end of the step in its equilibrium
+    half: bool = False  # of S is read: it is symmetric, and large
 
 
 def condensed_of(S: FloatArray, c: float) -> Condensed:
@@ -37,10 +38,10 @@ def residual(condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
     S, R, y, h, r = condensed.S, condensed.R, trial.y, trial.h, trial.r
     for i in range(len(h)):
         h[i] = condensed.c * (trial.f[i] - now.f[i])
-        if len(R):
-            h[i] -= dot(R[i], y)
-    size = 0.0
-    for i in range(len(r)):
-        r[i] = y[i] - trial.y0[i] + dot(S[i], h)
-        size = max(size, abs(r[i]))
-    return size
+        r[i] = y[i] - trial.y0[i]
+    add_product(-1.0, R, y, h)  # of no rows: nothing
+    if condensed.half:
+        add_symmetric_product(S, h, r)
+    else:
+        add_product(1.0, S, h, r)
+    return largest(r)

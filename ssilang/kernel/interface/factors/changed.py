@@ -19,7 +19,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import later
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_state, dot, is_equal
+from ssilang.kernel.interface.copies import add_product, copy_state, dot, is_equal
 from ssilang.kernel.interface.factors.inverse import (
     Inverse,
     stiffness_forces,
@@ -76,14 +76,14 @@ def _changed_forces(
 ) -> None:  # fmt: skip
     """v += dK Y v of the changed jumps; g is room."""
     n = len(v)
-    C, x = changed.own[: n * n].reshape((n, n)), inverse.x[:n]
-    for a in range(n):
-        x[a] = v[a]
+    C, x, y = changed.own[: n * n].reshape((n, n)), inverse.x[:n], np.zeros(n)
+    copy_state(v, x)
+    add_product(1.0, C, x, y)
     for i in range(len(g)):
         g[i] = 0.0
     forces = np.zeros(len(g))
     for a in range(n):
-        g[changed.jumps[a]] = dot(C[a], x)
+        g[changed.jumps[a]] = y[a]
     add_stiffness_forces(joints, c, change, g, forces)
     for a in range(n):
         v[a] += forces[changed.jumps[a]]
@@ -184,8 +184,7 @@ def correct_changes(
             for j in range(D.shape[2]):
                 change[p, i, j] = D[p, i, j] - known[p, i, j]
     C, v = changed.own[: n * n].reshape((n, n)), np.empty(n)
-    for i in range(q):
-        inverse.x[i] = forces[i]
+    copy_state(forces, inverse.x)
     for a in range(n):
         row = Y[jumps[a]]
         g[jumps[a]] = x[jumps[a]] - dot(row, inverse.x)

@@ -18,7 +18,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, later, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_rows, dot
+from ssilang.kernel.interface.copies import add_product, copy_rows, copy_state
 from ssilang.kernel.interface.factors.newton_matrix import newton_matrix
 from ssilang.kernel.interface.response import (
     Joints,
@@ -171,11 +171,8 @@ def make_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, Y: Float
 @compiled_fast
 def subtract_jumps(inverse: Inverse, forces: FloatArray, x: FloatArray) -> None:
     """x -= Y forces."""
-    Y, by = inverse.Y, inverse.x
-    for i in range(len(x)):
-        by[i] = forces[i]
-    for i in range(len(x)):
-        x[i] -= dot(Y[i], by)
+    copy_state(forces, inverse.x)
+    add_product(-1.0, inverse.Y, inverse.x, x)
 
 
 @compiled
@@ -183,16 +180,13 @@ def stiffness_forces(
     joints: Joints, condensed: Condensed, D: FloatArray, inverse: Inverse, x: FloatArray
 ) -> None:
     """`(c K - R) x` into the room, K of the tangents D that Y belongs to."""
-    R, K, forces = condensed.R, inverse.K, inverse.room
-    for i in range(len(K)):
-        forces[i] = dot(K[i], x)
-    if len(K):
-        return
+    K, forces = inverse.K, inverse.room
     for i in range(len(x)):
         forces[i] = 0.0
-        for j in range(len(R)):
-            forces[i] -= R[i, j] * x[j]
-    add_stiffness_forces(joints, condensed.c, D, x, forces)
+    add_product(1.0, K, x, forces)
+    if not len(K):
+        add_product(-1.0, condensed.R, x, forces)
+        add_stiffness_forces(joints, condensed.c, D, x, forces)
 
 
 @apart

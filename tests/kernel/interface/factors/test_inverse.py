@@ -38,7 +38,7 @@ def interface(rng, d=2, n_pairs=5):
 
 
 def matrix(joints, condensed, D):
-    S, R, c = condensed
+    S, R, c, *_ = condensed
     K = np.zeros_like(S)
     interface_stiffness(joints, D, K)
     return np.eye(len(S)) + S @ (c * K - (R if np.size(R) else 0.0))

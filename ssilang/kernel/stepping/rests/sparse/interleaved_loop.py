@@ -31,7 +31,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.copies import copy_state, dot
+from ssilang.kernel.interface.copies import add_product, copy_state, dot
 from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import InterfaceState, Joints, accept, interface_energies
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
@@ -49,6 +49,7 @@ from ssilang.kernel.stepping.state import (
 )
 from ssilang.kernel.stepping.verbs import advance, damped, end_of_step, from_past
 
+HALVED = 500  # jumps from which half of their compliance is read
 BOTH, DOWN, UP = range(3)  # ways through a part: a branch goes down and up at once
 
 
@@ -265,14 +266,14 @@ def settle_interface(
             y += plan.lift[i, c] * sweep.load_change[c]
         trial.y0[i] = trial.y[i] = y
     now = InterfaceState(flow.delta, flow.f, flow.w, flow.t, flow.state)
-    condensed = Condensed(plan.S, plan.R, plan.newmark.end)
+    condensed = Condensed(plan.S, plan.R, plan.newmark.end, q >= HALVED)
     turns, residual = solve_interface(joints, condensed, now, newton)
     if turns > 0:
         released = trial.dy
         for i in range(q):
             released[i] = flow.f[i] - trial.f[i]
+        add_product(-1.0, plan.Yr, trial.h, own)
         for i in range(end - begin):
-            du[begin + i] -= dot(plan.Yr[i], trial.h)
             sweep.change[begin + i] = _row(plan.JrT, i, released)
         accept(trial, now)
     return turns, residual
