@@ -1,5 +1,6 @@
 """The file of a ground's memory: a zip of arrays (NPY), whole or not at all."""
 
+import glob
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -12,13 +13,15 @@ import numpy as np
 
 from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
-from ssilang.io.errors import InputError
+from ssilang.io.errors import InputError, OutputError
 from ssilang.io.run_output import RunLock
+from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, TOLD_BY
 from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
 from ssilang.system import GUARDED, lock
 
 _LOOK = 0.05  # s between two tries of a file that another process writes
+LONG = 20.0  # s of steps that are left for another making, if this one is broken off
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,24 @@ class MemoryFile:
             if held is not None:
                 held.release()
 
+    def answered(
+        self, name: str, shape: tuple[int, int], rows: Iterator[FloatArray]
+    ) -> Iterator[FloatArray]:
+        """Rows of a name, or those that a making which was broken off left under it.
+
+        Rows that took long are left for the next one, until there is a memory.
+        """
+        path = self.path.with_name(f"{self.name}.{name}")
+        with suppress(*DAMAGES):
+            rows, path = iter(_part(path, shape)), None
+        made, began = list[FloatArray](), time.monotonic()
+        for row in rows:
+            yield row
+            made.append(row)
+        if path is not None and time.monotonic() - began > LONG:
+            with suppress(OutputError), replacing(path) as stream:
+                np.save(stream, made)
+
     def write(self, kernels: Kernels) -> None:
         """Put a memory there."""
         k = kernels
@@ -82,6 +103,17 @@ class MemoryFile:
             parts |= {f"P{i}": stage.P, f"sums{i}": stage.sums}
         with replacing(self.path) as stream:
             np.savez(stream, firsts=[s.first for s in k.stages], **parts)
+        for path in self.path.parent.glob(f"{glob.escape(self.name)}.{'[0-9a-f]' * 16}"):
+            path.unlink(missing_ok=True)
+
+
+def _part(path: Path, shape: tuple[int, int]) -> FloatArray:
+    """Rows of a file; one of `DAMAGES` if it is not there, or holds others."""
+    with path.open("rb") as stream:
+        found: FloatArray = np.load(stream, allow_pickle=False)
+    if found.shape[1:] != shape or found.dtype != SINGLE or not np.isfinite(found).all():
+        raise ValueError(f"{found.shape} {found.dtype}")
+    return found
 
 
 _NUMBERS: dict[str, Callable[[Any], Any]] = {

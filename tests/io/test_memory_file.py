@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from together import together
 
+from ssilang.io import memory_file
 from ssilang.io.errors import InputError
 from ssilang.io.memory_file import MemoryFile
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
@@ -104,6 +105,45 @@ def test_what_is_packed_or_locked_is_damage(tmp_path):
     locked.path.write_bytes(raw)
     with pytest.raises(InputError, match=r"is damaged: .*encrypted"):
         locked.read()
+
+
+ROWS, NAME = np.arange(24.0, dtype=F).reshape(4, 3, 2), 16 * "a"
+
+
+def test_rows_that_took_long_are_left_until_there_is_a_memory(tmp_path, monkeypatch):
+    file, beside = MemoryFile(tmp_path / "a[1].npz"), MemoryFile(tmp_path / "b.npz")
+    assert len(list(file.answered(NAME, (3, 2), iter(ROWS)))) == 4
+    assert not list(tmp_path.iterdir())  # soon made again
+    monkeypatch.setattr(memory_file, "LONG", 0.0)
+    broken_off = file.answered(NAME, (3, 2), iter(ROWS))
+    next(broken_off)
+    broken_off.close()
+    assert not list(tmp_path.iterdir())
+    for _ in range(2):
+        assert np.array_equal(list(file.answered(NAME, (3, 2), iter(ROWS))), ROWS)
+        others = iter(ROWS[:1])
+        assert np.array_equal(list(file.answered(NAME, (3, 2), others)), ROWS)
+        assert len(list(others)) == 1  # not asked for
+    assert len(list(beside.answered(NAME, (3, 2), iter(ROWS[:1])))) == 1
+    file.write(SOUND)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["a[1].npz", f"b.npz.{NAME}"]
+
+
+@together(
+    "raw",
+    [
+        npy(ROWS)[:-1], npy(ROWS.astype(float)), npy(ROWS[:, :2]), npy(ROWS + np.nan), b"",
+        npy(np.array([Program(Path("ran"))], object)), declaring((10**11, 3, 2)),
+    ],
+)  # fmt: skip
+def test_rows_that_no_run_left_are_made_anew(raw, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(memory_file, "LONG", 0.0)
+    file, left = MemoryFile(tmp_path / "a.npz"), tmp_path / f"a.npz.{NAME}"
+    left.write_bytes(raw)
+    assert np.array_equal(list(file.answered(NAME, (3, 2), iter(ROWS[:2]))), ROWS[:2])
+    assert left.read_bytes() == npy(ROWS[:2])
+    assert not (tmp_path / "ran").exists()
 
 
 @pytest.mark.skipif(os.name != "posix", reason="links of one system")

@@ -108,13 +108,14 @@ class Ground:
         L = tuple(supernodes(factor.panels, SINGLE))
         few = (X.astype(SINGLE) for X in (M, rest, sp.csr_array(self.J @ scaling)))
         forces = np.asarray(scaling.T @ self.forces, SINGLE)
-        return GroundSteps(L, alpha, beta, self.newmark, forces, *few)
+        return GroundSteps(self.mark, L, alpha, beta, self.newmark, forces, *few)
 
 
 @dataclass(frozen=True, eq=False)
 class GroundSteps:
     """A body in the order of its factor, single precision."""
 
+    mark: FloatArray  # of the ground
     factor: tuple[Supernode, ...]  # of the step's matrix
     alpha: float  # the damping is `alpha M + beta K + rest`
     beta: float

@@ -10,8 +10,9 @@ their answers but for singular vectors below the tolerance: what is left out of 
 step, what is left out of an increment stays.
 """
 
+import hashlib
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,10 @@ CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
 LONGER = 1.25  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
 QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
+
+
+Kept = Callable[[str, tuple[int, int], Iterator[FloatArray]], Iterator[FloatArray]]
+"""The rows of a name and a shape, or those that a making which was broken off left under it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,13 +132,21 @@ def _advance(
             b[i, j] = from_past(n, Mv[i, j], Ma[i, j], Cv[i, j], Ca[i, j]) + Cv[i, j] - g[i, j]
 
 
-def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
+def _as_they_come(
+    name: str, shape: tuple[int, int], rows: Iterator[FloatArray]
+) -> Iterator[FloatArray]:
+    return rows
+
+
+def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept = _as_they_come) -> Kernels:
     """The memory of a ground for motions of so many steps.
 
     Parameters
     ----------
     tolerance : float
         Norm of what is left out of kernels, of that of the first one.
+    kept : callable
+        Has what the ground answers, a piece after the other.
 
     Raises
     ------
@@ -142,8 +155,8 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
     """
     own, q = ground.steps, ground.J.shape[0]
     probes, steps = _probes(q), max(steps, WHOLE)
-    first_answers, loads, reach = _first_answers(own, probes[:, :PROBES], tolerance, steps)
-    answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance)
+    first_answers, loads, reach = _first_answers(own, probes[:, :PROBES], tolerance, steps, kept)
+    answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance, kept)
     whole, stages = list[FloatArray](), list[Stage]()
     first, least = 0, CLOSER * tolerance * _norm(answers[0])
     while first < len(answers):
@@ -161,9 +174,9 @@ def kernels_of(ground: Ground, tolerance: float, steps: int) -> Kernels:
             stages.append(Stage(first, P.astype(SINGLE), sums))
         first += len(part)
     none = np.zeros((1, q, q), SINGLE)
-    kept = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
+    near = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
     return Kernels(
-        ground.mark, ground.dt, tolerance, kept, tuple(stages), reach, loads, ground.loads_mark,
+        ground.mark, ground.dt, tolerance, near, tuple(stages), reach, loads, ground.loads_mark,
         reach,
     )  # fmt: skip
 
@@ -176,18 +189,22 @@ def _probes(q: int) -> FloatArray:
 
 
 def _first_answers(
-    ground: GroundSteps, probes: FloatArray, tolerance: float, steps: int
+    ground: GroundSteps,
+    probes: FloatArray,
+    tolerance: float,
+    steps: int,
+    kept: Kept = _as_they_come,
 ) -> tuple[FloatArray, FloatArray, int]:
     """Answers to probes (q, c) and to the loads, beside each other, and the steps described."""
     forces = np.hstack([ground.J.T @ probes, ground.forces])
     little = np.full(forces.shape[1], CLOSER * tolerance)
     little[: probes.shape[1]] = QUIETER * tolerance
-    rows, reach = _answers(ground, forces, steps, little)
+    rows, reach = _answers(ground, forces, steps, little, kept)
     return rows[:, :, : probes.shape[1]], rows[:, :, probes.shape[1] :], reach
 
 
 def _answers_to_probes(
-    ground: GroundSteps, probes: FloatArray, first: FloatArray, tolerance: float
+    ground: GroundSteps, probes: FloatArray, first: FloatArray, tolerance: float, kept: Kept
 ) -> list[FloatArray]:
     """Answers (q, r_k) to as many probes as tell all until the kth step, from the `first` ones.
 
@@ -200,7 +217,7 @@ def _answers_to_probes(
             range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
         forces = ground.J.T @ probes[:, count : count + max(count // 2, PROBES)]
-        rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]))
+        rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]), kept)
         for k, row in enumerate(np.cumsum(rows, axis=0, out=rows)):
             found[k] = np.hstack([found[k], row])
     return found
@@ -235,7 +252,7 @@ def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
 
 
 def _answers(
-    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray
+    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray, kept: Kept
 ) -> tuple[FloatArray, int]:
     """Increments (k, q, c) of the jumps after forces (r, c) in the first step, until quiet.
 
@@ -246,7 +263,7 @@ def _answers(
     count = max(1, min(c, 2 * -(-c // (2 * COLUMNS))))  # an even number keeps two busy
     pieces = zip(*(np.array_split(x, count, axis=-1) for x in (forces, tolerance)), strict=True)
     found = side_by_side(
-        [_until_quiet(ground, np.ascontiguousarray(F), steps, little) for F, little in pieces]
+        [kept(*_until_quiet(ground, np.ascontiguousarray(F), steps, few)) for F, few in pieces]
     )
     longest = max(map(len, found))
     padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in found]
@@ -255,19 +272,30 @@ def _answers(
 
 def _until_quiet(
     ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray
-) -> Iterator[FloatArray]:
-    largest, quiet = np.zeros(forces.shape[1]), 0
-    for row in increments(ground, impulse(forces, steps)):
-        yield row
-        size = np.abs(row).max(axis=0)
-        largest = np.maximum(largest, size)
-        quiet = quiet + 1 if (size <= tolerance * largest).all() else 0
-        if quiet == QUIET and np.all(largest > 0.0):
-            return
+) -> tuple[str, tuple[int, int], Iterator[FloatArray]]:
+    """A name that says of what the increments of a piece are, their shape, and these."""
+    said = hashlib.blake2b(str(steps).encode(), digest_size=8)
+    for part in (ground.mark, np.array(ground.newmark), forces, tolerance):
+        said.update(part.tobytes())
+
+    def rows() -> Iterator[FloatArray]:
+        largest, quiet = np.zeros(forces.shape[1]), 0
+        for row in increments(ground, impulse(forces, steps)):
+            yield row
+            size = np.abs(row).max(axis=0)
+            largest = np.maximum(largest, size)
+            quiet = quiet + 1 if (size <= tolerance * largest).all() else 0
+            if quiet == QUIET and np.all(largest > 0.0):
+                return
+
+    return said.hexdigest(), (ground.J.shape[0], forces.shape[1]), rows()
 
 
-def loads_of(ground: Ground, tolerance: float, steps: int) -> tuple[FloatArray, FloatArray, int]:
+def loads_of(
+    ground: Ground, tolerance: float, steps: int, kept: Kept = _as_they_come
+) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
     own = ground.steps
-    _, loads, reach = _first_answers(own, np.zeros((own.J.shape[0], 0), SINGLE), tolerance, steps)
+    none = np.zeros((own.J.shape[0], 0), SINGLE)
+    _, loads, reach = _first_answers(own, none, tolerance, steps, kept)
     return loads, ground.loads_mark, reach

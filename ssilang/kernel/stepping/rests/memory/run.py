@@ -5,7 +5,7 @@ act on the jumps. All else is stepped as it is, by the loop of large problems, a
 """
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from typing import Protocol
@@ -155,6 +155,11 @@ class Shelf(Protocol):
     def held(self) -> AbstractContextManager[None]:
         """Nobody else writes meanwhile."""
 
+    def answered(
+        self, name: str, shape: tuple[int, int], rows: Iterator[FloatArray]
+    ) -> Iterator[FloatArray]:
+        """Rows of a name, or those that a making which was broken off left under it."""
+
     def write(self, kernels: Kernels) -> None:
         """Put it in the place of what stands there."""
 
@@ -270,10 +275,10 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kerne
         if found is not None and not alike(found.mark, ground.mark):
             raise KernelError("kernel.stepping.memory-of-another-ground", name=shelf.name)
         if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
-            found = kernels_of(ground, tolerance, steps)
+            found = kernels_of(ground, tolerance, steps, shelf.answered)
             shelf.write(found)
         elif not alike(found.loads_mark, ground.loads_mark) or 0 < found.loads_reach < steps:
-            loads, mark, reach = loads_of(ground, tolerance, steps)
+            loads, mark, reach = loads_of(ground, tolerance, steps, shelf.answered)
             found = replace(found, loads=loads, loads_mark=mark, loads_reach=reach)
             shelf.write(found)
     _KEPT[:] = [found]

@@ -186,6 +186,51 @@ def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, probes):
     assert 1e-4 * size < left.max() < 1e-2 * size
 
 
+def test_a_making_that_is_broken_off_goes_on(monkeypatch):
+    """Piece by piece, to the same numbers; of another step or tolerance nothing is taken over."""
+    monkeypatch.setattr(kernels, "PROBES", 4)
+    monkeypatch.setattr(kernels, "COLUMNS", 3)
+    left, made = {}, []
+
+    def answered(name, shape, rows, most=10**6):
+        if name not in left:
+            if len(left) >= most:
+                raise KeyboardInterrupt
+            rows = list(rows)
+            assert np.shape(rows)[1:] == shape
+            left[name], _ = rows, made.append(name)
+        yield from left[name]
+
+    def until(most, tolerance=1e-2, **given):
+        made.clear()
+        problem = record(**WIDE | given)
+        ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
+        if not most:
+            return kernels.kernels_of(ground, tolerance, 60)
+        return kernels.kernels_of(
+            ground, tolerance, 60, lambda *asked: answered(*asked, most=most)
+        )  # fmt: skip
+
+    exact = until(0)
+    with pytest.raises(KeyboardInterrupt):
+        until(3)
+    first = len(made)
+    assert first in (3, 4)  # two at once
+    found = until(10**6)
+    assert len(made) == len(left) - first > 3
+    for a, b in ((exact, found), (exact, until(10**6))):
+        np.testing.assert_array_equal(a.whole, b.whole)
+        np.testing.assert_array_equal(a.loads, b.loads)
+        assert len(a.stages) == len(b.stages) > 0
+        for one, other in zip(a.stages, b.stages, strict=True):
+            np.testing.assert_array_equal(one.sums, other.sums)
+    assert not made
+    until(10**6, dt=2e-3)
+    assert made
+    until(10**6, tolerance=1e-3)
+    assert made
+
+
 def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch):
     """What an impulse has moved for good stays."""
     monkeypatch.setattr(kernels, "FEW", 0.0)
