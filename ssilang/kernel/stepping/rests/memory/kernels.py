@@ -132,13 +132,7 @@ def _advance(
             b[i, j] = from_past(n, Mv[i, j], Ma[i, j], Cv[i, j], Ca[i, j]) + Cv[i, j] - g[i, j]
 
 
-def _as_they_come(
-    name: str, shape: tuple[int, int], rows: Iterator[FloatArray]
-) -> Iterator[FloatArray]:
-    return rows
-
-
-def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept = _as_they_come) -> Kernels:
+def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kernels:
     """The memory of a ground for motions of so many steps.
 
     Parameters
@@ -193,7 +187,7 @@ def _first_answers(
     probes: FloatArray,
     tolerance: float,
     steps: int,
-    kept: Kept = _as_they_come,
+    kept: Kept,
 ) -> tuple[FloatArray, FloatArray, int]:
     """Answers to probes (q, c) and to the loads, beside each other, and the steps described."""
     forces = np.hstack([ground.J.T @ probes, ground.forces])
@@ -292,7 +286,7 @@ def _until_quiet(
 
 
 def loads_of(
-    ground: Ground, tolerance: float, steps: int, kept: Kept = _as_they_come
+    ground: Ground, tolerance: float, steps: int, kept: Kept
 ) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
     own = ground.steps

@@ -55,6 +55,10 @@ def x_of(problem):
     return problem.numbering.table.coordinates[problem.numbering.nodes, 0]
 
 
+def as_they_come(name, shape, rows):
+    return rows
+
+
 def track(problem, unknowns=None):
     wanted = np.arange(len(problem.times)) % 2 == 0
     return Track(wanted, building(problem) if unknowns is None else unknowns)
@@ -174,7 +178,7 @@ def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, probes):
     monkeypatch.setattr(kernels, "PROBES", probes)
     problem = record(**WIDE)
     ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
-    made = kernels.kernels_of(ground, 1e-2, STEPS)
+    made = kernels.kernels_of(ground, 1e-2, STEPS, as_they_come)
     forces = np.ascontiguousarray(ground.steps.J.T.todense())
     moved = kernels.increments(ground.steps, kernels.impulse(forces, STEPS))
     exact = np.cumsum(np.array(list(moved), float), axis=0)
@@ -206,7 +210,7 @@ def test_a_making_that_is_broken_off_goes_on(monkeypatch):
         problem = record(**WIDE | given)
         ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
         if not most:
-            return kernels.kernels_of(ground, tolerance, 60)
+            return kernels.kernels_of(ground, tolerance, 60, as_they_come)
         return kernels.kernels_of(
             ground, tolerance, 60, lambda *asked: answered(*asked, most=most)
         )  # fmt: skip
@@ -236,7 +240,7 @@ def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch):
     monkeypatch.setattr(kernels, "FEW", 0.0)
     problem = record(**WIDE)
     ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
-    made = kernels.kernels_of(ground, 1e-2, 20)
+    made = kernels.kernels_of(ground, 1e-2, 20, as_they_come)
     assert (made.stages, len(made.whole)) == ((), 21)
     assert made.whole[:20].any(axis=(1, 2)).all()
     assert not made.whole[20].any()
@@ -334,7 +338,7 @@ def test_a_ground_that_no_load_acts_on_answers_none():
     problem = record(steps=40)
     ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
     alone = replace(ground, loads=ground.loads[:0])
-    loads, mark, _ = kernels.loads_of(alone, 1e-2, 40)
+    loads, mark, _ = kernels.loads_of(alone, 1e-2, 40, as_they_come)
     assert (loads.shape[1:], mark.size) == ((ground.J.shape[0], 0), 0)
 
 
