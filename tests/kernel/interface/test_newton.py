@@ -40,7 +40,7 @@ def test_one_step_agrees(extra, held, kind):
     S = (A @ A.T / q + np.eye(q)) * 1e-8
     R = 1e6 * np.eye(q) if held else np.zeros((0, 0))
     y0 = rng.standard_normal(q) * 1e-4
-    condensed = Condensed(S, R, 1.0)
+    condensed = Condensed(S, R, 1.0, half=held)
     now, work = at_rest(joints, q, whole.initial_state()), room(joints, q, kind)
     assert compiled_newton(joints, condensed, now, y0, work) > 0
     trial, (_, plain) = work.trial, plain_newton(joints, condensed, now, y0)
