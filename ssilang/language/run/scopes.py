@@ -33,16 +33,26 @@ class Frame:
     """Variables of a running procedure (or of the script), over those of its caller.
 
     Scope is dynamic: a procedure sees the caller's names as they are when it is called; what it
-    assigns stays its own. Names that begin with `!` are never inherited.
+    assigns stays its own. Names that begin with `!` are never inherited. What procedures of the
+    library (`library`) call their own is hidden from those of the script that they call.
     """
 
-    __slots__ = ("caller", "depth", "object", "pending", "procedure", "results", "variables")
+    __slots__ = (
+        "caller", "depth", "object", "outer", "pending", "procedure", "results", "script",
+        "variables",
+    )  # fmt: skip
 
     def __init__(
-        self, caller: "Frame | None" = None, procedure: str = "", pending: Unread | None = None
+        self,
+        caller: "Frame | None" = None,
+        procedure: str = "",
+        pending: Unread | None = None,
+        library: bool = False,
     ) -> None:
         self.variables: dict[str, Any] = {}
         self.caller = caller
+        self.script: Frame = caller.script if library and caller is not None else self
+        self.outer = caller if library or caller is None else caller.script
         self.procedure = procedure
         self.pending = pending  # operands of the caller not read yet (ARGU)
         self.results: list[Any] = []  # RESP
@@ -58,7 +68,7 @@ class Frame:
                 return value
             if name[:1] == "!":
                 return None
-            frame = frame.caller
+            frame = frame.outer
         return None
 
     def assign(self, name: str, value: Any) -> None:
@@ -80,7 +90,7 @@ class Frame:
         frame: Frame | None = self
         while frame is not None:
             found = {**frame.variables, **found}
-            frame = frame.caller
+            frame = frame.outer
         return {name for name, value in found.items() if type(value) not in _UNREADABLE}
 
     def named(self) -> dict[str, Any]:

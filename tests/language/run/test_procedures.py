@@ -67,5 +67,10 @@ def test_frames_over_frames():
     root.forget("Z", hiding=False)
     assert root.find("GONE") is None
     assert root.names() == {"A", "!OWN"}
+    own = Frame(Frame(Frame(root, "OF_LIBRARY", library=True), "AGAIN", library=True), "GIVEN")
+    own.caller.assign("A", 7)
+    own.caller.caller.assign("A", 8)
+    assert (own.depth, own.find("A"), own.caller.find("A")) == (3, 2, 7)
+    assert Frame(own, "LATER", library=True).find("A") == 2
     assert middle.results == []
     assert middle.results is not inner.results
