@@ -4,7 +4,7 @@ from typing import Any, Protocol
 
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.text.source import Span
-from ssilang.language.values import ANNULE, Mot, Objet
+from ssilang.language.values import ANNULE, Mot, Objet, Procedure
 
 PREDEFINED: dict[str, Any] = {
     "VRAI": True,
@@ -34,7 +34,8 @@ class Frame:
 
     Scope is dynamic: a procedure sees the caller's names as they are when it is called; what it
     assigns stays its own. Names that begin with `!` are never inherited. What procedures of the
-    library (`library`) call their own is hidden from those of the script that they call.
+    library (`library`) call their own is hidden from those of the script that they call, and of
+    the script's names they read its procedures alone: other names are words and operators there.
     """
 
     __slots__ = (
@@ -61,15 +62,14 @@ class Frame:
 
     def find(self, name: str) -> Any:
         """Value of a name, None if it was never assigned."""
-        frame: Frame | None = self
-        while frame is not None:
-            value = frame.variables.get(name, _MISSING)
-            if value is not _MISSING:
-                return value
-            if name[:1] == "!":
-                return None
-            frame = frame.outer
-        return None
+        value = self.variables.get(name, _MISSING)
+        if value is not _MISSING:
+            return value
+        if self.outer is None or name[:1] == "!":
+            return None
+        value = self.outer.find(name)
+        hidden = self.outer is self.script and not isinstance(value, Procedure)
+        return PREDEFINED.get(name) if hidden else value
 
     def assign(self, name: str, value: Any) -> None:
         """Bind a name here."""
@@ -85,14 +85,14 @@ class Frame:
             self.variables[name] = ANNULE
 
     def names(self) -> set[str]:
-        """All visible names of what exists."""
+        """All names of what exists, here and at those who call."""
+        return set(self.named())
+
+    def named(self) -> dict[str, Any]:
+        """What these names stand for, in their order."""
         found: dict[str, Any] = {}
         frame: Frame | None = self
         while frame is not None:
             found = {**frame.variables, **found}
             frame = frame.outer
-        return {name for name, value in found.items() if type(value) not in _UNREADABLE}
-
-    def named(self) -> dict[str, Any]:
-        """What visible names stand for, in their order."""
-        return {name: self.find(name) for name in sorted(self.names())}
+        return {n: found[n] for n in sorted(found) if type(found[n]) not in _UNREADABLE}
