@@ -40,12 +40,11 @@ def call_procedure(evaluator: Runner, procedure: Procedure, call: Call) -> list[
     """
     session = call.session
     caller = session.frame
-    limit = session.limits.recursion
-    if caller.depth >= limit:
-        raise SsiError("recursion", call.span, limit=limit)
+    if caller.depth >= session.limits.recursion:
+        raise SsiError("recursion", call.span, limit=session.limits.recursion)
     call.name = procedure.name
     call.used = []
-    frame = Frame(caller, procedure.name, call)
+    frame = Frame(caller, procedure.name, call, procedure.origin == "stdlib")
     for parameter in procedure.definition.parameters:
         frame.assign(parameter.name, _argument(parameter, call, procedure))
     if procedure.origin == "stdlib":
@@ -79,9 +78,8 @@ def call_procedure(evaluator: Runner, procedure: Procedure, call: Call) -> list[
 
 
 def _argument(parameter: Parameter, call: Call, procedure: Procedure) -> Any:
-    types = (parameter.type,) if parameter.type else ("*",)
     saved = list(call.operands)
-    operand = call.read(*types)
+    operand = call.read(parameter.type or "*")
     if operand is not None and parameter.subtype:
         value = operand.value
         if not isinstance(value, Table) or value.subtype != parameter.subtype:

@@ -4,7 +4,7 @@ from typing import Any, Protocol
 
 from ssilang.language.run.not_built import NotBuilt
 from ssilang.language.text.source import Span
-from ssilang.language.values import ANNULE, Mot, Objet
+from ssilang.language.values import ANNULE, Mot, Objet, Procedure
 
 PREDEFINED: dict[str, Any] = {
     "VRAI": True,
@@ -33,16 +33,30 @@ class Frame:
     """Variables of a running procedure (or of the script), over those of its caller.
 
     Scope is dynamic: a procedure sees the caller's names as they are when it is called; what it
-    assigns stays its own. Names that begin with `!` are never inherited.
+    assigns stays its own. Names that begin with `!` are never inherited. What procedures of the
+    library (`library`) call their own is hidden from those of the script that they call, and of
+    the script's names they read its procedures alone: other names are words and operators there.
     """
 
-    __slots__ = ("caller", "depth", "object", "pending", "procedure", "results", "variables")
+    __slots__ = (
+        "caller", "depth", "leaves", "library", "object", "outer", "pending", "procedure",
+        "results", "variables",
+    )  # fmt: skip
 
     def __init__(
-        self, caller: "Frame | None" = None, procedure: str = "", pending: Unread | None = None
+        self,
+        caller: "Frame | None" = None,
+        procedure: str = "",
+        pending: Unread | None = None,
+        library: bool = False,
     ) -> None:
         self.variables: dict[str, Any] = {}
         self.caller = caller
+        self.library = library
+        self.outer = caller
+        while not library and self.outer is not None and self.outer.library:
+            self.outer = self.outer.caller
+        self.leaves = library and self.outer is not None and not self.outer.library
         self.procedure = procedure
         self.pending = pending  # operands of the caller not read yet (ARGU)
         self.results: list[Any] = []  # RESP
@@ -52,14 +66,15 @@ class Frame:
     def find(self, name: str) -> Any:
         """Value of a name, None if it was never assigned."""
         frame: Frame | None = self
+        hidden, value = False, None  # hidden: what the script calls so, but for its procedures
         while frame is not None:
             value = frame.variables.get(name, _MISSING)
-            if value is not _MISSING:
-                return value
-            if name[:1] == "!":
-                return None
-            frame = frame.caller
-        return None
+            if value is not _MISSING or name[:1] == "!":
+                break
+            hidden, frame = hidden or frame.leaves, frame.outer
+        if hidden and not isinstance(value, Procedure):
+            return PREDEFINED.get(name)
+        return None if value is _MISSING else value
 
     def assign(self, name: str, value: Any) -> None:
         """Bind a name here."""
@@ -75,14 +90,14 @@ class Frame:
             self.variables[name] = ANNULE
 
     def names(self) -> set[str]:
-        """All visible names of what exists."""
+        """All names of what exists, here and at those who call."""
+        return set(self.named())
+
+    def named(self) -> dict[str, Any]:
+        """What these names stand for, in their order."""
         found: dict[str, Any] = {}
         frame: Frame | None = self
         while frame is not None:
             found = {**frame.variables, **found}
-            frame = frame.caller
-        return {name for name, value in found.items() if type(value) not in _UNREADABLE}
-
-    def named(self) -> dict[str, Any]:
-        """What visible names stand for, in their order."""
-        return {name: self.find(name) for name in sorted(self.names())}
+            frame = frame.outer
+        return {n: found[n] for n in sorted(found) if type(found[n]) not in _UNREADABLE}

@@ -93,7 +93,7 @@ def of_cloud(
     ),
     power: float | None = Key(
         "PID",
-        opt("power", "FLOTTANT", default=1.0, range=POSITIVE),
+        opt("power", "FLOTTANT", default=1.0, range=NOT_NEGATIVE),
         en="weights by powers of the distance",
     ),
     cut: float = Key(

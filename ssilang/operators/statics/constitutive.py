@@ -17,6 +17,7 @@ from ssilang.operators.dispatch import COMP
 from ssilang.operators.matrices.element import joined, present
 from ssilang.operators.prelude import *
 from ssilang.operators.statics.stresses import MODEL, on_zones
+from ssilang.operators.tables.entries import Entries
 
 
 def _stresses_of(zone: Zone, field: CellField) -> FloatArray:
@@ -24,11 +25,14 @@ def _stresses_of(zone: Zone, field: CellField) -> FloatArray:
     return components_of(zone, field, family_of(zone).stress_names(zone))
 
 
+_STRESSES, _HELD, _LEFT = "CONTRAINTES", "VARIABLES INTERNES", "DEFORMATIONS INELASTIQUES"
+
+
 def _named(zone: Zone, answer: Answer, wanted: str) -> CellFieldBlock:
     """Stresses, variables or inelastic strains of an answer as a block."""
-    if wanted == "CONTRAINTES":
+    if wanted == _STRESSES:
         return cell_block(zone, family_of(zone).stress_names(zone), answer.stress)
-    values = answer.variables if wanted == "VARIABLES INTERNES" else answer.inelastic
+    values = answer.variables if wanted == _HELD else answer.inelastic
     return zone.block(dict(values))
 
 
@@ -93,7 +97,7 @@ def comp(call: Call, model: Model, start: CellField, end: CellField) -> CellFiel
     for zone in present(call, model).zones:
         answer = step.answer(zone)
         before = zone_field(zone, step.start)
-        parts = dict(_named(zone, answer, "CONTRAINTES").components) | dict(answer.variables)
+        parts = dict(_named(zone, answer, _STRESSES).components) | dict(answer.variables)
         for name, values in answer.inelastic.items():
             parts[name] = values + before.at(name, "STRESSES", 0.0)
         blocks.append(zone.block(parts))
@@ -109,7 +113,7 @@ _FLOW = (
     _VARIABLES,
     arg("strain", "MCHAML", en="step of strain"),
     _MATERIAL,
-    opt("extra", "TABLE", en="gets SUCCES"),
+    opt("extra", "TABLE", en="duration of the step; gets SUCCES"),
     opt("accuracy", "FLOTTANT", en="accepted: the laws are solved to rounding", range=ANY_NUMBER),
     flag("alone", "NOID", en="accepted, changes nothing"),
     opt("count", "ENTIER", en="accepted, changes nothing", range=ANY_NUMBER),
@@ -127,9 +131,8 @@ def _flow(
     **accepted: Any,
 ) -> tuple[CellField, CellField, CellField]:
     parameters = joined(material)
-    found: dict[str, list[CellFieldBlock]] = {
-        "CONTRAINTES": [], "VARIABLES INTERNES": [], "DEFORMATIONS INELASTIQUES": []
-    }  # fmt: skip
+    duration = None if extra is None else Entries(call, extra, "ECOU").get("DT")
+    found: dict[str, list[CellFieldBlock]] = {t: [] for t in (_STRESSES, _HELD, _LEFT)}
     for zone in present(call, model).zones:
         answer = respond(
             zone,
@@ -137,6 +140,7 @@ def _flow(
             _stresses_of(zone, stress),
             zone_field(zone, variables),
             components_of(zone, strain, family_of(zone).strain_names(zone)),
+            duration,
         )
         for title, blocks in found.items():
             blocks.append(_named(zone, answer, title))

@@ -3,7 +3,7 @@
 import os
 
 from ssilang.language.run import library
-from ssilang.language.run.scopes import Frame
+from ssilang.language.run.scopes import PREDEFINED, Frame
 from ssilang.language.values import ANNULE
 
 
@@ -43,7 +43,7 @@ def test_sessions_share_the_tree_of_a_file_of_the_library_until_it_changes(tmp_p
     assert library.Library(tmp_path).find("DOUBLE").definition is not first.definition
 
 
-def test_frames_over_frames():
+def test_frames_over_frames(tmp_path):
     root = Frame()
     for name, value in {"Z": 1, "A": 2, "!OWN": 3, "GONE": 4}.items():
         root.assign(name, value)
@@ -67,5 +67,16 @@ def test_frames_over_frames():
     root.forget("Z", hiding=False)
     assert root.find("GONE") is None
     assert root.names() == {"A", "!OWN"}
+    own = Frame(Frame(Frame(root, "OF_LIBRARY", library=True), "AGAIN", library=True), "GIVEN")
+    own.caller.assign("A", 7)
+    own.caller.caller.assign("A", 8)
+    assert (own.depth, own.find("A"), own.caller.find("A")) == (3, 2, 7)
+    given = library.Library(tmp_path).find("FZERO")
+    for name, value in {"FUNCTION": given, "PI": 3, "MASS": 4}.items():
+        own.assign(name, value)
+    later = Frame(own, "LATER", library=True)
+    assert [later.find(n) for n in ("A", "MASS", "FUNCTION")] == [None, None, given]
+    assert later.find("PI") == PREDEFINED["PI"]
+    assert later.named()["MASS"] == 4
     assert middle.results == []
     assert middle.results is not inner.results

@@ -6,6 +6,7 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.graph import parts_of
 from ssilang.kernel.base.scientific import spatial
+from ssilang.kernel.mesh.boundary import sharing
 from ssilang.kernel.mesh.changes.split import tetrahedra
 from ssilang.kernel.mesh.combine import take
 from ssilang.kernel.mesh.lines.curves import unit_vector
@@ -28,8 +29,7 @@ def containing(mesh: Mesh, position: FloatArray, every: bool = False) -> Mesh:
     if every or not found.blocks:
         return found
     first = found.blocks[0]
-    one = CellBlock.make(mesh.nodes, first.cell_type, first.connectivity[:1], first.colours[:1])
-    return Mesh(mesh.nodes, (one,))
+    return Mesh.of(mesh.nodes, first.cell_type, first.connectivity[:1], first.colours[:1])
 
 
 def cells_containing(block: CellBlock, position: FloatArray) -> BoolArray:
@@ -220,6 +220,10 @@ def places_once(points: FloatArray, near: float) -> tuple[FloatArray, IntArray]:
     return points[np.unique(part, return_index=True)[1]], part
 
 
+_OPPOSITE = ((1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2))
+"""Corners of the face opposite each corner of a tetrahedron."""
+
+
 def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArray:
     """Which positions (m, 3) lie in the 3D cells of a mesh, quadratic cells with straight sides.
 
@@ -227,22 +231,23 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
     ----------
     margin : float
         Tolerance on barycentric coordinates: positive takes points slightly outside, negative
-        only those strictly inside.
+        leaves those out that are as near to the skin, and none within.
     """
-    xyz = volume.nodes.coordinates
     tables = [tetrahedra(b).connectivity for b in volume.blocks if b.kind.dimension == 3]
     if not tables:
         raise MeshError("kernel.mesh.mesh-volume-cells-needed")
-    corners = xyz[np.concatenate(tables)]
+    cells = np.concatenate(tables)
+    outer = sharing(cells[:, _OPPOSITE].reshape(-1, 3))[0].reshape(-1, 4) == 1
+    corners = volume.nodes.coordinates[cells]
     centres = corners.mean(axis=1)
     reach = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1) * (1 + abs(margin) * 4)
     inverse = np.linalg.inv(np.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2))
-    inside = np.zeros(len(positions), dtype=bool)
+    inside, near = np.zeros((2, len(positions)), dtype=bool)
     tree = spatial.cKDTree(positions)
     for k, rows in enumerate(tree.query_ball_point(centres, reach)):
-        todo = np.array([r for r in rows if not inside[r]], dtype=np.int64)
-        if len(todo):
-            weights = (positions[todo] - corners[k, 0]) @ inverse[k].T
-            good = (weights >= -margin).all(axis=1) & (weights.sum(axis=1) <= 1 + margin)
-            inside[todo[good]] = True
-    return inside
+        weights = (positions[rows] - corners[k, 0]) @ inverse[k].T
+        weights = np.column_stack([1.0 - weights.sum(axis=1), weights])
+        good = (weights >= -(margin if margin >= 0.0 else 1e-9)).all(axis=1)
+        inside[rows] |= good
+        near[rows] |= good & (weights[:, outer[k]] < -margin).any(axis=1)
+    return inside & ~near

@@ -44,8 +44,9 @@ def incl(
     allowed: bool = Flag("NOID", en="the result may be empty"),
     margin: float | None = Opt(
         "FLOTTANT",
-        range=NOT_NEGATIVE,
-        en="with 'VOLU' how far outside still counts, 1E-2 by default",
+        range=ANY_NUMBER,
+        en="with 'VOLU' how far outside still counts, 1E-2 by default; below zero how near to the "
+        "skin does not",
     ),
 ) -> Mesh:
     """Cells inside a contour (or the contour of a surface), or inside a volume."""

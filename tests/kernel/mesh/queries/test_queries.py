@@ -421,6 +421,11 @@ def test_points_in_volumes_and_before_their_skins(cut):
     face = np.array([[0.3, 0.4, 1.0], [2.0, 0.2, 0.6]]) @ A.T
     assert select.inside_volume(face, mesh, 1e-9).all()
     assert not select.inside_volume(face, mesh, -1e-9).any()
+    walls = np.array([[1.0, 0.5, 0.5], [1.0, 0.3, 0.7], [0.5, 0.5, 0.5]]) @ A.T  # between cells
+    assert select.inside_volume(walls, mesh, -0.1).all()
+    low, high = np.array([[[0.05], [0.15]], [[1.95], [1.85]]]) * [1.0, 0.0, 0.0] + [0.0, 0.5, 0.5]
+    kept = select.inside_volume(np.concatenate([low, high]) @ A.T, mesh, -0.1)
+    assert kept.tolist() == [False, True] * 2
     skin = boundary.envelope(mesh)
     found = signed_distance(p, skin, 3)
     inward = np.linalg.inv(A)  # rows: normals of the faces of the slanted box
