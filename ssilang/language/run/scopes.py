@@ -66,15 +66,18 @@ class Frame:
     def find(self, name: str) -> Any:
         """Value of a name, None if it was never assigned."""
         frame: Frame | None = self
-        hidden, value = False, None  # hidden: what the script calls so, but for its procedures
+        hidden = False  # what the script calls so, but for its procedures
         while frame is not None:
             value = frame.variables.get(name, _MISSING)
-            if value is not _MISSING or name[:1] == "!":
-                break
-            hidden, frame = hidden or frame.leaves, frame.outer
-        if hidden and not isinstance(value, Procedure):
-            return PREDEFINED.get(name)
-        return None if value is _MISSING else value
+            if value is not _MISSING:
+                shown = not hidden or isinstance(value, Procedure)
+                return value if shown else PREDEFINED.get(name)
+            if name[:1] == "!":
+                return None
+            if frame.leaves:
+                hidden = True
+            frame = frame.outer
+        return PREDEFINED.get(name) if hidden else None
 
     def assign(self, name: str, value: Any) -> None:
         """Bind a name here."""
