@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import script_runs
 
 DAMPING, CUBIC, LOAD = 0.1, 0.25, 0.5
 DUFFING = f"""
@@ -40,10 +41,16 @@ def reals(table, *path):
 # --- HBM and CONTINU -------------------------------------------------------------------------
 
 
-def test_one_harmonic_by_hbm_and_continu_is_duffings_closed_form(found):
+@pytest.fixture(scope="module")
+def one_harmonic(tmp_path_factory):
+    """The table of the oscillator with one harmonic, all frequencies in one call."""
     none = "DEBP SANS T1*TABLE X1/TABLE ; T1 . 9 = X1 ; FINP ; SANS (T . 'RESULTATS') ; "
     text = DUFFING + none + "CONTINU T ; HBM_POST T (MOTS 'MAXI' 'TEMP' 'VITE') ;"
-    T = found("NH = 1 ; " + text, "T")
+    return script_runs.found("NH = 1 ; " + text, "T", folder=tmp_path_factory.mktemp("harmonic"))
+
+
+def test_one_harmonic_by_hbm_and_continu_is_duffings_closed_form(one_harmonic):
+    T = one_harmonic
     w = reals(T, "TEMPS_PROG")
     mean, cosine, sine = (reals(T, "RESULTATS_HBM", j, "RESULTATS") for j in (1, 2, 3))
     A = np.hypot(cosine, sine)
@@ -84,7 +91,7 @@ def test_stability_changes_at_both_limit_points_of_a_converged_series(found):
     assert set(negative[between] % 2) != set(negative[: turns[0]] % 2)
 
 
-def test_a_further_call_goes_on_from_the_last_solution(found):
+def test_a_further_call_goes_on_from_the_last_solution(found, one_harmonic):
     """Its first steps with forces as fields, the others with lists."""
     fields = """DEBP CHARMECA T1*TABLE ; F1 = SUIT ; K1 = PROG ; REPE B (DIME (T1 . 'DEP_NL')) ;
     X1 = EXTR (EXTR (T1 . 'DEP_NL') &B) 'UY' P1 ; K1 = K1 ET (3. * 0.25 * X1 * X1) ;
@@ -94,7 +101,6 @@ def test_a_further_call_goes_on_from_the_last_solution(found):
     text = "NH = 1 ; " + DUFFING + fields + "T . 'MAXIPAS' = 2 ; CONTINU T ; "
     text += "N1 = DIME (T . 'TEMPS_PROG') ; " + DUFFING[: DUFFING.index("OPTI")]
     text += "T . 'CALC_CHPO' = FAUX ; T . 'MAXIPAS' = 500 ; CONTINU T ; "
-    once = found("NH = 1 ; " + DUFFING + "CONTINU T ;", "T")
     n1, T = found(text, "N1", "T")
     w = reals(T, "TEMPS_PROG")
     assert n1 == 3
@@ -104,7 +110,7 @@ def test_a_further_call_goes_on_from_the_last_solution(found):
     np.testing.assert_allclose(left, LOAD**2, rtol=1e-7)
     assert len(reals(T, "RESULTATS_STABILITE", "FLOQ", "STABILITE")) == len(w) - 1
     assert (w[n1:] > w[n1 - 1])[:5].all()
-    whole = reals(once, "TEMPS_PROG")
+    whole = reals(one_harmonic, "TEMPS_PROG")
     np.testing.assert_allclose(w[:n1], whole[:n1], rtol=1e-9)
     assert w.max() == pytest.approx(whole.max(), abs=0.06)
 

@@ -201,23 +201,23 @@ CURVES = {
 }
 
 
-@pytest.mark.parametrize("name", CURVES)
-@pytest.mark.parametrize("table", ["R1", "R2"])
-def test_curves_in_time_read_rows_without_making_fields(name, table, monkeypatch):
-    asked, value = CURVES[name]
-    made = []
-    given = NodeHistories.node_field
+def test_curves_in_time_read_rows_without_making_fields(monkeypatch):
+    made, given = [], NodeHistories.node_field
     monkeypatch.setattr(
         NodeHistories, "node_field", lambda s, row, name: made.append(row) or given(s, row, name)
     )
-    find = finder(BLOCK.format(step="") + f"E = EVOL 'TEMP' {table} {asked} ;")
+    asked = [(table, name) for table in ("R1", "R2") for name in CURVES]
+    curves = (f"E{i} = EVOL 'TEMP' {t} {CURVES[name][0]} ; " for i, (t, name) in enumerate(asked))
+    find = finder(BLOCK.format(step="") + "".join(curves))
     assert set(made) <= {0}  # the first says what components there are
-    curve, steps = find("E").parts[0], find(table)
-    rows = [steps.get(i) for i in range(1, 36)]
-    assert np.array_equal(curve.abscissas, [row.get("TEMP") for row in rows])
-    exact = np.array([float(value(row, find)[0]) for row in rows])
-    assert np.abs(exact).max() > 0.0
-    assert np.abs(curve.ordinates - exact).max() <= 1e-12 * np.abs(exact).max()
+    for i, (table, name) in enumerate(asked):
+        curve, value = find(f"E{i}").parts[0], CURVES[name][1]
+        rows = [find(table).get(k) for k in range(1, 36)]
+        assert np.array_equal(curve.abscissas, [row.get("TEMP") for row in rows]), (table, name)
+        exact = np.array([float(value(row, find)[0]) for row in rows])
+        assert np.abs(exact).max() > 0.0, (table, name)
+        difference = np.abs(curve.ordinates - exact).max()
+        assert difference <= 1e-12 * np.abs(exact).max(), (table, name)
 
 
 def test_curves_follow_what_a_script_put_into_the_table():

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from references.recorder import Recorder
+from references.recorder import Recorder, recorded
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
-from ssilang.kernel.stepping.run import integrate
 
 
 def relative(found, exact):
@@ -12,18 +11,17 @@ def relative(found, exact):
     return float(np.abs(found - exact).max() / np.abs(exact).max())
 
 
-def both(problem, tolerance):
-    """Recorders and histories of the two."""
-    whole, reduced = Recorder(len(problem.times)), Recorder(len(problem.times))
-    exact = integrate(problem, [whole])
+def both(problem, tolerance, known=None):
+    """Recorders and histories of the two; those of the whole problem may be `known`."""
+    (whole, exact), reduced = known or recorded(problem), Recorder(len(problem.times))
     history = integrate_reduced(problem, tolerance, [reduced])
     assert reduced.closed
     return whole, exact, reduced, history
 
 
-def check(problem, tolerance, energy=10.0):
+def check(problem, tolerance, energy=10.0, known=None):
     """Recorders of the two; the reduced one is small, and as good as it says and was asked for."""
-    whole, exact, reduced, history = both(problem, tolerance)
+    whole, exact, reduced, history = both(problem, tolerance, known)
     found = history.reduction
     assert found.refused is None
     assert history.loop == "reduced"

@@ -63,21 +63,20 @@ class Footing:
             for name in self.names:
                 bench.spring(1.0, node, unknown=name)
         self.problem = bench.problem(np.array([0.0, 1.0]))
+        places = [self.problem.numbering.index_of(self.base, name) for name in self.names]
         self.joints = self.problem.interface
         self.state = self.joints.initial_state()
-
-    def places(self):
-        n = self.problem.numbering
-        return np.array([n.index_of(self.base, name) for name in self.names])
+        self.J = self.joints.J.toarray()[:, places]
+        """Jumps by motions of the base, in the order of its names."""
+        self.springs = self.problem.K.toarray()[np.ix_(places, places)] - np.eye(len(places))
+        """Stiffness of the linear springs that stand beside the interface, on the base."""
 
     def tried(self, motion):
         """Tractions, states and tangents at motions of the base, in the order of its names."""
         x = self.joints
-        u = np.zeros(self.problem.numbering.size)
-        u[self.places()] = motion
         w, t = np.zeros((x.n_points, x.dimension)), np.zeros((x.n_points, x.dimension))
         new, D = np.zeros((x.n_points, N_STATE)), np.zeros((x.n_points, x.dimension, x.dimension))
-        local_jumps(x.points, x.J @ u, w)
+        local_jumps(x.points, self.J @ motion, w)
         respond(x.codes, w, self.state, x.points.p, t, new, D)
         return w, t, new, D
 
@@ -85,18 +84,12 @@ class Footing:
         """Forces of the interface on the base, in the order of its names."""
         f = np.zeros(self.joints.size)
         interface_forces(self.joints.points, t, f)
-        return (self.joints.J.T @ f)[self.places()]
+        return self.J.T @ f
 
     def whole(self, motion):
         """Forces with those of the linear springs that stand beside the interface."""
         w, t, new, _ = self.tried(motion)
-        return self.force(t) + self.springs() @ motion, (w, t, new)
-
-    def springs(self):
-        """Stiffness of those linear springs, on the base."""
-        K = self.problem.K.toarray() - np.eye(self.problem.numbering.size)
-        at = self.places()
-        return K[np.ix_(at, at)]
+        return self.force(t) + self.springs @ motion, (w, t, new)
 
     def move(self, motion):
         found, (_, _, self.state) = self.whole(np.asarray(motion, float))
@@ -106,8 +99,7 @@ class Footing:
         _, _, _, D = self.tried(motion)
         K = np.zeros((self.joints.size, self.joints.size))
         interface_stiffness(self.joints.points, D, K)
-        at = self.places()
-        return (self.joints.J.T @ K @ self.joints.J)[np.ix_(at, at)]
+        return self.J.T @ K @ self.J
 
 
 def made(name, **given):
@@ -252,7 +244,7 @@ def test_paths_lose_energy_and_balance(name, path):
             done, at = 0.5 * (before + behind), ends.pop()
             footing.state, lost, f, work, moved = new, gone, after, work + done, moved + abs(done)
         now = now + way
-    springs = 0.5 * now @ footing.springs() @ now
+    springs = 0.5 * now @ footing.springs @ now
     assert stored + lost + springs == pytest.approx(work, abs=5e-3 * moved + 1e-9)
 
 

@@ -58,7 +58,7 @@ def peer(f: float, law: str, hardening: float, limit: float) -> float:
             growth = hardening * k * abs(v) if flows else 0.0
         return [v, load - 2 * 0.05 * w * v - total, k * rate * v, growth]
 
-    run = solve_ivp(slope, (0.0, TIMES[-1] + 1 / f), [0.0] * 4, max_step=5e-4, rtol=1e-6)
+    run = solve_ivp(slope, (0.0, TIMES[-1] + 1 / f), [0.0] * 4, max_step=2e-3, rtol=1e-6)
     return float(np.abs(run.y[0]).max())
 
 

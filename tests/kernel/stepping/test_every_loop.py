@@ -131,9 +131,8 @@ def joint_forces(interface, t):
     """Forces on the jumps at the joints' nodes."""
     d = interface.dimension
     force = np.zeros((interface.J.shape[0] // d, d))
-    for p, pairs in enumerate(interface.pairs):
-        for k, pair in enumerate(pairs):
-            force[pair] += interface.weights[p] * interface.B[p][:, k * d : (k + 1) * d].T @ t[p]
+    parts = np.einsum("p,pij,pi->pj", interface.weights, interface.B, t)
+    np.add.at(force, interface.pairs, parts.reshape(*interface.pairs.shape, d))
     return force.ravel()
 
 
@@ -163,7 +162,7 @@ def check_steps(problem, times, energies, instants, static=False, follows=None):
     G = p.contact.G.toarray()
     if static:
         M, C = 0.0 * M, 0.0 * C
-    free = la.null_space(rows)
+    free, by_rows = la.null_space(rows), la.pinv(rows.T)
     factors = np.stack([np.interp(times, x, y) for x, y in p.loading.curves], axis=1)
     F, imposed = factors @ p.loading.forces.T, factors @ p.loading.imposed.T
     if follows:
@@ -214,7 +213,7 @@ def check_steps(problem, times, energies, instants, static=False, follows=None):
             near(step[DAMPED], 0.5 * du @ C @ (now.v + before.v), energy)
             pushed = now.contact + before.contact
             held = now.reaction + before.reaction - G.T @ pushed
-            supports = 0.5 * (rows @ du) @ la.lstsq(rows.T, held)[0]
+            supports = 0.5 * (rows @ du) @ by_rows @ held
             if len(G):
                 supports += 0.5 * pushed @ p.contact.imposed @ (factors[k] - factors[k - 1])
             if not static or k > 1:  # what is out of balance at first grows from nothing
@@ -286,10 +285,11 @@ def following_bulk(problem, force, length, hard=2e3, late=5.0):
     """Bodies whose loads (n,) neighbours turn and time changes, and these loads."""
     n = problem.numbering.size
     own = np.random.default_rng(1).uniform(1.0, 2.0, n) * hard * force / length
+    neighbour = np.arange(n) - 1
 
     def follows(time, u):
         x = u / (1e-3 * length)
-        return -own * u * (x + 2.0 * np.roll(x, 1)) ** 2 * (1.0 + late * time)
+        return -own * u * (x + 2.0 * x[neighbour]) ** 2 * (1.0 + late * time)
 
     law, shifts = (lambda t, u: Added(follows(t, u))), np.full(n, 1e-7 * length)
     return loaded_bulk(Bulk((), (), n), law, shifts, 1e-7, None, ""), follows

@@ -67,12 +67,12 @@ CASES = {
     "modes": ("modes", lambda: longer(masses(3, shear=1e5), 200)),
     "modes, two lengths": ("modes", lambda: longer(masses(3, shear=1e5), 200, 2)),
     "modes of a block": ("modes", lambda: soil_block(90, size=(6, 3, 4))),
-    "dashpots, six lengths": ("modes", lambda: longer(masses(3, dashpot=True), 200, 6)),
+    "dashpots, six lengths": ("modes", lambda: longer(masses(3, dashpot=True), 90, 6)),
     "conserving": ("conserving", lambda: longer(masses(3, scheme=Scheme(conserving=True)), 90)),
     "conserving relations": ("conserving", lambda: feet(scheme=Scheme(conserving=True))),
     "conserving penalty": ("conserving", lambda: feet(PENALTY, Scheme(conserving=True))),
     "adaptive": ("adaptive", lambda: longer(masses(3, scheme=Scheme(adaptive=True)), 60)),
-    "adaptive relations": ("adaptive", lambda: feet(scheme=Scheme(adaptive=True))),
+    "adaptive relations": ("adaptive", lambda: feet(scheme=Scheme(adaptive=True), steps=80)),
     "full Newton": ("full Newton", lambda: longer(masses(3), 60)),
     "full Newton on relations": ("full Newton", lambda: feet(steps=60)),
     "adaptive, zones of all laws": (
@@ -90,7 +90,7 @@ CASES = {
     "relations": ("condensed", lambda: feet(damping="dashpots", moving=True)),
     "condensed": ("condensed", lambda: soil_block(steps=60, size=(16, 8, 4))),
     "multigrid": (
-        "multigrid", lambda: replace(soil_block(60, size=(16, 8, 4)), solver=Solver("multigrid"))
+        "multigrid", lambda: replace(soil_block(45, size=(16, 8, 4)), solver=Solver("multigrid"))
     ),
     "dissection": ("dissection", lambda: soil_block(steps=140, size=(16, 8, 4))),
     "dissection, moving": ("dissection", lambda: soil_block(90, size=(16, 8, 4), moving=True)),

@@ -86,6 +86,27 @@ def file(tmp_path):
     return MemoryFile(tmp_path / "ground.npz")
 
 
+@pytest.fixture(scope="module")
+def memories():
+    """Memories that runs have made, to 1e-4, by their steps: in the process, and as a file."""
+    return {}
+
+
+@pytest.fixture
+def made(file, memories):
+    """The file that a run of so many steps has made; the process has its memory, too."""
+
+    def of(steps=STEPS):
+        if steps not in memories:
+            integrate_reduced(record(steps=steps), 1e-4, [], shelf=file)
+            memories[steps] = run._KEPT.copy(), file.path.read_bytes()
+        run._KEPT[:], content = memories[steps]
+        file.path.write_bytes(content)
+        return file
+
+    return of
+
+
 @pytest.mark.parametrize(
     ("scheme", "given"),
     [
@@ -172,16 +193,22 @@ def _sums(kernels, steps):
     return found
 
 
-@pytest.mark.parametrize("probes", [4, 64])
-def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, probes):
-    """Against columns of the identity; something is left out of sums, and no more than said."""
-    monkeypatch.setattr(kernels, "PROBES", probes)
+@pytest.fixture(scope="module")
+def wide_ground():
+    """The ground of a wide block, and how far impulses on each joint have moved the jumps."""
     problem = record(**WIDE)
     ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
-    made = kernels.kernels_of(ground, 1e-2, STEPS, as_they_come)
     forces = np.ascontiguousarray(ground.steps.J.T.todense())
     moved = kernels.increments(ground.steps, kernels.impulse(forces, STEPS))
-    exact = np.cumsum(np.array(list(moved), float), axis=0)
+    return ground, np.cumsum(np.array(list(moved), float), axis=0)
+
+
+@pytest.mark.parametrize("probes", [4, 64])
+def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, wide_ground, probes):
+    """Against columns of the identity; something is left out of sums, and no more than said."""
+    monkeypatch.setattr(kernels, "PROBES", probes)
+    ground, exact = wide_ground
+    made = kernels.kernels_of(ground, 1e-2, STEPS, as_they_come)
     assert len(made.stages) > 1
     assert made.stages[0].P.shape[1] < made.size
     left = np.linalg.norm(_sums(made, STEPS) - exact, 2, axis=(1, 2))
@@ -190,7 +217,7 @@ def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, probes):
     assert 1e-4 * size < left.max() < 1e-2 * size
 
 
-def test_a_making_that_is_broken_off_goes_on(monkeypatch):
+def test_a_making_that_is_broken_off_goes_on(monkeypatch, wide_ground):
     """Piece by piece, to the same numbers; of another step or tolerance nothing is taken over."""
     monkeypatch.setattr(kernels, "PROBES", 4)
     monkeypatch.setattr(kernels, "COLUMNS", 3)
@@ -209,13 +236,11 @@ def test_a_making_that_is_broken_off_goes_on(monkeypatch):
         made.clear()
         problem = record(**WIDE | given)
         ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
-        if not most:
-            return kernels.kernels_of(ground, tolerance, 60, as_they_come)
         return kernels.kernels_of(
             ground, tolerance, 60, lambda *asked: answered(*asked, most=most)
         )  # fmt: skip
 
-    exact = until(0)
+    exact = kernels.kernels_of(wide_ground[0], 1e-2, 60, as_they_come)
     with pytest.raises(KeyboardInterrupt):
         until(3)
     first = len(made)
@@ -235,12 +260,10 @@ def test_a_making_that_is_broken_off_goes_on(monkeypatch):
     assert made
 
 
-def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch):
+def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch, wide_ground):
     """What an impulse has moved for good stays."""
     monkeypatch.setattr(kernels, "FEW", 0.0)
-    problem = record(**WIDE)
-    ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
-    made = kernels.kernels_of(ground, 1e-2, 20, as_they_come)
+    made = kernels.kernels_of(wide_ground[0], 1e-2, 20, as_they_come)
     assert (made.stages, len(made.whole)) == ((), 21)
     assert made.whole[:20].any(axis=(1, 2)).all()
     assert not made.whole[20].any()
@@ -314,9 +337,9 @@ def test_a_memory_that_misses_the_tolerance_is_made_finer_or_told(file, monkeypa
 
 
 @pytest.mark.parametrize(("steps", "again"), [(60, False), (120, True), (150, True), (400, True)])
-def test_a_memory_serves_shorter_motions_and_grows_for_longer_ones(file, steps, again):
+def test_a_memory_serves_shorter_motions_and_grows_for_longer_ones(made, steps, again):
     """Of a ground that is as little at rest at the end as this one's; else any length goes."""
-    integrate_reduced(record(steps=100), 1e-4, [], shelf=file)
+    file = made(100)
     before = file.path.read_bytes()
     whole, found, _, history = beside_the_whole(record(2, steps=steps), 1e-4, file)
     assert history.loop == "memory"
@@ -324,8 +347,8 @@ def test_a_memory_serves_shorter_motions_and_grows_for_longer_ones(file, steps, 
     assert (file.path.read_bytes() != before) == again
 
 
-def test_other_loads_on_the_ground_are_answered_anew(file):
-    integrate_reduced(record(), 1e-4, [], shelf=file)
+def test_other_loads_on_the_ground_are_answered_anew(made):
+    file = made()
     problem = record(2)
     turned = problem.loading.forces.copy()
     turned[:, 1] = np.roll(turned[:, 1], 2)
@@ -353,8 +376,8 @@ def test_a_ground_that_no_load_acts_on_answers_none():
         ({"dt": 4e-3}, "for the step 0.005, not 0.004"),
     ],
 )
-def test_the_memory_of_another_ground_or_step_is_refused(file, given, told):
-    integrate_reduced(record(), 1e-4, [], shelf=file)
+def test_the_memory_of_another_ground_or_step_is_refused(made, given, told):
+    file = made()
     before = file.path.read_bytes()
     for kept in ([], run._KEPT.copy()):
         run._KEPT[:] = kept
