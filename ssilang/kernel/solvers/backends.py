@@ -220,8 +220,7 @@ def factorise(
     if key not in _kept:
         _kept[key] = make()
     _kept.move_to_end(key)
-    while len(_kept) > _keeping:
-        _kept.popitem(last=False)
+    keep_factors(_keeping)
     return _kept[key]
 
 

@@ -40,14 +40,15 @@ def call_procedure(evaluator: Runner, procedure: Procedure, call: Call) -> list[
     """
     session = call.session
     caller = session.frame
-    if caller.depth >= session.limits.recursion:
-        raise SsiError("recursion", call.span, limit=session.limits.recursion)
+    limit = session.limits.recursion
+    if caller.depth >= limit:
+        raise SsiError("recursion", call.span, limit=limit)
     call.name = procedure.name
     call.used = []
     frame = Frame(caller, procedure.name, call, procedure.origin == "stdlib")
     for parameter in procedure.definition.parameters:
         frame.assign(parameter.name, _argument(parameter, call, procedure))
-    if procedure.origin == "stdlib":
+    if frame.library:
         check_tables(session, procedure.name, frame, call.span)
     if isinstance(procedure, BoundMethod):
         frame.object = procedure.target

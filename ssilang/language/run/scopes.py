@@ -74,8 +74,7 @@ class Frame:
                 return value if shown else PREDEFINED.get(name)
             if name[:1] == "!":
                 return None
-            if frame.leaves:
-                hidden = True
+            hidden = hidden or frame.leaves
             frame = frame.outer
         return PREDEFINED.get(name) if hidden else None
 

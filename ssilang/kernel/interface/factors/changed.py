@@ -74,13 +74,11 @@ def _changed_forces(
     joints: Joints, c: float, change: FloatArray, changed: Changed, inverse: Inverse,
     g: FloatArray, v: FloatArray,
 ) -> None:  # fmt: skip
-    """v += dK Y v of the changed jumps; g is room."""
+    """v += dK Y v of the changed jumps; g is room, zero on the others."""
     n = len(v)
     C, x, y = changed.own[: n * n].reshape((n, n)), inverse.x[:n], np.zeros(n)
     copy_state(v, x)
     add_product(1.0, C, x, y)
-    for i in range(len(g)):
-        g[i] = 0.0
     forces = np.zeros(len(g))
     for a in range(n):
         g[changed.jumps[a]] = y[a]

@@ -237,17 +237,22 @@ def inside_volume(positions: FloatArray, volume: Mesh, margin: float) -> BoolArr
     if not tables:
         raise MeshError("kernel.mesh.mesh-volume-cells-needed")
     cells = np.concatenate(tables)
-    outer = sharing(cells[:, _OPPOSITE].reshape(-1, 3))[0].reshape(-1, 4) == 1
     corners = volume.nodes.coordinates[cells]
     centres = corners.mean(axis=1)
     reach = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1) * (1 + abs(margin) * 4)
     inverse = np.linalg.inv(np.swapaxes(corners[:, 1:] - corners[:, :1], 1, 2))
     inside, near = np.zeros((2, len(positions)), dtype=bool)
+    outer, slack = None, margin
+    if margin < 0.0:  # a point may be near the skin in any of the cells that it is in
+        outer, slack = sharing(cells[:, _OPPOSITE].reshape(-1, 3))[0].reshape(-1, 4) == 1, 1e-9
     tree = spatial.cKDTree(positions)
     for k, rows in enumerate(tree.query_ball_point(centres, reach)):
-        weights = (positions[rows] - corners[k, 0]) @ inverse[k].T
-        weights = np.column_stack([1.0 - weights.sum(axis=1), weights])
-        good = (weights >= -(margin if margin >= 0.0 else 1e-9)).all(axis=1)
-        inside[rows] |= good
-        near[rows] |= good & (weights[:, outer[k]] < -margin).any(axis=1)
+        todo = np.array([r for r in rows if outer is not None or not inside[r]], dtype=np.int64)
+        if len(todo):
+            weights = (positions[todo] - corners[k, 0]) @ inverse[k].T
+            weights = np.column_stack([1.0 - weights.sum(axis=1), weights])
+            good = (weights >= -slack).all(axis=1)
+            inside[todo[good]] = True
+            if outer is not None:
+                near[todo] |= good & (weights[:, outer[k]] < -margin).any(axis=1)
     return inside & ~near

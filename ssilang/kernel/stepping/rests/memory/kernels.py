@@ -140,7 +140,7 @@ def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kern
     tolerance : float
         Norm of what is left out of kernels, of that of the first one.
     kept : callable
-        Has what the ground answers, a piece after the other.
+        Hands on the rows of each piece of the ground's answers, or those that were left.
 
     Raises
     ------
@@ -183,11 +183,7 @@ def _probes(q: int) -> FloatArray:
 
 
 def _first_answers(
-    ground: GroundSteps,
-    probes: FloatArray,
-    tolerance: float,
-    steps: int,
-    kept: Kept,
+    ground: GroundSteps, probes: FloatArray, tolerance: float, steps: int, kept: Kept
 ) -> tuple[FloatArray, FloatArray, int]:
     """Answers to probes (q, c) and to the loads, beside each other, and the steps described."""
     forces = np.hstack([ground.J.T @ probes, ground.forces])
@@ -270,7 +266,7 @@ def _until_quiet(
     """A name that says of what the increments of a piece are, their shape, and these."""
     said = hashlib.blake2b(str(steps).encode(), digest_size=8)
     for part in (ground.mark, np.array(ground.newmark), forces, tolerance):
-        said.update(part.tobytes())
+        said.update(part.data)
 
     def rows() -> Iterator[FloatArray]:
         largest, quiet = np.zeros(forces.shape[1]), 0
@@ -289,7 +285,6 @@ def loads_of(
     ground: Ground, tolerance: float, steps: int, kept: Kept
 ) -> tuple[FloatArray, FloatArray, int]:
     """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
-    own = ground.steps
-    none = np.zeros((own.J.shape[0], 0), SINGLE)
-    _, loads, reach = _first_answers(own, none, tolerance, steps, kept)
+    none = np.zeros((ground.J.shape[0], 0), SINGLE)
+    _, loads, reach = _first_answers(ground.steps, none, tolerance, steps, kept)
     return loads, ground.loads_mark, reach
