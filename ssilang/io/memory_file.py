@@ -59,13 +59,16 @@ class MemoryFile:
                     Stage(int(first), given.pop(f"P{i}"), given.pop(f"sums{i}"))
                     for i, first in enumerate(given.pop("firsts").tolist())
                 )
+                if others := {f.name for f in fields(Kernels)} ^ {"stages", *given}:
+                    raise ValueError(", ".join(sorted(others)))
                 for name, kind in _NUMBERS.items():
                     given[name] = kind(given[name][()])
                 kernels = Kernels(**given, stages=stages)
                 _check(kernels)
                 return kernels
         except DAMAGES as error:
-            raise InputError("io.damaged", name=self.name, error=str(error)) from error
+            code = "io.memory-damaged"
+            raise InputError(code, name=self.name, error=str(error)) from error
 
     @contextmanager
     def held(self) -> Iterator[None]:
@@ -118,14 +121,14 @@ def _part(path: Path, shape: tuple[int, int]) -> FloatArray:
 
 _NUMBERS: dict[str, Callable[[Any], Any]] = {
     "dt": float, "tolerance": float, "estimate": float, "reach": int,
-    "loads_reach": int,
 }  # fmt: skip
 
 
 def _check(k: Kernels) -> None:
     """Refuse arrays of kinds and shapes that no run wrote."""
-    q, loads = int(k.mark[0]), k.loads_mark.size // (TOLD_BY + 1)
-    shapes = [(k.whole, SINGLE, (len(k.whole), q, q)), (k.loads, SINGLE, (len(k.loads), q, loads))]
+    q, loads, r = int(k.mark[0]), k.loads_mark.size // TOLD_BY, k.patterns.shape[-1]
+    shapes = [(k.whole, SINGLE, (len(k.whole), q, q)), (k.loads, SINGLE, (len(k.loads), q, r))]
+    shapes += [(k.patterns, float, (loads, r))]
     shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:
         r = stage.P.shape[-1]

@@ -20,8 +20,8 @@ from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 F = np.float32
 WHOLE, P, SUMS = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
 SOUND = Kernels(
-    np.full(3, 6.0), 5e-3, 1e-2, WHOLE, (Stage(16, P, SUMS),), 0, np.ones((3, 6, 2), F),
-    np.ones(10), 0,
+    np.full(3, 6.0), 5e-3, 1e-2, WHOLE, (Stage(16, P, SUMS),), np.ones((3, 6, 2), F),
+    np.ones((5, 2)), np.ones(20), 0,
 )  # fmt: skip
 
 
@@ -71,6 +71,9 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
         ({"loads": npy(np.full((3, 6, 2), np.nan, F))}, ""),
         ({"loads": npy(np.ones((3, 7, 2), F))}, ""),
         ({"loads": npy(np.ones((3, 6, 1), F))}, ""),
+        ({"patterns": npy(np.ones((4, 2)))}, ""),
+        ({"patterns": npy(np.ones((5, 3)))}, ""),
+        ({"patterns": npy(np.ones((5, 2), F))}, ""),
         ({"mark": npy(np.ones(3))}, ""),
         ({"mark": npy(np.full((3, 1), 6.0))}, ""),
         ({"P0": npy(np.eye(6, 3, dtype=F))}, ""),
@@ -78,7 +81,7 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
         ({"firsts": npy(np.zeros(0, int))}, ""),
         ({"firsts": npy(np.array([16, 32]))}, ""),
         ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),
-        ({"other": npy(WHOLE)}, ""),
+        ({"other": npy(WHOLE)}, ": other"),
         ({"whole": declaring((10**11, 2))}, ""),
         ({"whole": declaring((10**7, 2))}, ""),
         ({"mark": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
@@ -96,15 +99,27 @@ def test_arrays_that_no_run_wrote_are_damage(arrays, told, tmp_path, monkeypatch
 
 
 def test_what_is_packed_or_locked_is_damage(tmp_path):
-    with pytest.raises(InputError, match="is damaged: packed"):
+    with pytest.raises(InputError, match=r"is damaged, .*: packed"):
         made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, whole=npy(np.zeros((10**6, 2)))).read()
     locked = made(tmp_path / "b.npz")
     raw = bytearray(locked.path.read_bytes())
     raw[raw.find(b"PK\x01\x02") + 8] |= 1  # the first array, by a password
     raw[6] |= 1
     locked.path.write_bytes(raw)
-    with pytest.raises(InputError, match=r"is damaged: .*encrypted"):
+    with pytest.raises(InputError, match=r"is damaged, .*: .*encrypted"):
         locked.read()
+
+
+def test_the_memory_of_another_version_is_told(tmp_path):
+    file = made(tmp_path / "a.npz")
+    with zipfile.ZipFile(file.path) as whole:
+        arrays = {n: whole.read(n) for n in whole.namelist() if n != "patterns.npy"}
+    with zipfile.ZipFile(file.path, "w") as older:
+        for name, raw in arrays.items():
+            older.writestr(name, raw)
+    with pytest.raises(InputError, match="another version of ssilang: patterns") as told:
+        file.read()
+    assert "makes it anew" in str(told.value.hint)
 
 
 ROWS, NAME = np.arange(24.0, dtype=F).reshape(4, 3, 2), 16 * "a"

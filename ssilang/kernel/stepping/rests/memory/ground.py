@@ -47,10 +47,14 @@ class Ground:
         """Coefficients of the scheme."""
         return newmark_of(self.problem.scheme, self.dt)
 
-    @property
-    def forces(self) -> FloatArray:
-        """Of each load, (r, k)."""
-        return self.T.T @ self.problem.loading.forces[:, self.loads]
+    @cached_property
+    def loading(self) -> tuple[FloatArray, FloatArray]:
+        """Forces (r, k) of norm one, and factors (n_steps + 1, k) of these, less the first ones."""
+        p = self.problem
+        forces = self.T.T @ p.loading.forces[:, self.loads]
+        size = np.maximum(np.linalg.norm(forces, axis=0), np.finfo(float).tiny)
+        factors = p.loading.at(p.times)[:, self.loads]
+        return forces / size, (factors - factors[0]) * size
 
     @cached_property
     def J(self) -> sp.csr_array:  # noqa: N802
@@ -75,11 +79,7 @@ class Ground:
     @property
     def loads_mark(self) -> FloatArray:
         """The same of its loads."""
-        F = self.forces
-        size = np.linalg.norm(F, axis=0)
-        return np.concatenate(
-            [size, (F / np.where(size > 0.0, size, 1.0)).T @ self._seen], axis=None
-        )
+        return (self.loading[0].T @ self._seen).ravel()
 
     @cached_property
     def steps(self) -> "GroundSteps":
@@ -107,7 +107,7 @@ class Ground:
         alpha, beta, rest = split_damping(C, M, K)
         L = tuple(supernodes(factor.panels, SINGLE))
         few = (X.astype(SINGLE) for X in (M, rest, sp.csr_array(self.J @ scaling)))
-        forces = np.asarray(scaling.T @ self.forces, SINGLE)
+        forces = np.asarray(scaling.T @ self.loading[0], SINGLE)
         return GroundSteps(self.mark, L, alpha, beta, self.newmark, forces, *few)
 
 
@@ -120,7 +120,7 @@ class GroundSteps:
     alpha: float  # the damping is `alpha M + beta K + rest`
     beta: float
     newmark: Newmark
-    forces: FloatArray  # (r, k) of each load
+    forces: FloatArray  # (r, k) of each load, of norm one
     M: sp.csr_array  # (r, r)
     rest: sp.csr_array
     J: sp.csr_array  # (q, r) its part of the jumps

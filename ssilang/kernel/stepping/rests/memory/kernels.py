@@ -7,13 +7,14 @@ probes tell all of a kernel (Halko, Martinsson and Tropp 2011, 10.1137/090771806
 of section 4.6, symmetric kernels from one pass of section 5.5). The first kernels are kept whole.
 Later ones are kept as sums `G_1 + .. + G_k`, how far an impulse has moved the jumps, in the span of
 their answers but for singular vectors below the tolerance: what is left out of a sum is there for a
-step, what is left out of an increment stays.
+step, what is left out of an increment stays. Of loads there are the patterns that a motion has, as
+edges of a soil follow what comes from below: so few that other motions have the same.
 """
 
 import hashlib
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from ssilang.kernel.base.scientific import fft, la, spla
 from ssilang.kernel.base.threads import side_by_side
 from ssilang.kernel.solvers.cholesky.triangular import solve_together
 from ssilang.kernel.stepping.newmark import Newmark
-from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps
+from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps, alike
 from ssilang.kernel.stepping.verbs import advance, damped, from_past
 
 COLUMNS = 192  # stepped together
@@ -36,6 +37,8 @@ CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
 LONGER = 1.25  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
 QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
+SPANNED = 0.1  # of the tolerance: factors of loads beside all patterns
+FINER = 0.1  # of that: what no pattern is of factors
 
 
 Kept = Callable[[str, tuple[int, int], Iterator[FloatArray]], Iterator[FloatArray]]
@@ -60,10 +63,10 @@ class Kernels:
     tolerance: float
     whole: FloatArray  # (m + 1, q, q) G_1 to G_m, less their sum where stages follow
     stages: tuple[Stage, ...]
-    reach: int  # steps that the memory describes, 0: all
-    loads: FloatArray  # (l, q, k) the same of loads
+    loads: FloatArray  # (l, q, r) the same of loads, in patterns
+    patterns: FloatArray  # (k, r) orthonormal, of the k loads
     loads_mark: FloatArray  # of their forces
-    loads_reach: int  # steps that these describe, 0: all
+    reach: int  # steps that all this describes, 0: any number
     estimate: float = np.nan  # error of the jumps of a motion, of the largest
 
     @property
@@ -149,7 +152,10 @@ def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kern
     """
     own, q = ground.steps, ground.J.shape[0]
     probes, steps = _probes(q), max(steps, WHOLE)
-    first_answers, loads, reach = _first_answers(own, probes[:, :PROBES], tolerance, steps, kept)
+    patterns = _patterns(ground, np.zeros((len(ground.loads), 0)), tolerance)
+    first_answers, loads, reach = _first_answers(
+        own, probes[:, :PROBES], patterns, tolerance, steps, kept
+    )  # fmt: skip
     answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance, kept)
     whole, stages = list[FloatArray](), list[Stage]()
     first, least = 0, CLOSER * tolerance * _norm(answers[0])
@@ -170,8 +176,8 @@ def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kern
     none = np.zeros((1, q, q), SINGLE)
     near = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
     return Kernels(
-        ground.mark, ground.dt, tolerance, near, tuple(stages), reach, loads, ground.loads_mark,
-        reach,
+        ground.mark, ground.dt, tolerance, near, tuple(stages), loads, patterns,
+        ground.loads_mark, reach,
     )  # fmt: skip
 
 
@@ -182,11 +188,23 @@ def _probes(q: int) -> FloatArray:
     return np.asarray(cosines.T[:, random.permutation(q)], SINGLE)
 
 
+def _patterns(ground: Ground, known: FloatArray, tolerance: float) -> FloatArray:
+    """Orthonormal columns (k, r) which, with the known ones, span the factors of the loads."""
+    factors = ground.loading[1]
+    left = factors - factors @ known @ known.T
+    largest = [np.linalg.norm(x, axis=1).max() for x in (left, factors)]
+    if largest[0] <= SPANNED * tolerance * largest[1]:
+        return known[:, :0]
+    _, values, rows = la.svd(left, full_matrices=False)
+    return rows[values > FINER * SPANNED * tolerance * la.norm(factors, 2)].T
+
+
 def _first_answers(
-    ground: GroundSteps, probes: FloatArray, tolerance: float, steps: int, kept: Kept
-) -> tuple[FloatArray, FloatArray, int]:
-    """Answers to probes (q, c) and to the loads, beside each other, and the steps described."""
-    forces = np.hstack([ground.J.T @ probes, ground.forces])
+    ground: GroundSteps, probes: FloatArray, patterns: FloatArray, tolerance: float, steps: int,
+    kept: Kept,
+) -> tuple[FloatArray, FloatArray, int]:  # fmt: skip
+    """Answers to probes (q, c) and to patterns of loads, with the steps described."""
+    forces = np.hstack([ground.J.T @ probes, ground.forces @ patterns.astype(SINGLE)])
     little = np.full(forces.shape[1], CLOSER * tolerance)
     little[: probes.shape[1]] = QUIETER * tolerance
     rows, reach = _answers(ground, forces, steps, little, kept)
@@ -255,9 +273,16 @@ def _answers(
     found = side_by_side(
         [kept(*_until_quiet(ground, np.ascontiguousarray(F), steps, few)) for F, few in pieces]
     )
-    longest = max(map(len, found))
-    padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in found]
-    return np.concatenate(padded, axis=2), 0 if longest < steps else steps
+    rows = _beside(found)
+    return rows, 0 if len(rows) < steps else steps
+
+
+def _beside(pieces: Sequence[Sequence[FloatArray] | FloatArray]) -> FloatArray:
+    """Columns of pieces (k, q, c), the longest one's steps of all."""
+    longest = max(map(len, pieces))
+    return np.concatenate(
+        [np.pad(rows, ((0, longest - len(rows)), (0, 0), (0, 0))) for rows in pieces], axis=2
+    )
 
 
 def _until_quiet(
@@ -281,10 +306,17 @@ def _until_quiet(
     return said.hexdigest(), (ground.J.shape[0], forces.shape[1]), rows()
 
 
-def loads_of(
-    ground: Ground, tolerance: float, steps: int, kept: Kept
-) -> tuple[FloatArray, FloatArray, int]:
-    """Answers (l, q, k) to the loads until they are quiet, the loads' mark, steps described."""
-    none = np.zeros((ground.J.shape[0], 0), SINGLE)
-    _, loads, reach = _first_answers(ground.steps, none, tolerance, steps, kept)
-    return loads, ground.loads_mark, reach
+def with_loads(kernels: Kernels, ground: Ground, steps: int, kept: Kept) -> Kernels:
+    """A memory that knows the loads of a motion, the same one if it does already."""
+    k, none = kernels, np.zeros((kernels.size, 0), SINGLE)
+    if not alike(k.loads_mark, ground.loads_mark):
+        patterns = np.zeros((len(ground.loads), 0))
+        k = replace(k, loads=none[None], patterns=patterns, loads_mark=ground.loads_mark)
+    new = _patterns(ground, k.patterns, k.tolerance)
+    if not new.size:
+        return k
+    _, loads, reach = _first_answers(ground.steps, none, new, k.tolerance, steps, kept)
+    return replace(
+        k, loads=_beside([k.loads, loads]), patterns=np.hstack([k.patterns, new]),
+        reach=min(filter(None, (k.reach, reach)), default=0),
+    )  # fmt: skip

@@ -17,7 +17,7 @@ class Past:
     Parameters
     ----------
     loads : array (n_steps + 1, k)
-        Factors of the loads, less those of the start.
+        Factors of the loads (of forces of norm one), less those of the start.
     """
 
     def __init__(self, kernels: Kernels, loads: FloatArray, steps: int) -> None:
@@ -27,7 +27,7 @@ class Past:
         self.forces = np.zeros((self.pad + steps + 1, q), SINGLE)
         self.parts = [np.zeros((len(self.forces), s.P.shape[1]), SINGLE) for s in k.stages]
         self.near = [k.whole[0] + k.whole[1], *k.whole[2 : BLOCK + 1]]
-        self.incoming = self._incoming(loads.astype(SINGLE), steps)
+        self.incoming = self._incoming((loads @ k.patterns).astype(SINGLE), steps)
         self.ahead = np.zeros((0, q), SINGLE)
         self.far = np.zeros((1, q), SINGLE)
         self.gone = np.zeros(k.stages[-1].P.shape[1] if k.stages else 0, SINGLE)

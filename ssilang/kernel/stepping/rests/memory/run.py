@@ -24,7 +24,7 @@ from ssilang.kernel.stepping.rests.memory.kernels import (
     Kernels,
     increments,
     kernels_of,
-    loads_of,
+    with_loads,
 )
 from ssilang.kernel.stepping.rests.memory.past import Past
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction, Reduction, refuse_reduction
@@ -59,8 +59,7 @@ class MemoryLoop(InterleavedLoop):
         """The ground's compliance."""
         super().__init__(p, motion, replace(effective, S=effective.S + self.S))
         self.parts, self.start = parts, motion.f.copy()
-        factors = parts.ground.problem.loading.at(p.times)[:, parts.ground.loads]
-        self.past = Past(kernels, factors - factors[0], len(p.times) - 1)
+        self.past = Past(kernels, parts.ground.loading[1], len(p.times) - 1)
         self.at = motion.delta - self.J @ self._folded(motion.u)
         """The ground's part (q,) of the jumps: what the building's is not."""
         self.moved = np.zeros((3, len(self.at)))
@@ -277,10 +276,8 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kerne
         if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
             found = kernels_of(ground, tolerance, steps, shelf.answered)
             shelf.write(found)
-        elif not alike(found.loads_mark, ground.loads_mark) or 0 < found.loads_reach < steps:
-            loads, mark, reach = loads_of(ground, tolerance, steps, shelf.answered)
-            found = replace(found, loads=loads, loads_mark=mark, loads_reach=reach)
-            shelf.write(found)
+        elif (more := with_loads(found, ground, steps, shelf.answered)) is not found:
+            shelf.write(found := more)
     _KEPT[:] = [found]
     return found
 
