@@ -153,6 +153,20 @@ def test_time_left_does_not_count_what_came_before_the_first_report(monkeypatch)
     assert stream.getvalue().endswith(" \r")
 
 
+def test_other_steps_are_counted_anew(monkeypatch):
+    """And one that comes a little late from another thread is not the first of others."""
+    clock = iter([0.0, 100.0, 101.0, 102.0, 200.0, 202.0])
+    monkeypatch.setattr(progress.time, "monotonic", lambda: next(clock))
+    stream = Terminal()
+    line = ProgressLine("X", teller("en"), stream)
+    for done, total in ((1, 40), (31, 40), (29, 40), (1, 10), (3, 10)):
+        line(done, total)
+    shown = stream.getvalue().split("\r")
+    assert "29/40, 1 s left" in shown[3]
+    assert "left" not in shown[4]
+    assert "3/10, 7 s left" in shown[5]
+
+
 def test_runs_of_a_sweep_are_counted_as_they_end(monkeypatch):
     for name in ("PATIENCE", "REFRESH"):
         monkeypatch.setattr(progress, name, 0.0)

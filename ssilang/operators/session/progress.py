@@ -20,13 +20,16 @@ class ProgressLine:
         self.stream = stream or sys.stderr
         self._started = self._shown = time.monotonic()
         self._visible = False
-        # the first report: what came before it is start-up
-        self._first: tuple[float, int] | None = None
+        # the first report: what came before it is start-up, or other steps
+        self._first = (0.0, 0)
+        self._last = sys.maxsize
 
     def __call__(self, done: int, total: int) -> None:
         """Show that `done` of `total` steps are done."""
         now = time.monotonic()
-        since, before = self._first = self._first or (now, done)
+        if 2 * done < self._last:
+            self._first = (now, done)
+        (since, before), self._last = self._first, done
         if not self.stream.isatty() or now - self._started < PATIENCE:
             return
         if done < total and now - self._shown < REFRESH:

@@ -25,6 +25,7 @@ from ssilang.kernel.base.threads import side_by_side
 from ssilang.kernel.solvers.cholesky.triangular import solve_together
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps, alike
+from ssilang.kernel.stepping.run import Progress
 from ssilang.kernel.stepping.verbs import advance, damped, from_past
 
 COLUMNS = 192  # stepped together
@@ -32,6 +33,7 @@ PROBES = 64  # at first; half as many more while they do not suffice
 OVER = 2  # probes of one singular vector
 MOST = 0.75  # singular vectors of one probe
 WHOLE = 9  # first kernels, kept as they are
+GUESSED = 20  # steps of most probes, until it is known
 FEW = 0.6  # of the jumps: more singular vectors than that are kept as whole kernels
 CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
 LONGER = 1.25  # where steps end that share their vectors, over where they begin
@@ -43,6 +45,26 @@ FINER = 0.1  # of that: what no pattern is of factors
 
 Kept = Callable[[str, tuple[int, int], Iterator[FloatArray]], Iterator[FloatArray]]
 """The rows of a name and a shape, or those that a making which was broken off left under it."""
+
+
+@dataclass(eq=False)
+class Making:
+    """Hands on rows as they were kept, and says how far they are: columns times steps."""
+
+    kept: Kept
+    progress: Progress | None
+    done: int = 0
+    left: int = 0
+
+    def answered(
+        self, name: str, shape: tuple[int, int], rows: Iterator[FloatArray]
+    ) -> Iterator[FloatArray]:
+        """Rows of a name; see `Kept`."""
+        for row in self.kept(name, shape, rows):
+            self.done, self.left = self.done + shape[1], max(self.left - shape[1], 0)
+            if self.progress is not None:
+                self.progress(self.done, self.done + self.left)
+            yield row
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +157,10 @@ def _advance(
             b[i, j] = from_past(n, Mv[i, j], Ma[i, j], Cv[i, j], Ca[i, j]) + Cv[i, j] - g[i, j]
 
 
-def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kernels:
+def kernels_of(
+    ground: Ground, tolerance: float, steps: int, kept: Kept,
+    progress: Progress | None = None,
+) -> Kernels:  # fmt: skip
     """The memory of a ground for motions of so many steps.
 
     Parameters
@@ -144,6 +169,8 @@ def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kern
         Norm of what is left out of kernels, of that of the first one.
     kept : callable
         Hands on the rows of each piece of the ground's answers, or those that were left.
+    progress : callable, optional
+        Called with the columns stepped so far, and how many it takes as far as that is known.
 
     Raises
     ------
@@ -153,10 +180,12 @@ def kernels_of(ground: Ground, tolerance: float, steps: int, kept: Kept) -> Kern
     own, q = ground.steps, ground.J.shape[0]
     probes, steps = _probes(q), max(steps, WHOLE)
     patterns = _patterns(ground, np.zeros((len(ground.loads), 0)), tolerance)
+    making = Making(kept, progress)
+    making.left = steps * (PROBES + patterns.shape[1]) + q * GUESSED
     first_answers, loads, reach = _first_answers(
-        own, probes[:, :PROBES], patterns, tolerance, steps, kept
+        own, probes[:, :PROBES], patterns, tolerance, steps, making.answered
     )  # fmt: skip
-    answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance, kept)
+    answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance, making)
     whole, stages = list[FloatArray](), list[Stage]()
     first, least = 0, CLOSER * tolerance * _norm(answers[0])
     while first < len(answers):
@@ -212,7 +241,7 @@ def _first_answers(
 
 
 def _answers_to_probes(
-    ground: GroundSteps, probes: FloatArray, first: FloatArray, tolerance: float, kept: Kept
+    ground: GroundSteps, probes: FloatArray, first: FloatArray, tolerance: float, making: Making
 ) -> list[FloatArray]:
     """Answers (q, r_k) to as many probes as tell all until the kth step, from the `first` ones.
 
@@ -225,7 +254,8 @@ def _answers_to_probes(
             range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
         forces = ground.J.T @ probes[:, count : count + max(count // 2, PROBES)]
-        rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]), kept)
+        making.left = end * (len(probes) - count)
+        rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]), making.answered)
         for k, row in enumerate(np.cumsum(rows, axis=0, out=rows)):
             found[k] = np.hstack([found[k], row])
     return found

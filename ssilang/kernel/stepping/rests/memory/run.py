@@ -219,10 +219,10 @@ def on_memory(
     if not fits(near, effective) or effective.R.any():
         raise NoReduction("kernel.stepping.memory-without-mass")
     for _ in range(TRIES):
-        kernels = _memory(parts.ground, share * tolerance, shelf, len(problem.times) - 1)
+        kernels = _memory(parts.ground, share * tolerance, shelf, progress)
         if np.isnan(kernels.estimate):
             first = MemoryIntegration(
-                near, parts=parts, effective=effective, kernels=kernels
+                near, (), progress, parts=parts, effective=effective, kernels=kernels
             )  # fmt: skip
             first.run()
             kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
@@ -260,21 +260,21 @@ def _asked(problem: Problem, observers: Sequence[Observer]) -> BoolArray:
     return asked
 
 
-def _memory(ground: Ground, tolerance: float, shelf: Shelf, steps: int) -> Kernels:
-    """The memory of a ground for so many steps, as it is known or made."""
+def _memory(ground: Ground, tolerance: float, shelf: Shelf, progress: Progress | None) -> Kernels:
+    """The memory of a ground for its motion, as it is known or made."""
     dt, lengths = ground.dt, np.diff(ground.problem.times)
-    if np.abs(lengths - dt).max() > SAME * dt * len(lengths):
+    if np.abs(lengths - dt).max() > SAME * dt * (steps := len(lengths)):
         raise NoReduction("kernel.stepping.memory-steps-differ")
     with shelf.held():
         known = [k for k in _KEPT if alike(k.mark, ground.mark)] if shelf.there else []
         found = known[0] if known else shelf.read()
-        if found is not None and abs(found.dt - dt) > SAME * dt * len(lengths):
+        if found is not None and abs(found.dt - dt) > SAME * dt * steps:
             code = "kernel.stepping.memory-of-another-step"
             raise KernelError(code, name=shelf.name, dt=found.dt, step=dt)
         if found is not None and not alike(found.mark, ground.mark):
             raise KernelError("kernel.stepping.memory-of-another-ground", name=shelf.name)
         if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
-            found = kernels_of(ground, tolerance, steps, shelf.answered)
+            found = kernels_of(ground, tolerance, steps, shelf.answered, progress)
             shelf.write(found)
         elif (more := with_loads(found, ground, steps, shelf.answered)) is not found:
             shelf.write(found := more)

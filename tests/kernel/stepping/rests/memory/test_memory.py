@@ -260,6 +260,28 @@ def test_a_making_that_is_broken_off_goes_on(monkeypatch, wide_ground):
     assert made
 
 
+def test_making_says_how_far_it_is(monkeypatch, wide_ground):
+    """Columns times steps, to the last one; what is left comes nearer to what is left."""
+    monkeypatch.setattr(kernels, "PROBES", 4)
+    monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: 1)
+    told, stepped = [], []
+
+    def kept(name, shape, rows):
+        for row in rows:
+            stepped.append(shape[1])
+            yield row
+
+    kernels.kernels_of(wide_ground[0], 1e-2, STEPS, kept, lambda *now: told.append(now))
+    done, total = np.array(told).T
+    assert (done[-1], total[-1]) == (sum(stepped), sum(stepped))
+    assert (np.sort(done) == done).all()
+    assert (total >= done).all()
+    left, guess = sum(stepped) - done, total - done
+    last = left < 0.5 * sum(stepped)
+    assert (guess[last] <= 3.0 * left[last]).all()
+    assert (guess[last] >= 0.5 * left[last]).all()
+
+
 def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch, wide_ground):
     """What an impulse has moved for good stays."""
     monkeypatch.setattr(kernels, "FEW", 0.0)
