@@ -67,8 +67,7 @@ class MemoryFile:
                 _check(kernels)
                 return kernels
         except DAMAGES as error:
-            code = "io.memory-damaged"
-            raise InputError(code, name=self.name, error=str(error)) from error
+            raise InputError("io.memory-damaged", name=self.name, error=str(error)) from error
 
     @contextmanager
     def held(self) -> Iterator[None]:

@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from threading import Event
 from typing import TypeVar
 
@@ -51,10 +51,8 @@ def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
         work(0, n)
         return
     cuts = np.searchsorted(ends, np.linspace(0.0, size, count + 1))
-    cuts[0], cuts[-1] = 0, n
-    jobs = [_threads(count).submit(work, int(low), int(high)) for low, high in pairwise(cuts)]
-    for job in jobs:
-        job.result()
+    lows, highs = [0, *cuts[1:-1].tolist()], [*cuts[1:-1].tolist(), n]
+    list(_threads(count).map(work, lows, highs))
 
 
 def side_by_side(iterators: Sequence[Iterator[T]]) -> list[list[T]]:

@@ -108,14 +108,15 @@ class Ground:
         L = tuple(supernodes(factor.panels, SINGLE))
         few = (X.astype(SINGLE) for X in (M, rest, sp.csr_array(self.J @ scaling)))
         forces = np.asarray(scaling.T @ self.loading[0], SINGLE)
-        return GroundSteps(self.mark, L, alpha, beta, self.newmark, forces, *few)
+        mark = np.append(self.mark, self.loads_mark)
+        return GroundSteps(mark, L, alpha, beta, self.newmark, forces, *few)
 
 
 @dataclass(frozen=True, eq=False)
 class GroundSteps:
     """A body in the order of its factor, single precision."""
 
-    mark: FloatArray  # of the ground
+    mark: FloatArray  # of the ground and its loads
     factor: tuple[Supernode, ...]  # of the step's matrix
     alpha: float  # the damping is `alpha M + beta K + rest`
     beta: float

@@ -39,8 +39,8 @@ CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
 LONGER = 1.25  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
 QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
-SPANNED = 0.1  # of the tolerance: factors of loads beside all patterns
-FINER = 0.1  # of that: what no pattern is of factors
+SPANNED = 0.1  # of the tolerance, of the norm of factors of loads: what is beside all patterns
+FINER = 0.1  # of that: beside the first ones
 
 
 Kept = Callable[[str, tuple[int, int], Iterator[FloatArray]], Iterator[FloatArray]]
@@ -180,8 +180,7 @@ def kernels_of(
     own, q = ground.steps, ground.J.shape[0]
     probes, steps = _probes(q), max(steps, WHOLE)
     patterns = _patterns(ground, np.zeros((len(ground.loads), 0)), tolerance)
-    making = Making(kept, progress)
-    making.left = steps * (PROBES + patterns.shape[1]) + q * GUESSED
+    making = Making(kept, progress, left=steps * (PROBES + patterns.shape[1]) + q * GUESSED)
     first_answers, loads, reach = _first_answers(
         own, probes[:, :PROBES], patterns, tolerance, steps, making.answered
     )  # fmt: skip
@@ -219,13 +218,9 @@ def _probes(q: int) -> FloatArray:
 
 def _patterns(ground: Ground, known: FloatArray, tolerance: float) -> FloatArray:
     """Orthonormal columns (k, r) which, with the known ones, span the factors of the loads."""
-    factors = ground.loading[1]
-    left = factors - factors @ known @ known.T
-    largest = [np.linalg.norm(x, axis=1).max() for x in (left, factors)]
-    if largest[0] <= SPANNED * tolerance * largest[1]:
-        return known[:, :0]
-    _, values, rows = la.svd(left, full_matrices=False)
-    return rows[values > FINER * SPANNED * tolerance * la.norm(factors, 2)].T
+    factors, beside = ground.loading[1], SPANNED if known.size else FINER * SPANNED
+    _, values, rows = la.svd(factors - factors @ known @ known.T, full_matrices=False)
+    return rows[values > beside * tolerance * la.norm(factors)].T
 
 
 def _first_answers(
@@ -233,10 +228,10 @@ def _first_answers(
     kept: Kept,
 ) -> tuple[FloatArray, FloatArray, int]:  # fmt: skip
     """Answers to probes (q, c) and to patterns of loads, with the steps described."""
-    forces = np.hstack([ground.J.T @ probes, ground.forces @ patterns.astype(SINGLE)])
-    little = np.full(forces.shape[1], CLOSER * tolerance)
+    given = la.block_diag(probes, patterns.astype(SINGLE))
+    little = np.full(given.shape[1], CLOSER * tolerance)
     little[: probes.shape[1]] = QUIETER * tolerance
-    rows, reach = _answers(ground, forces, steps, little, kept)
+    rows, reach = _answers(ground, given, steps, little, kept)
     return rows[:, :, : probes.shape[1]], rows[:, :, probes.shape[1] :], reach
 
 
@@ -253,9 +248,10 @@ def _answers_to_probes(
         end = bisect_left(
             range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
-        forces = ground.J.T @ probes[:, count : count + max(count // 2, PROBES)]
+        more = probes[:, count : count + max(count // 2, PROBES)]
         making.left = end * (len(probes) - count)
-        rows, _ = _answers(ground, forces, end, np.zeros(forces.shape[1]), making.answered)
+        given = np.pad(more, ((0, ground.forces.shape[1]), (0, 0)))
+        rows, _ = _answers(ground, given, end, np.zeros(more.shape[1]), making.answered)
         for k, row in enumerate(np.cumsum(rows, axis=0, out=rows)):
             found[k] = np.hstack([found[k], row])
     return found
@@ -290,18 +286,18 @@ def _span(parts: Sequence[FloatArray], least: float, most: float) -> FloatArray:
 
 
 def _answers(
-    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray, kept: Kept
+    ground: GroundSteps, given: FloatArray, steps: int, tolerance: FloatArray, kept: Kept
 ) -> tuple[FloatArray, int]:
-    """Increments (k, q, c) of the jumps after forces (r, c) in the first step, until quiet.
+    """Increments (k, q, c) of the jumps after forces in the first step, until quiet.
 
-    Quiet: for `QUIET` steps no more than `tolerance` (c,) of what was largest. With the steps that
-    these describe, 0: all.
+    Given (q + k, c): those on the joints, and factors of the loads. Quiet: for `QUIET` steps no
+    more than `tolerance` (c,) of what was largest. With the steps that these describe, 0: all.
     """
-    c = forces.shape[1]
+    c = given.shape[1]
     count = max(1, min(c, 2 * -(-c // (2 * COLUMNS))))  # an even number keeps two busy
-    pieces = zip(*(np.array_split(x, count, axis=-1) for x in (forces, tolerance)), strict=True)
+    pieces = zip(*(np.array_split(x, count, axis=-1) for x in (given, tolerance)), strict=True)
     found = side_by_side(
-        [kept(*_until_quiet(ground, np.ascontiguousarray(F), steps, few)) for F, few in pieces]
+        [kept(*_until_quiet(ground, np.ascontiguousarray(x), steps, few)) for x, few in pieces]
     )
     rows = _beside(found)
     return rows, 0 if len(rows) < steps else steps
@@ -316,15 +312,17 @@ def _beside(pieces: Sequence[Sequence[FloatArray] | FloatArray]) -> FloatArray:
 
 
 def _until_quiet(
-    ground: GroundSteps, forces: FloatArray, steps: int, tolerance: FloatArray
+    ground: GroundSteps, given: FloatArray, steps: int, tolerance: FloatArray
 ) -> tuple[str, tuple[int, int], Iterator[FloatArray]]:
     """A name that says of what the increments of a piece are, their shape, and these."""
     said = hashlib.blake2b(str(steps).encode(), digest_size=8)
-    for part in (ground.mark, np.array(ground.newmark), forces, tolerance):
+    for part in (ground.mark, np.array(ground.newmark), given, tolerance):
         said.update(part.data)
+    q, c = ground.J.shape[0], given.shape[1]
 
     def rows() -> Iterator[FloatArray]:
-        largest, quiet = np.zeros(forces.shape[1]), 0
+        largest, quiet = np.zeros(c), 0
+        forces = ground.J.T @ given[:q] + ground.forces @ given[q:]
         for row in increments(ground, impulse(forces, steps)):
             yield row
             size = np.abs(row).max(axis=0)
@@ -333,7 +331,7 @@ def _until_quiet(
             if quiet == QUIET and np.all(largest > 0.0):
                 return
 
-    return said.hexdigest(), (ground.J.shape[0], forces.shape[1]), rows()
+    return said.hexdigest(), (q, c), rows()
 
 
 def with_loads(kernels: Kernels, ground: Ground, steps: int, kept: Kept) -> Kernels:

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -218,12 +219,11 @@ def on_memory(
     effective = effective_of(near, A, dt, end, least=0)
     if not fits(near, effective) or effective.R.any():
         raise NoReduction("kernel.stepping.memory-without-mass")
+    motion = partial(MemoryIntegration, near, parts=parts, effective=effective)
     for _ in range(TRIES):
         kernels = _memory(parts.ground, share * tolerance, shelf, progress)
         if np.isnan(kernels.estimate):
-            first = MemoryIntegration(
-                near, (), progress, parts=parts, effective=effective, kernels=kernels
-            )  # fmt: skip
+            first = motion((), progress, kernels=kernels)
             first.run()
             kernels = replace(kernels, estimate=_looked_at(parts.ground, first.loop))
             with shelf.held():
@@ -234,9 +234,7 @@ def on_memory(
         share *= 0.5 * tolerance / kernels.estimate
     else:
         raise NoReduction("kernel.stepping.memory-inexact", estimate=kernels.estimate)
-    run = MemoryIntegration(
-        near, observers, progress, parts=parts, effective=effective, kernels=kernels
-    )  # fmt: skip
+    run = motion(observers, progress, kernels=kernels)
     prepared = time.perf_counter() - started
 
     def integrated() -> History:
