@@ -39,6 +39,7 @@ CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
 LONGER = 1.25  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
 QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
+STILL = 0.05  # of the tolerance: what none to a load is
 SPANNED = 0.1  # of the tolerance, of the norm of factors of loads: what is beside all patterns
 FINER = 0.1  # of that: beside the first ones
 
@@ -201,8 +202,9 @@ def kernels_of(
             sums = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
             stages.append(Stage(first, P.astype(SINGLE), sums))
         first += len(part)
-    none = np.zeros((1, q, q), SINGLE)
-    near = np.diff(whole, axis=0, prepend=none, append=none if stages else whole[-1:])
+    near = np.array([*whole, np.zeros((q, q), SINGLE) if stages else whole[-1]])
+    for k in range(len(whole), 0, -1):
+        near[k] -= near[k - 1]
     return Kernels(
         ground.mark, ground.dt, tolerance, near, tuple(stages), loads, patterns,
         ground.loads_mark, reach,
@@ -229,7 +231,7 @@ def _first_answers(
 ) -> tuple[FloatArray, FloatArray, int]:  # fmt: skip
     """Answers to probes (q, c) and to patterns of loads, with the steps described."""
     given = la.block_diag(probes, patterns.astype(SINGLE))
-    little = np.full(given.shape[1], CLOSER * tolerance)
+    little = np.full(given.shape[1], STILL * tolerance)
     little[: probes.shape[1]] = QUIETER * tolerance
     rows, reach = _answers(ground, given, steps, little, kept)
     return rows[:, :, : probes.shape[1]], rows[:, :, probes.shape[1] :], reach
