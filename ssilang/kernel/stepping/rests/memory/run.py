@@ -260,8 +260,8 @@ def _asked(problem: Problem, observers: Sequence[Observer]) -> BoolArray:
 
 def _memory(ground: Ground, tolerance: float, shelf: Shelf, progress: Progress | None) -> Kernels:
     """The memory of a ground for its motion, as it is known or made."""
-    dt, lengths = ground.dt, np.diff(ground.problem.times)
-    if np.abs(lengths - dt).max() > SAME * dt * (steps := len(lengths)):
+    dt, steps = ground.dt, len(ground.problem.times) - 1
+    if np.abs(np.diff(ground.problem.times) - dt).max() > SAME * dt * steps:
         raise NoReduction("kernel.stepping.memory-steps-differ")
     with shelf.held():
         known = [k for k in _KEPT if alike(k.mark, ground.mark)] if shelf.there else []
@@ -275,7 +275,8 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, progress: Progress |
             found = kernels_of(ground, tolerance, steps, shelf.answered, progress)
             shelf.write(found)
         elif (more := with_loads(found, ground, steps, shelf.answered)) is not found:
-            shelf.write(found := more)
+            found = more
+            shelf.write(found)
     _KEPT[:] = [found]
     return found
 
