@@ -50,9 +50,8 @@ def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
     if count <= 1:
         work(0, n)
         return
-    cuts = np.searchsorted(ends, np.linspace(0.0, size, count + 1))
-    lows, highs = [0, *cuts[1:-1].tolist()], [*cuts[1:-1].tolist(), n]
-    list(_threads(count).map(work, lows, highs))
+    cuts = np.searchsorted(ends, np.linspace(0.0, size, count + 1))[1:-1].tolist()
+    list(_threads(count).map(work, [0, *cuts], [*cuts, n]))
 
 
 def side_by_side(iterators: Sequence[Iterator[T]]) -> list[list[T]]:

@@ -14,7 +14,8 @@ edges of a soil follow what comes from below: so few that other motions have the
 import hashlib
 from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from threading import Lock
 
 import numpy as np
 
@@ -54,17 +55,19 @@ class Making:
 
     kept: Kept
     progress: Progress | None
+    left: int
     done: int = 0
-    left: int = 0
+    _counting: Lock = field(default_factory=Lock)
 
     def answered(
         self, name: str, shape: tuple[int, int], rows: Iterator[FloatArray]
     ) -> Iterator[FloatArray]:
         """Rows of a name; see `Kept`."""
         for row in self.kept(name, shape, rows):
-            self.done, self.left = self.done + shape[1], max(self.left - shape[1], 0)
-            if self.progress is not None:
-                self.progress(self.done, self.done + self.left)
+            with self._counting:  # pieces are stepped by several threads
+                self.done, self.left = self.done + shape[1], max(self.left - shape[1], 0)
+                if self.progress is not None:
+                    self.progress(self.done, self.done + self.left)
             yield row
 
 
@@ -181,7 +184,7 @@ def kernels_of(
     own, q = ground.steps, ground.J.shape[0]
     probes, steps = _probes(q), max(steps, WHOLE)
     patterns = _patterns(ground, np.zeros((len(ground.loads), 0)), tolerance)
-    making = Making(kept, progress, left=steps * (PROBES + patterns.shape[1]) + q * GUESSED)
+    making = Making(kept, progress, steps * (PROBES + patterns.shape[1]) + q * GUESSED)
     first_answers, loads, reach = _first_answers(
         own, probes[:, :PROBES], patterns, tolerance, steps, making.answered
     )  # fmt: skip
@@ -231,8 +234,7 @@ def _first_answers(
 ) -> tuple[FloatArray, FloatArray, int]:  # fmt: skip
     """Answers to probes (q, c) and to patterns of loads, with the steps described."""
     given = la.block_diag(probes, patterns.astype(SINGLE))
-    little = np.full(given.shape[1], STILL * tolerance)
-    little[: probes.shape[1]] = QUIETER * tolerance
+    little = tolerance * np.repeat([QUIETER, STILL], [probes.shape[1], patterns.shape[1]])
     rows, reach = _answers(ground, given, steps, little, kept)
     return rows[:, :, : probes.shape[1]], rows[:, :, probes.shape[1] :], reach
 

@@ -17,6 +17,7 @@ from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import closed_stiffness
 from ssilang.kernel.stepping.rests.memory import kernels, run
 from ssilang.kernel.stepping.rests.memory.ground import parts_of
+from ssilang.kernel.stepping.rests.memory.kernels import WHOLE
 from ssilang.kernel.stepping.rests.memory.past import Past
 from ssilang.kernel.stepping.rests.reduced.run import integrate_reduced
 from ssilang.kernel.stepping.run import integrate
@@ -43,6 +44,13 @@ def record(seed=1, strength=1.0, edges=5e5, stiffer=1.0, heavier=1.0, **given):
     u = T @ spla.spsolve(sp.csc_array(closed_stiffness(problem)), T.T @ loading.forces[:, 0])
     C = sp.csr_array(problem.C + sp.diags_array(edge))
     return replace(problem, loading=loading, C=C, u=u)
+
+
+def with_another_load(problem):
+    """The same with the sines on other places of the soil."""
+    turned = problem.loading.forces.copy()
+    turned[:, 1] = np.roll(turned[:, 1], 2)
+    return replace(problem, loading=replace(problem.loading, forces=turned))
 
 
 def building(problem):
@@ -232,9 +240,9 @@ def test_a_making_that_is_broken_off_goes_on(monkeypatch, wide_ground):
             left[name], _ = rows, made.append(name)
         yield from left[name]
 
-    def until(most, tolerance=1e-2, **given):
+    def until(most, tolerance=1e-2, changed=replace, **given):
         made.clear()
-        problem = record(**WIDE | given)
+        problem = changed(record(**WIDE | given))
         ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
         return kernels.kernels_of(
             ground, tolerance, 60, lambda *asked: answered(*asked, most=most)
@@ -258,12 +266,15 @@ def test_a_making_that_is_broken_off_goes_on(monkeypatch, wide_ground):
     assert made
     until(10**6, tolerance=1e-3)
     assert made
+    until(10**6, changed=with_another_load)
+    assert made
 
 
-def test_making_says_how_far_it_is(monkeypatch, wide_ground):
+@pytest.mark.parametrize("threads", [1, 2])
+def test_making_says_how_far_it_is(monkeypatch, wide_ground, threads):
     """Columns times steps, to the last one; what is left comes nearer to what is left."""
     monkeypatch.setattr(kernels, "PROBES", 4)
-    monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: 1)
+    monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: threads)
     told, stepped = [], []
 
     def kept(name, shape, rows):
@@ -371,16 +382,12 @@ def test_a_memory_serves_shorter_motions_and_grows_for_longer_ones(made, steps, 
 
 
 def test_other_loads_on_the_ground_are_answered_anew(made):
-    file = made()
-    problem = record(2)
-    turned = problem.loading.forces.copy()
-    turned[:, 1] = np.roll(turned[:, 1], 2)
-    problem = replace(problem, loading=replace(problem.loading, forces=turned))
+    file, problem = made(), with_another_load(record(2))
     whole, found, _, _ = beside_the_whole(problem, 1e-4, file)
     assert max(errors(whole, found)[:3]) < 2e-5
 
 
-def edges(mixed, steps=STEPS):
+def driven(mixed, steps=STEPS):
     """The block's record with twelve loads on its ground that follow so much of three motions."""
     problem = record(steps=steps)
     random, (weight, first) = np.random.default_rng(11), problem.loading.curves
@@ -404,7 +411,7 @@ def test_loads_that_follow_few_motions_are_few_patterns(file):
     for mixed, patterns in (
         ([3, -2, 0], 2), ([1, 2, 0], 2), ([1, 2, 1e-7], 2), ([-1, 0, 2], 3), ([2, 5, 1e-3], 3),
     ):  # fmt: skip
-        problem = edges(mixed)
+        problem = driven(mixed)
         whole, found, _, history = beside_the_whole(problem, 1e-4, file)
         assert history.loop == "memory"
         assert max(errors(whole, found)[:3]) < 2e-5
@@ -419,12 +426,27 @@ def test_loads_that_follow_few_motions_are_few_patterns(file):
 @pytest.mark.parametrize(("known", "made", "left"), [(0, 0, 0), (80, 0, 80), (80, 60, 60)])
 def test_patterns_that_are_added_tell_as_many_steps_as_all_do(monkeypatch, known, made, left):
     """0: all of them, as these are quiet before."""
-    problem, other = edges([1, 1, 0], 60), edges([1, 1, 1], 60)
+    problem, other = driven([1, 1, 0], 60), driven([1, 1, 1], 60)
     grounds = [parts_of(p, np.zeros(p.numbering.size, bool)).ground for p in (problem, other)]
     memory = kernels.kernels_of(grounds[0], 1e-2, 60, as_they_come)
     memory, answers = replace(memory, reach=known), kernels._answers
     monkeypatch.setattr(kernels, "_answers", lambda *given: (answers(*given)[0], made))
     assert kernels.with_loads(memory, grounds[1], 60, as_they_come).reach == left
+
+
+def test_loads_are_followed_until_next_to_nothing_is_left():
+    """A twentieth of the tolerance, of the largest answer; not for as long as the motion goes."""
+    nowhere, steps = np.zeros(record().numbering.size, bool), 400
+    first, second = record(steps=steps), with_another_load(record(steps=steps))
+    memory = kernels.kernels_of(parts_of(first, nowhere).ground, 1e-2, WHOLE, as_they_come)
+    ground = parts_of(second, nowhere).ground
+    made = kernels.with_loads(memory, ground, steps, as_they_come)
+    forces = np.asarray(ground.steps.forces @ made.patterns, np.float32)
+    exact = np.array(list(kernels.increments(ground.steps, kernels.impulse(forces, steps))))
+    followed = len(made.loads)
+    assert followed < 0.5 * steps
+    np.testing.assert_array_equal(made.loads, exact[:followed])
+    assert np.abs(exact[followed:]).max() < 0.05 * 1e-2 * np.abs(exact).max()
 
 
 def test_a_ground_that_no_load_acts_on_answers_none():
