@@ -54,6 +54,12 @@ def in_parts(work: Callable[[int, int], None], ends: IntArray) -> None:
     list(_threads(count).map(work, [0, *cuts], [*cuts, n]))
 
 
+def begun(work: Callable[[], T]) -> Callable[[], T]:
+    """What gives the result of some work: begun on another processor, if there is one."""
+    count = thread_count()
+    return work if count == 1 else _threads(count).submit(work).result
+
+
 def side_by_side(iterators: Sequence[Iterator[T]]) -> list[list[T]]:
     """All that each iterator gives, several at once where BLAS leaves processors to them.
 

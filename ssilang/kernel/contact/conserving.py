@@ -21,7 +21,7 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.rows import BoolArray, ContactRows
 from ssilang.kernel.contact.unilateral import ContactOptions
-from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import evaluate
 from ssilang.kernel.interface.response import accept, interface_stiffness, new_trial
 from ssilang.kernel.solvers.active_set.contact_methods import METHODS
@@ -162,7 +162,7 @@ class ConservingSolver:
         joints, share = problem.interface, 1 - problem.scheme.alpha_f
         self.effective, self.rows, self.interface = effective, rows, joints
         self.contact = ConservingContact(effective, rows, problem.contact_options, joints.J)
-        self._condensed = Condensed(effective.S, effective.R, share)
+        self._condensed = condensed_of(effective.S, share, effective.R)
         self._trial = new_trial((joints.n_points, joints.dimension), joints.size, mean=True)
         self._K = np.zeros((joints.size, joints.size))
 

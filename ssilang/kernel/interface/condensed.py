@@ -16,6 +16,9 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.interface.copies import add_product, add_symmetric_product, largest
 from ssilang.kernel.interface.response import InterfaceState, Trial
+from ssilang.kernel.solvers.low_rank import NONE, LowRank, add_low_rank_product
+
+HALVED = 500  # jumps from which half of their compliance is read
 
 
 class Condensed(NamedTuple):
@@ -25,11 +28,14 @@ class Condensed(NamedTuple):
     R: FloatArray  # (q, q) stiffness that it holds in excess (no rows: none)
     c: float  # share of the end of the step in its equilibrium
     half: bool = False  # of S is read: it is symmetric, and large
+    blocks: LowRank = NONE  # S where it is so large that its blocks are read in its place
 
 
-def condensed_of(S: FloatArray, c: float) -> Condensed:
-    """An interface of which nothing is held in excess."""
-    return Condensed(np.ascontiguousarray(S), np.zeros((0, 0)), c)
+def condensed_of(S: FloatArray, c: float, R: FloatArray | None = None) -> Condensed:
+    """The condensed interface of a compliance and of what it holds in excess, if anything."""
+    none = R is None or not R.any()
+    R = np.zeros((0, 0)) if none else R
+    return Condensed(np.ascontiguousarray(S), R, c, len(S) >= HALVED)
 
 
 @compiled_fast
@@ -40,7 +46,9 @@ def residual(condensed: Condensed, now: InterfaceState, trial: Trial) -> float:
         h[i] = condensed.c * (trial.f[i] - now.f[i])
         r[i] = y[i] - trial.y0[i]
     add_product(-1.0, R, y, h)  # of no rows: nothing
-    if condensed.half:
+    if len(condensed.blocks.values):
+        add_low_rank_product(condensed.blocks, False, h, r)
+    elif condensed.half:
         add_symmetric_product(S, h, r)
     else:
         add_product(1.0, S, h, r)

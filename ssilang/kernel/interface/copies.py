@@ -1,7 +1,7 @@
 """Small loops for compiled code: what numba makes of whole arrays takes it seconds to compile."""
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_threaded
 
 
 @compiled
@@ -66,7 +66,7 @@ def add_product(factor: float, A: FloatArray, x: FloatArray, y: FloatArray) -> N
         y[i] += factor * dot(A[i], x)
 
 
-@compiled_fast
+@compiled_threaded
 def add_symmetric_product(A: FloatArray, x: FloatArray, y: FloatArray) -> None:
     """y += A x of a symmetric A, of which half is read."""
     for i in range(0, len(A) - 1, 2):

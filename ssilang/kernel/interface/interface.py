@@ -161,9 +161,9 @@ class Interface:
         D = elastic_tangent(self.parameters, self.dimension)
         return joint_stiffness(self.points, D, self.size).toarray()
 
-    def is_soft(self, S: FloatArray) -> bool:
+    def is_soft(self, S: FloatArray, most: float = SOFT) -> bool:
         """Whether directions may be of single precision, S being the compliance of all else."""
-        return bool((self.closed_stiffness().diagonal() * S.diagonal()).max(initial=0.0) < SOFT)
+        return bool((self.closed_stiffness().diagonal() * S.diagonal()).max(initial=0.0) < most)
 
 
 def joint_stiffness(joints: Joints, D: FloatArray, size: int) -> sp.csr_array:

@@ -16,7 +16,7 @@ from ssilang.kernel.interface.factors.inverse import VANISHING, solve_small
 from ssilang.kernel.interface.factors.kept import (
     FORCING,
     Factors,
-    is_factorised,
+    has_tangents,
     new_factors,
     solve_tangent,
 )
@@ -309,7 +309,7 @@ def solve_interface(
             shares[0, 0] = 1.0  # looked at; the others stay no number, which is not stiff
     if is_stiff(shares):
         find_start(joints, condensed, now, trial, work.factors, shares)
-    elif is_factorised(work.factors) and len(trial.mean) == 0:
+    elif has_tangents(condensed, work.factors) and len(trial.mean) == 0:
         # starts where the last tangents lead, which is the end if no point changes
         solve_tangent(joints, condensed, work.factors, trial.D, y, FORCING)
     size = evaluate(joints, condensed, now, trial)

@@ -159,6 +159,11 @@ def compiled_inline(function: Function) -> Function:
     return _made(function, {"reassoc", "contract", "nsz", "arcp"}, True)
 
 
+def compiled_free(function: Function) -> Function:
+    """As `compiled`: other threads run meanwhile."""
+    return _made(function, False, nogil=True)
+
+
 def compiled_threaded(function: Function) -> Function:
     """As `compiled_fast`, for `base.threads`: other threads run meanwhile."""
     return _made(function, {"reassoc", "contract", "nsz", "arcp"}, nogil=True)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
-from ssilang.kernel.base.compiled.apart import later
+from ssilang.kernel.base.compiled.apart import later, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import add_product, copy_state, dot, is_equal
@@ -26,6 +26,7 @@ from ssilang.kernel.interface.factors.inverse import (
     subtract_jumps,
 )
 from ssilang.kernel.interface.response import Joints, add_stiffness_forces
+from ssilang.kernel.solvers.low_rank import add_low_rank_product
 
 MOST_TURNS = 60
 FEW_TURNS = 10
@@ -160,6 +161,37 @@ def _iterate(
         good = abs(e[k + 1]) <= (limit if last else LAST_DIGIT * size)
         if good and _combine(H, V, e, k + 1, v):
             return True
+    return False
+
+
+@seldom
+@compiled
+def solve_by_blocks(
+    joints: Joints, condensed: Condensed, D: FloatArray, x: FloatArray, enough: float
+) -> bool:
+    """`x := (1 + S c K)^-1 x` by iterations on few vectors of the blocks of S: soft joints.
+
+    `enough` is the residual that is left, relative to x.
+    """
+    q, most = len(x), min(MOST_TURNS, len(x))
+    V, H, turned, e = (
+        np.zeros((most + 1, q)), np.zeros((most, most + 1)), np.zeros((most, 2)),
+        np.zeros(most + 1),
+    )  # fmt: skip
+    size = e[0] = math.sqrt(dot(x, x))
+    if size == 0.0:
+        return True
+    for i in range(q):
+        V[0, i] = x[i] / size
+    for k in range(most):
+        forces = np.zeros(q)
+        add_stiffness_forces(joints, condensed.c, D, V[k], forces)
+        copy_state(V[k], V[k + 1])
+        add_low_rank_product(condensed.blocks, True, forces, V[k + 1])
+        _orthogonalise(V, k, H[k])
+        _rotate(H, k, turned, e)
+        if abs(e[k + 1]) <= enough * size or k + 1 == most:
+            return _combine(H, V, e, k + 1, x)
     return False
 
 

@@ -22,6 +22,7 @@ from ssilang.kernel.interface.factors.changed import (
     Changed,
     correct_changes,
     new_changed,
+    solve_by_blocks,
 )
 from ssilang.kernel.interface.factors.inverse import (
     PLAIN,
@@ -74,6 +75,12 @@ def new_factors(shape: tuple[int, ...], q: int, few: int = FEW, single: bool = F
 def is_factorised(factors: Factors) -> bool:
     """Whether there are factors of any tangents."""
     return not np.isnan(factors.tangents[0, 0, 0])
+
+
+@compiled
+def has_tangents(condensed: Condensed, factors: Factors) -> bool:
+    """Whether a direction can be had before the laws are looked at."""
+    return len(condensed.blocks.values) > 0 or is_factorised(factors)
 
 
 @seldom
@@ -152,6 +159,8 @@ def solve_tangent(
 
     `enough` is the relative residual up to which a solution is iterated.
     """
+    if len(condensed.blocks.values):
+        return solve_by_blocks(joints, condensed, D, x, enough)
     known, left = factors.tangents, list_others(factors, D)
     if left:
         left = follow_points(joints, condensed, factors, D, left)

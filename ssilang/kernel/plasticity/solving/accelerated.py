@@ -20,7 +20,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import solve_interface, workspace
 from ssilang.kernel.interface.response import accept
 from ssilang.kernel.plasticity.bulk import Answer, Bulk, State
@@ -379,8 +379,7 @@ class AcceleratedSolver(BulkSolver):
         assert work is not None
         work.trial.y0[:] = y0 if held is None else y0 + joints.J @ held
         work.trial.y[:] = work.trial.y0
-        R = e.R if e.R.any() else np.zeros((0, 0))
-        condensed = Condensed(e.S, R, self.share)
+        condensed = condensed_of(e.S, self.share, e.R)
         turns, _ = solve_interface(joints.points, condensed, motion.joints, work)
         return work.trial.h if turns > 0 else None
 

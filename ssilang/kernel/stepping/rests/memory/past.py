@@ -3,7 +3,8 @@
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.base.scientific import la
+from ssilang.kernel.base.threads import begun
+from ssilang.kernel.interface.copies import add_symmetric_product
 from ssilang.kernel.stepping.rests.memory.ground import SINGLE
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels
 
@@ -33,6 +34,8 @@ class Past:
         self.gone = np.zeros(k.stages[-1].P.shape[1] if k.stages else 0, SINGLE)
         """Sum of the forces before all kernels, in the last stage."""
         self.done = self.begun = 0
+        self.brought = begun(self._brought)
+        """What the next step has of the forces before its start's."""
 
     def _incoming(self, loads: FloatArray, steps: int) -> FloatArray:
         found = np.zeros((steps, self.kernels.size), SINGLE)
@@ -45,14 +48,21 @@ class Past:
 
         Those of the whole past are there, and stay.
         """
+        total, now = self.brought(), self.pad + self.done
+        self.forces[now] = forces
+        add_symmetric_product(self.near[0], self.forces[now], total)
+        self.done += 1
+        if self.done < len(self.incoming):
+            self.brought = begun(self._brought)  # while this step is solved
+        return -total
+
+    def _brought(self) -> FloatArray:
         if self.done == self.begun + len(self.ahead):
             self._look_ahead()
         now, row = self.pad + self.done, self.done - self.begun
-        self.forces[now] = forces
-        total = self.ahead[row].copy()
-        for j in range(row + 1):
-            total -= la.blas.ssymv(1.0, self.near[j].T, self.forces[now - j])  # reads half of it
-        self.done += 1
+        total = -self.ahead[row]
+        for j in range(1, row + 1):
+            add_symmetric_product(self.near[j], self.forces[now - j], total)
         return total
 
     def _look_ahead(self) -> None:

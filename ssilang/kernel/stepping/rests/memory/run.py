@@ -15,6 +15,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import BoolArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
+from ssilang.kernel.solvers.low_rank import low_rank
 from ssilang.kernel.stepping.choose import Choice, only
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.extremes import Extremes
@@ -46,6 +47,9 @@ SHARE = 0.1  # of the tolerance: what stages of kernels leave out
 TRIES = 3  # of smaller and smaller shares
 KEPT = 0.97  # of an alternating velocity, in a step
 NOW, BEFORE = 0.25 * (3.0 + KEPT), -0.25 * (1.0 - KEPT)  # so that slow motions have the scheme's
+MANY = 1000  # jumps beyond which blocks of their compliance are read
+SOFT = 10.0  # stiffness of their joints times compliance, up to which directions are iterated
+FEW, ALL = 2e-3, 5e-7  # of the compliance: what few and all vectors of a block leave out
 LOOKED_AT = 160  # steps over which kernels are compared with the ground itself
 
 
@@ -59,6 +63,12 @@ class MemoryLoop(InterleavedLoop):
         self.S = kernels.compliance(parts.ground.newmark)
         """The ground's compliance."""
         super().__init__(p, motion, replace(effective, S=effective.S + self.S))
+        condensed, joints = self.plan.condensed, p.interface
+        if len(condensed.S) > MANY and joints.is_soft(condensed.S, SOFT):
+            at = joints.J.indices[joints.J.indptr[: -1 : joints.dimension]]
+            places = p.numbering.table.coordinates[p.numbering.nodes[at]]
+            blocks = low_rank(condensed.S, places, FEW, ALL)
+            self.plan = self.plan._replace(condensed=condensed._replace(blocks=blocks))
         self.parts, self.start = parts, motion.f.copy()
         self.past = Past(kernels, parts.ground.loading[1], len(p.times) - 1)
         self.at = motion.delta - self.J @ self._folded(motion.u)

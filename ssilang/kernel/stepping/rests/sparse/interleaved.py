@@ -6,6 +6,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.scientific import sp, spla
+from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
@@ -92,7 +93,7 @@ class InterleavedLoop:
             _rows(self.M), Damping(alpha, beta, _all_rows(rest)), self.C.nnz > 0, self.forces,
             *self._acting(self.forces), np.zeros((q, 0)), _all_rows(root.J),
             _all_rows(sp.csr_array(root.J.T)), root.Y,
-            effective.S, effective.R if effective.R.any() else np.zeros((0, 0)),
+            condensed_of(effective.S, 1.0 - problem.scheme.alpha_f, effective.R),
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)

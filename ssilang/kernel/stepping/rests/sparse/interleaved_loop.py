@@ -29,7 +29,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart
-from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast, compiled_free
 from ssilang.kernel.interface.condensed import Condensed
 from ssilang.kernel.interface.copies import add_product, copy_state, dot
 from ssilang.kernel.interface.newton import Workspace, solve_interface
@@ -49,7 +49,6 @@ from ssilang.kernel.stepping.state import (
 )
 from ssilang.kernel.stepping.verbs import advance, damped, end_of_step, from_past
 
-HALVED = 500  # jumps from which half of their compliance is read
 BOTH, DOWN, UP = range(3)  # ways through a part: a branch goes down and up at once
 
 
@@ -88,8 +87,7 @@ class Plan(NamedTuple):
     Jr: Sparse  # (q, r) jumps of the root's unknowns
     JrT: Sparse  # its transpose
     Yr: FloatArray  # (r, q) motions of the root's unknowns under forces on the jumps
-    S: FloatArray  # (q, q) compliance of the interface
-    R: FloatArray  # (q, q) stiffness of it that A holds (no rows: none)
+    condensed: Condensed
     newmark: Newmark
     room: int  # length of the longest supernode
 
@@ -266,8 +264,7 @@ def settle_interface(
             y += plan.lift[i, c] * sweep.load_change[c]
         trial.y0[i] = trial.y[i] = y
     now = InterfaceState(flow.delta, flow.f, flow.w, flow.t, flow.state)
-    condensed = Condensed(plan.S, plan.R, plan.newmark.end, q >= HALVED)
-    turns, residual = solve_interface(joints, condensed, now, newton)
+    turns, residual = solve_interface(joints, plan.condensed, now, newton)
     if turns > 0:
         released = trial.dy
         for i in range(q):
@@ -318,7 +315,7 @@ def _root(plan: Plan, sweep: Sweep) -> None:
     backward(L, s, s + 1, sweep.b, sweep.du, sweep.local)
 
 
-@compiled
+@compiled_free
 def run_interleaved(
     plan: Plan, joints: Joints, x: Motion, products: Products, sweep: Sweep, newton: Workspace,
     factors: FloatArray, to: Recorder,

@@ -11,7 +11,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import for_products
 from ssilang.kernel.contact.impact import ImpactRule
-from ssilang.kernel.interface.condensed import Condensed
+from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import solve_interface, workspace
 from ssilang.kernel.interface.response import accept, interface_energies
 from ssilang.kernel.stepping.effective import Effective
@@ -63,8 +63,8 @@ class CondensedSolver:
     def __init__(self, problem: Problem, effective: Effective) -> None:
         self.effective = effective
         self.interface = problem.interface
-        R = effective.R if effective.R.any() else np.zeros((0, 0))
-        self._condensed = Condensed(effective.S, R, 1.0 - problem.scheme.alpha_f)
+        share = 1.0 - problem.scheme.alpha_f
+        self._condensed = condensed_of(effective.S, share, effective.R)
         joints, mean = problem.interface, problem.scheme.conserving
         shape = (joints.n_points, joints.dimension)
         self._newton = workspace(shape, joints.size, mean) if joints else None

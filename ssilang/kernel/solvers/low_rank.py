@@ -1,0 +1,93 @@
+"""Symmetric matrices in blocks of few singular vectors, as compliances of bodies are.
+
+What is far away is smooth (Börm, Grasedyck and Hackbusch 2003, 10.1016/S0955-7997(02)00152-2): rows
+are put in clusters of near places, blocks of two clusters have few singular values that count.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.compiled.apart import seldom
+from ssilang.kernel.base.compiled.compiler import compiled_fast
+from ssilang.kernel.base.scientific import la, spatial
+
+SINGLE: Any = np.float32
+CLUSTER = 96  # rows, at most but for one place
+
+
+class LowRank(NamedTuple):
+    """Blocks of the lower triangle, row by row; of no matrix if there are no values."""
+
+    order: IntArray  # (n,) rows of the matrix, those of a cluster one after another
+    first: IntArray  # (c + 1,) where clusters begin in it
+    ranks: IntArray  # (c (c + 1) / 2, 2) vectors of each block: a few, all; 0, -1: it is whole
+    values: FloatArray  # of single precision: whole blocks, or pairs of columns and rows
+
+
+NONE = LowRank(
+    np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 2), np.int64), np.zeros(0, SINGLE)
+)  # fmt: skip
+
+
+def low_rank(A: FloatArray, places: FloatArray, few: float, least: float) -> LowRank:
+    """A symmetric matrix (n d, n d) whose rows belong to places (n, dimension), d to each.
+
+    `few` and `least` are what few and all vectors leave out, of the norm of the matrix.
+    """
+    n, d = len(places), len(A) // len(places)
+    clusters = 1 << max(0, int(np.ceil(np.log2(n * d / CLUSTER))))
+    near = spatial.cKDTree(places, leafsize=1).indices
+    parts = [(d * p[:, None] + np.arange(d)).ravel() for p in np.array_split(near, clusters)]
+    size = np.abs(A).sum(axis=1).max() / np.sqrt(clusters)  # a row's blocks add up
+    ranks, values = list[tuple[int, int]](), list[FloatArray]()
+    for i, rows in enumerate(parts):
+        for columns in parts[: i + 1]:
+            block = A[np.ix_(rows, columns)]
+            U, s, V = la.svd(block, full_matrices=False)
+            left = np.sqrt(np.cumsum(s[::-1] ** 2))[::-1]
+            count = int((left > least * size).sum())
+            whole = rows is columns or count * sum(block.shape) > block.size
+            ranks.append((0, -1) if whole else (int((left > few * size).sum()), count))
+            pairs = np.hstack([(U * s).T, V])[:count]
+            values.append((block if whole else pairs).astype(SINGLE).ravel())
+    first = np.cumsum([0, *map(len, parts)])
+    return LowRank(np.concatenate(parts), first, np.array(ranks), np.concatenate(values))
+
+
+@seldom
+@compiled_fast
+def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) -> None:
+    """y += A x, by few vectors of each block or by all."""
+    xs, ys, block, at = np.empty(len(x)), np.zeros(len(x)), 0, 0
+    for i in range(len(x)):
+        xs[i] = x[A.order[i]]
+    for i in range(len(A.first) - 1):
+        xi, yi = xs[A.first[i] : A.first[i + 1]], ys[A.first[i] : A.first[i + 1]]
+        n = len(xi)
+        for j in range(i + 1):
+            xj, yj = xs[A.first[j] : A.first[j + 1]], ys[A.first[j] : A.first[j + 1]]
+            m, count = len(xj), A.ranks[block, 1]
+            for k in range(n if count < 0 else 0):
+                row, x_k, y_k = A.values[at : at + m], xi[k] if i != j else 0.0, 0.0
+                for e in range(m):
+                    y_k += row[e] * xj[e]
+                    yj[e] += row[e] * x_k
+                yi[k] += y_k
+                at += m
+            after = at + max(count, 0) * (n + m)
+            for _ in range(A.ranks[block, 0] if few else count):
+                u, v, s, t = A.values[at : at + n], A.values[at + n : at + n + m], 0.0, 0.0
+                for e in range(n):
+                    s += u[e] * xi[e]
+                for e in range(m):
+                    t += v[e] * xj[e]
+                for e in range(n):
+                    yi[e] += u[e] * t
+                for e in range(m):
+                    yj[e] += v[e] * s
+                at += n + m
+            at, block = after, block + 1
+    for i in range(len(x)):
+        y[A.order[i]] += ys[i]
