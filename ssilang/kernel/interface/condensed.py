@@ -18,8 +18,6 @@ from ssilang.kernel.interface.copies import add_product, add_symmetric_product, 
 from ssilang.kernel.interface.response import InterfaceState, Trial
 from ssilang.kernel.solvers.low_rank import NONE, LowRank, add_low_rank_product
 
-HALVED = 500  # jumps from which half of their compliance is read
-
 
 class Condensed(NamedTuple):
     """What all but the interface is to the interface."""
@@ -31,11 +29,12 @@ class Condensed(NamedTuple):
     blocks: LowRank = NONE  # S where it is so large that its blocks are read in its place
 
 
-def condensed_of(S: FloatArray, c: float, R: FloatArray | None = None) -> Condensed:
+FREE = np.zeros((0, 0))  # nothing is held in excess
+
+
+def condensed_of(S: FloatArray, c: float, R: FloatArray = FREE, half: bool = False) -> Condensed:
     """The condensed interface of a compliance and of what it holds in excess, if anything."""
-    none = R is None or not R.any()
-    R = np.zeros((0, 0)) if none else R
-    return Condensed(np.ascontiguousarray(S), R, c, len(S) >= HALVED)
+    return Condensed(np.ascontiguousarray(S), R if R.any() else FREE, c, half)
 
 
 @compiled_fast

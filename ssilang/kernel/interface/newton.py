@@ -208,6 +208,7 @@ def find_start(
 
 
 TOLERANCE = 1e-12  # of the largest jump, increment or traction: what double precision leaves
+OF_BLOCKS = 1e-9  # of a compliance in blocks, which are of single precision
 PLAIN_TURNS = 12  # turns without line search
 HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60
@@ -314,18 +315,19 @@ def solve_interface(
         solve_tangent(joints, condensed, work.factors, trial.D, y, FORCING)
     size = evaluate(joints, condensed, now, trial)
     scale = max(largest(trial.y0), largest(now.delta), 1e-300)
+    tolerance = OF_BLOCKS if len(condensed.blocks.values) else TOLERANCE
     turns = -MOST_TURNS
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, largest(y))
         if turn == HOLDING_TURN:
             size = _restart_held(joints, condensed, now, trial)
-        if size <= TOLERANCE * scale:
+        if size <= tolerance * scale:
             turns = turn
             break
         # Newton's direction
         for i in range(len(y)):
             dy[i] = -trial.r[i]
-        enough = max(FORCING, 0.1 * TOLERANCE * scale / size)
+        enough = max(FORCING, 0.1 * tolerance * scale / size)
         if not solve_tangent(joints, condensed, work.factors, trial.D, dy, enough):
             turns = 0
             break

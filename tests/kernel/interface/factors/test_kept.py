@@ -14,6 +14,7 @@ from ssilang.kernel.solvers.dense import (
     factorise_dense,
     solve_factors_together,
 )
+from ssilang.kernel.solvers.low_rank import add_low_rank_product, low_rank
 
 
 def test_a_singular_matrix_has_no_factors():
@@ -39,6 +40,43 @@ def test_a_walk_of_steps_agrees(words, kind):
         np.testing.assert_allclose(trial.state, plain.state, atol=1e-9 * size + 1e-15)
         accept(plain, now)
         now.delta[:] -= 0.1 * (now.delta - plain.y)
+
+
+@pytest.mark.parametrize("few", [3e-2, 0.3])
+@pytest.mark.parametrize("words", [(), ("CISAILLEMENT_ELASTIQUE",)])
+def test_a_walk_of_steps_by_blocks_agrees(monkeypatch, words, few):
+    """Directions by few vectors, what is left by all: to the digits of single precision."""
+    monkeypatch.setattr("ssilang.kernel.solvers.low_rank.CLUSTER", 12)
+    given = {"KN": 2e8, "KS": 1e8} if words else FRICTION
+    whole = soil_block(steps=2, size=(24, 4, 22), joint=given, words=words).interface
+    joints, q, random = whole.points, whole.size, np.random.default_rng(1)
+    x = np.arange(q // 2)[:, None] % 17.0  # some stand in one place
+    away = np.exp(-np.abs(x - x.T) / 3.0)
+    S = 1e-9 * np.kron(away + np.eye(q // 2), [[1.0, 0.3], [0.3, 2.0]])
+    blocks = low_rank(S, x, few, 1e-7)
+    assert (blocks.ranks[:, 0] < blocks.ranks[:, 1]).any()
+    S = np.array([product(blocks, row) for row in np.eye(q)])  # as they have it
+    condensed = Condensed(np.full((q, q), np.nan), np.zeros((0, 0)), 0.7, blocks=blocks)
+    now, work = at_rest(joints, q, whole.initial_state()), room(joints, q, "usual")
+    work.shares[:] = 1.0
+    states = set()
+    for _ in range(40):
+        y0 = 1e-3 * random.standard_normal(q)
+        assert compiled_newton(joints, condensed, now, y0, work) > 0
+        exact = condensed._replace(S=S)
+        trial, (_, plain) = work.trial, plain_newton(joints, exact, now, y0)
+        np.testing.assert_allclose(trial.y, plain.y, atol=1e-8 * np.abs(plain.y).max())
+        np.testing.assert_allclose(trial.f, plain.f, atol=1e-7 * np.abs(plain.f).max())
+        accept(plain, now)
+        states.add((plain.t[:, 1] < 0.0).sum())
+        now.delta[:] -= 0.1 * (now.delta - plain.y)
+    assert len(states) > 5
+
+
+def product(blocks, x):
+    found = np.zeros(len(x))
+    add_low_rank_product(blocks, False, x, found)
+    return found
 
 
 @together("held", [False, True])

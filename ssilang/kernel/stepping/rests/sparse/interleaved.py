@@ -48,6 +48,7 @@ KEPT = ("u", "v", "a", "w", "t", "state")
 BRANCH = 64_000  # numbers of a branch of the factor: half of a megabyte, the cache of a core
 BLOCK = 64  # steps between two evaluations of the equilibrium from the displacements
 MANY = 16_384  # unknowns of steps between them where unknowns are few: they cost calls alone
+HALVED = 500  # jumps from which half of their compliance is read
 SINGLE = 400  # jumps beyond which a response of double precision leaves the cache of a core
 
 
@@ -93,7 +94,7 @@ class InterleavedLoop:
             _rows(self.M), Damping(alpha, beta, _all_rows(rest)), self.C.nnz > 0, self.forces,
             *self._acting(self.forces), np.zeros((q, 0)), _all_rows(root.J),
             _all_rows(sp.csr_array(root.J.T)), root.Y,
-            condensed_of(effective.S, 1.0 - problem.scheme.alpha_f, effective.R),
+            condensed_of(effective.S, 1.0 - problem.scheme.alpha_f, effective.R, q >= HALVED),
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip
         self.supports = MovingSupports(problem, effective.dt, self.T)

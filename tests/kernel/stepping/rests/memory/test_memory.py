@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from references.recorder import Recorder
-from references.soil_block import soil_block
+from references.soil_block import FRICTION, soil_block
 from references.whole_and_reduced import relative
 
 from ssilang.io.memory_file import MemoryFile
@@ -141,6 +141,26 @@ def test_memory_without_truncation_is_the_whole_model(file, scheme, given):
     assert acceleration < (0.5 if forgetful else 5e-4)
     assert history.reduction.estimate < 5e-6
     assert relative(history.energies[:, 2:4], exact.energies[:, 2:4]) < 1e-4
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_blocks_of_the_compliance_lead_to_the_same_steps(monkeypatch, file, threads):
+    """Where joints are soft beside what they join, whatever the number of processors is."""
+    monkeypatch.setattr(run, "MANY", 9)
+    monkeypatch.setattr("ssilang.kernel.solvers.low_rank.CLUSTER", 8)
+    monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: threads)
+    loops, made = [], run.MemoryLoop
+    monkeypatch.setattr(run, "MemoryLoop", lambda *given: loops.append(made(*given)) or loops[-1])
+    problem = record(strength=1.5)
+    whole, found, exact, history = beside_the_whole(problem, 1e-4, file)
+    assert all(len(x.plan.condensed.blocks.values) for x in loops)
+    assert whole.joints("w")[..., 1].max() > 1e-2
+    assert history.loop == "memory"
+    assert max(errors(whole, found)[:3]) < 2e-5
+    assert relative(history.energies[:, 2:4], exact.energies[:, 2:4]) < 1e-4
+    stiff = record(steps=20, joint=FRICTION | {"KN": 1e3 * FRICTION["KN"]})
+    integrate_reduced(stiff, 1e-4, [], shelf=file)
+    assert not len(loops[-1].plan.condensed.blocks.values)
 
 
 def test_energies_are_those_of_what_stands_on_the_ground(file):
