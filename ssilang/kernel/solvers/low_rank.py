@@ -1,7 +1,7 @@
 """Symmetric matrices in blocks of few singular vectors, as compliances of bodies are.
 
-What is far away is smooth (Börm, Grasedyck and Hackbusch 2003, 10.1016/S0955-7997(02)00152-2): rows
-are put in clusters of near places, blocks of two clusters have few singular values that count.
+What is far away is smooth: rows are put in clusters of near places, and blocks of two clusters have
+few singular values that count (Amestoy et al. 2015, 10.1137/120903476).
 """
 
 from typing import Any, NamedTuple
@@ -14,7 +14,7 @@ from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.base.scientific import la, spatial
 
 SINGLE: Any = np.float32
-CLUSTER = 96  # rows, at most but for one place
+CLUSTER = 192  # rows, at most but for one place
 
 
 class LowRank(NamedTuple):
@@ -59,8 +59,9 @@ def low_rank(A: FloatArray, places: FloatArray, few: float, least: float) -> Low
 @seldom
 @compiled_fast
 def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) -> None:
-    """y += A x, by few vectors of each block or by all."""
-    xs, ys, block, at = np.empty(len(x)), np.zeros(len(x)), 0, 0
+    """y += A x in the precision of x, by few vectors of each block or by all."""
+    xs, ys, block, at = np.empty(len(x), x.dtype), np.zeros(len(x), x.dtype), 0, 0
+    zero = x.dtype.type(0.0)
     for i in range(len(x)):
         xs[i] = x[A.order[i]]
     for i in range(len(A.first) - 1):
@@ -70,7 +71,7 @@ def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) ->
             xj, yj = xs[A.first[j] : A.first[j + 1]], ys[A.first[j] : A.first[j + 1]]
             m, count = len(xj), A.ranks[block, 1]
             for k in range(n if count < 0 else 0):
-                row, x_k, y_k = A.values[at : at + m], xi[k] if i != j else 0.0, 0.0
+                row, x_k, y_k = A.values[at : at + m], xi[k] if i != j else zero, zero
                 for e in range(m):
                     y_k += row[e] * xj[e]
                     yj[e] += row[e] * x_k
@@ -78,7 +79,7 @@ def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) ->
                 at += m
             after = at + max(count, 0) * (n + m)
             for _ in range(A.ranks[block, 0] if few else count):
-                u, v, s, t = A.values[at : at + n], A.values[at + n : at + n + m], 0.0, 0.0
+                u, v, s, t = A.values[at : at + n], A.values[at + n : at + n + m], zero, zero
                 for e in range(n):
                     s += u[e] * xi[e]
                 for e in range(m):

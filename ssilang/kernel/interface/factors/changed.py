@@ -31,6 +31,7 @@ from ssilang.kernel.solvers.low_rank import add_low_rank_product
 MOST_TURNS = 60
 FEW_TURNS = 10
 LAST_DIGIT = 1e-13
+ROUGH = 1e-2  # residual of directions by blocks: a turn costs no more than two iterations
 CALLS = 5e4  # numbers that could be read while a correction's calls take place
 LONG, ALL = 0, 1  # places of `spent`
 
@@ -166,13 +167,8 @@ def _iterate(
 
 @seldom
 @compiled
-def solve_by_blocks(
-    joints: Joints, condensed: Condensed, D: FloatArray, x: FloatArray, enough: float
-) -> bool:
-    """`x := (1 + S c K)^-1 x` by iterations on few vectors of the blocks of S: soft joints.
-
-    `enough` is the residual that is left, relative to x.
-    """
+def solve_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, x: FloatArray) -> bool:
+    """`x := (1 + S c K)^-1 x` by iterations on few vectors of the blocks of S: soft joints."""
     q, most = len(x), min(MOST_TURNS, len(x))
     V, H, turned, e = (
         np.zeros((most + 1, q)), np.zeros((most, most + 1)), np.zeros((most, 2)),
@@ -190,7 +186,7 @@ def solve_by_blocks(
         add_low_rank_product(condensed.blocks, True, forces, V[k + 1])
         _orthogonalise(V, k, H[k])
         _rotate(H, k, turned, e)
-        if abs(e[k + 1]) <= enough * size or k + 1 == most:
+        if abs(e[k + 1]) <= ROUGH * size or k + 1 == most:
             return _combine(H, V, e, k + 1, x)
     return False
 

@@ -160,7 +160,7 @@ def solve_tangent(
     `enough` is the relative residual up to which a solution is iterated.
     """
     if len(condensed.blocks.values):
-        return solve_by_blocks(joints, condensed, D, x, enough)
+        return solve_by_blocks(joints, condensed, D, x)
     known, left = factors.tangents, list_others(factors, D)
     if left:
         left = follow_points(joints, condensed, factors, D, left)
