@@ -156,10 +156,10 @@ class Interface:
         """State of joints never loaded, shape (n_points, N_STATE)."""
         return np.zeros((self.n_points, N_STATE))
 
-    def closed_stiffness(self) -> FloatArray:
-        """Stiffness of the closed joints on the jumps, dense (size, size)."""
+    def closed_stiffness(self) -> sp.csr_array:
+        """Stiffness (size, size) of the closed joints on the jumps."""
         D = elastic_tangent(self.parameters, self.dimension)
-        return joint_stiffness(self.points, D, self.size).toarray()
+        return joint_stiffness(self.points, D, self.size)
 
     def is_soft(self, S: FloatArray, most: float = SOFT) -> bool:
         """Whether directions may be of single precision, S being the compliance of all else."""

@@ -111,7 +111,7 @@ def joint_conditioning(problem: Problem) -> JointConditioning | None:
     T, V = problem.constraints.T, problem.constraints.V
     dt = float(np.diff(problem.times).max())
     A = effective_matrix(problem, dt) if problem.M.nnz else problem.K
-    closed = joints.J.T @ sp.csr_array(joints.closed_stiffness()) @ joints.J
+    closed = joints.J.T @ joints.closed_stiffness() @ joints.J
     reduced = sp.csr_array(V.T @ (A + closed) @ T)
     number = balanced = _bound_by_mass(problem, dt, reduced)
     if number > STRANGE_JOINTS:

@@ -97,8 +97,8 @@ def effective_of(
     order = ordering_of(problem, right, least)
     inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
     if inverse.singular and joints:
-        R = share * joints.closed_stiffness()
-        A = sp.csr_array(A + joints.J.T @ sp.csr_array(R) @ joints.J)
+        held = share * joints.closed_stiffness()
+        A, R = sp.csr_array(A + joints.J.T @ held @ joints.J), held.toarray()
         inverse = invert(sp.csr_array(V.T @ A @ T), symmetric, problem.solver, order)
     if inverse.singular and (joints or not free):
         motions = T @ inverse.kernel

@@ -68,7 +68,7 @@ class DenseSolver(BulkSolver):
         trial.delta[:] = motion.delta + trial.y
         response.interface_response(joints.points, motion.state, trial.delta, trial)
         force = self.share * (self._J.T @ (trial.f - motion.f))
-        return self._joint_stiffness(joints, trial), force
+        return self._joint_stiffness(joints, trial).toarray(), force
 
     def _corrected(
         self, motion: Motion, now: BulkTrial, gap: FloatArray, held: FloatArray | None = None

@@ -501,7 +501,7 @@ def stiffness_contrast(problem: Problem) -> float | None:
     alone).
     """
     joints = problem.interface
-    closed = np.diag(joints.closed_stiffness())
+    closed = joints.closed_stiffness().diagonal()
     of_joints = abs(joints.J).T @ closed
     of_bodies = problem.K.diagonal()
     both = (of_joints > 0.0) & (of_bodies > 0.0)

@@ -241,7 +241,7 @@ def closed_forces(problem: Problem, motions: Any) -> Any:
     forces, joints = problem.K @ motions, problem.interface
     if not joints:
         return forces
-    return forces + joints.J.T @ (sp.csr_array(joints.closed_stiffness()) @ (joints.J @ motions))
+    return forces + joints.J.T @ (joints.closed_stiffness() @ (joints.J @ motions))
 
 
 # Supports that do not move take no part in loops on coordinates; their reactions follow.

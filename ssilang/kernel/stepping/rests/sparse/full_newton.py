@@ -6,12 +6,11 @@ from ssilang.kernel.base.arrays import FloatArray
 from ssilang.kernel.base.errors import SingularFactorError
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.contact.solver import ContactForces, stopped_motions
-from ssilang.kernel.interface.interface import Interface
+from ssilang.kernel.interface.interface import Interface, joint_stiffness
 from ssilang.kernel.interface.response import (
     Trial,
     accept,
     interface_response,
-    interface_stiffness,
     new_trial,
 )
 from ssilang.kernel.solvers.backends import factorise
@@ -104,22 +103,18 @@ class FullNewtonSolver:
         trial.y[:] = joints.J @ du
         trial.delta[:] = motion.delta + trial.y
         interface_response(joints.points, motion.state, trial.delta, trial)
-        tangent = sp.csr_array(
-            joints.J.T @ sp.csr_array(self._joint_stiffness(joints, trial)) @ joints.J
-        )
+        tangent = sp.csr_array(joints.J.T @ self._joint_stiffness(joints, trial) @ joints.J)
         return tangent, self.share * (joints.J.T @ (trial.f - motion.f))
 
-    def _joint_stiffness(self, joints: Interface, trial: Trial) -> FloatArray:
-        """Stiffness on the jumps, dense; of the closed joints before anything has moved.
+    def _joint_stiffness(self, joints: Interface, trial: Trial) -> sp.csr_array:
+        """Stiffness on the jumps; of the closed joints before anything has moved.
 
         A joint that is neither pressed nor open has two tangents; that of the open one may leave
         a body free that the loads go on to press.
         """
         if not trial.delta.any():
             return self.share * joints.closed_stiffness()
-        K = np.zeros((joints.size, joints.size))
-        interface_stiffness(joints.points, trial.D, K)
-        return self.share * K
+        return self.share * joint_stiffness(joints.points, trial.D, joints.size)
 
     def _commit(self, motion: Motion, trial: Trial) -> None:
         if self.interface:

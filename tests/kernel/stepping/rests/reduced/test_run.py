@@ -79,10 +79,10 @@ def test_static_answer_to_interface_and_loads_is_exact():
     joints = problem.interface
     T = problem.constraints.T
     closed = problem.K + joints.J.T @ joints.closed_stiffness() @ joints.J
-    closed = np.asarray(T.T @ closed @ T)
+    closed = (T.T @ closed @ T).toarray()
     inputs = np.column_stack([joints.J.T.toarray(), problem.loading.forces])
     exact = T @ np.linalg.solve(closed, T.T @ inputs)
-    reduced_closed = np.diag(model.k) + model.J.T @ joints.closed_stiffness() @ model.J
+    reduced_closed = np.diag(model.k) + model.J.T @ joints.closed_stiffness().toarray() @ model.J
     V = model.expand(np.eye(model.size))
     found = V @ np.linalg.solve(reduced_closed, V.T @ inputs)
     assert relative(found, exact) < 1e-8
