@@ -201,9 +201,14 @@ class Integration:
                 if observer.wanted[0]:
                     observer.receive(snapshot)
 
+    @property
+    def stepped(self) -> int:
+        """Unknowns whose steps take as long as these."""
+        return self.problem.numbering.size
+
     def _run(self, history: History) -> None:
-        keeper, total = self.keeper, len(self.problem.times) - 1
-        unknowns, state = self.problem.numbering.size, partial(self._state, history)
+        keeper, total, unknowns = self.keeper, len(self.problem.times) - 1, self.stepped
+        state = partial(self._state, history)
         with keeping.told_to_leave(keeper, lambda: self._done, state):
             while self._done < total:
                 self._chunk(self._done, keeper.stride(self._done, unknowns), history)

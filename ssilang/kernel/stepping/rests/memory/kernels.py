@@ -43,6 +43,7 @@ QUIETER = 5e-3  # of the tolerance: what no answer to a probe is
 STILL = 0.05  # of the tolerance: what none to a load is
 SPANNED = 0.1  # of the tolerance, of the norm of factors of loads: what is beside all patterns
 FINER = 0.1  # of that: beside the first ones
+FOLLOWED = 2  # times as long as the first ones at most: short motions leave a memory as long
 
 
 Kept = Callable[[str, tuple[int, int], Iterator[FloatArray]], Iterator[FloatArray]]
@@ -347,6 +348,7 @@ def with_loads(kernels: Kernels, ground: Ground, steps: int, kept: Kept) -> Kern
     new = _patterns(ground, k.patterns, k.tolerance)
     if not new.size:
         return k
+    steps = max(steps, k.reach or FOLLOWED * len(kernels.loads))
     _, loads, reach = _first_answers(ground.steps, none, new, k.tolerance, steps, kept)
     return replace(
         k, loads=_beside([k.loads, loads]), patterns=np.hstack([k.patterns, new]),

@@ -1,5 +1,7 @@
 """Jumps that past forces and loads bring: the convolution of a ground's kernels, on the way."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray
@@ -10,6 +12,7 @@ from ssilang.kernel.stepping.rests.memory.kernels import Kernels
 
 BLOCK = 8
 """Steps whose far past is summed together: each kernel is read once for all of them."""
+EVEN = 2, 5  # steps of a block in which later kernels and stages are read: no step waits for all
 
 
 class Past:
@@ -29,11 +32,10 @@ class Past:
         self.parts = [np.zeros((len(self.forces), s.P.shape[1]), SINGLE) for s in k.stages]
         self.near = [k.whole[0] + k.whole[1], *k.whole[2 : BLOCK + 1]]
         self.incoming = self._incoming((loads @ k.patterns).astype(SINGLE), steps)
-        self.ahead = np.zeros((0, q), SINGLE)
         self.far = np.zeros((1, q), SINGLE)
         self.gone = np.zeros(k.stages[-1].P.shape[1] if k.stages else 0, SINGLE)
         """Sum of the forces before all kernels, in the last stage."""
-        self.done = self.begun = 0
+        self.done, self.begun = 0, self.pad  # steps; rows of forces that stages have
         self.brought = begun(self._brought)
         """What the next step has of the forces before its start's."""
 
@@ -57,28 +59,34 @@ class Past:
         return -total
 
     def _brought(self) -> FloatArray:
-        if self.done == self.begun + len(self.ahead):
-            self._look_ahead()
-        now, row = self.pad + self.done, self.done - self.begun
-        total = -self.ahead[row]
-        for j in range(1, row + 1):
+        phase, now = self.done % BLOCK, self.pad + self.done
+        if phase == 0:
+            self._add_kernels(range(2, BLOCK + 1))
+        elif phase == EVEN[0]:
+            self._add_kernels(range(BLOCK + 1, len(self.kernels.whole)))
+        elif phase == EVEN[1]:
+            self._add_stages()
+        total = -self.incoming[self.done]
+        for j in range(1, phase + 1):
             add_symmetric_product(self.near[j], self.forces[now - j], total)
         return total
 
-    def _look_ahead(self) -> None:
-        """What forces before the next steps bring in each of them."""
-        k, first = self.kernels, self.done
-        rows = np.arange(self.begun, first) + self.pad
-        for stage, part in zip(k.stages, self.parts, strict=True):
-            part[rows] = self.forces[rows] @ stage.P
-        self.begun, steps = first, min(BLOCK, len(self.incoming) - first)
-        self.ahead = self.incoming[first : first + steps].copy()
-        at = self.pad + first + 1
-        for j in range(2, len(k.whole)):
-            n = min(steps, j - 1)
-            self.ahead[:n] -= self.forces[at - j : at - j + n] @ k.whole[j]
+    def _add_kernels(self, numbers: Sequence[int]) -> None:
+        """What forces before the next steps bring in each of them, by some whole kernels."""
+        first, at = self.done, self.pad + self.done + 1
+        for j in numbers:
+            n = min(BLOCK, j - 1, len(self.incoming) - first)
+            self.incoming[first : first + n] -= (
+                self.forces[at - j : at - j + n] @ self.kernels.whole[j]
+            )
+
+    def _add_stages(self) -> None:
+        """The same by stages."""
+        k, first, at = self.kernels, self.done, self.pad + self.done + 1
+        rows, steps = slice(self.begun, at - 1), min(BLOCK, len(self.incoming) - first)
         far = np.zeros((steps, len(self.far[0])), SINGLE)
         for stage, part in zip(k.stages, self.parts, strict=True):
+            part[rows] = self.forces[rows] @ stage.P
             found = np.zeros((steps, part.shape[1]), SINGLE)
             for j, core in enumerate(stage.sums, stage.first):
                 found += part[at - j : at - j + steps] @ core
@@ -87,5 +95,5 @@ class Past:
                 gone = self.gone + np.cumsum(part[j : j + steps], axis=0)
                 found, self.gone = found + gone @ stage.sums[-1], gone[-1]
             far += found @ stage.P.T
-        self.ahead -= np.diff(far, axis=0, prepend=self.far)
-        self.far = far[-1:]
+        self.incoming[first : first + steps] -= np.diff(far, axis=0, prepend=self.far)
+        self.begun, self.far = at - 1, far[-1:]

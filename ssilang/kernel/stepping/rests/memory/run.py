@@ -188,6 +188,11 @@ class MemoryIntegration(Integration):
     effective: Effective = field(kw_only=True)
     kernels: Kernels = field(kw_only=True)
 
+    @property
+    def stepped(self) -> int:
+        """What stands on the ground."""
+        return self.problem.constraints.T.shape[1]
+
     def prepare(self, inside: bool) -> None:
         """See what observers want; the loop compares no largest values."""
         super().prepare(inside=False)

@@ -12,6 +12,7 @@ from ssilang.io.memory_file import MemoryFile
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.scientific import spla
 from ssilang.kernel.base.sparse import sp
+from ssilang.kernel.stepping import keeping
 from ssilang.kernel.stepping.extremes import Extremes
 from ssilang.kernel.stepping.newmark import Scheme, hht
 from ssilang.kernel.stepping.problem.problem import closed_stiffness
@@ -183,6 +184,18 @@ def test_energies_are_those_of_what_stands_on_the_ground(file):
 def _upper(problem):
     """Unknowns on the block's side of the joints."""
     return np.flatnonzero(np.asarray(problem.interface.J.sum(axis=0)).ravel() > 0.0)
+
+
+def test_steps_are_as_many_at_a_time_as_what_stands_on_the_ground_lets(made, monkeypatch):
+    """Not the ground's unknowns, which nobody steps."""
+    file, problem, asked = made(), record(2), []
+    far = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground.T.shape[1]
+    stride = keeping.stride_of
+    monkeypatch.setattr(
+        keeping, "stride_of", lambda done, n, every: asked.append(n) or stride(done, n, every)
+    )
+    assert integrate_reduced(problem, 1e-4, [], shelf=file).loop == "memory"
+    assert set(asked) == {problem.constraints.T.shape[1] - far}
 
 
 WIDE = {"size": (28, 10, 16), "dt": 2.5e-3}
@@ -467,6 +480,21 @@ def test_loads_are_followed_until_next_to_nothing_is_left():
     assert followed < 0.5 * steps
     np.testing.assert_array_equal(made.loads, exact[:followed])
     assert np.abs(exact[followed:]).max() < 0.05 * 1e-2 * np.abs(exact).max()
+
+
+def test_a_short_motion_with_another_load_shortens_no_memory():
+    """The next long one would have to make it anew."""
+    nowhere = np.zeros(record().numbering.size, bool)
+    first, second = record(steps=400), with_another_load(record(steps=30))
+    memory = kernels.kernels_of(parts_of(first, nowhere).ground, 1e-2, 400, as_they_come)
+    assert memory.reach == 0
+    made = kernels.with_loads(memory, parts_of(second, nowhere).ground, 30, as_they_come)
+    assert made.reach == 0
+    assert len(made.loads) > 100
+    held = kernels.with_loads(
+        replace(memory, reach=60), parts_of(second, nowhere).ground, 30, as_they_come
+    )  # fmt: skip
+    assert (held.reach, len(held.loads)) == (60, 60)
 
 
 def test_a_ground_that_no_load_acts_on_answers_none():
