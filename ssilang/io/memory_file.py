@@ -15,8 +15,8 @@ from ssilang.io.archive.container import DAMAGES
 from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.run_output import RunLock
-from ssilang.kernel.base.arrays import FloatArray
-from ssilang.kernel.stepping.rests.memory.ground import SINGLE, TOLD_BY
+from ssilang.kernel.base.arrays import SINGLE, FloatArray
+from ssilang.kernel.stepping.rests.memory.ground import TOLD_BY
 from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
 from ssilang.system import GUARDED, lock
 

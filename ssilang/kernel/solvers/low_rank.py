@@ -4,16 +4,15 @@ What is far away is smooth: rows are put in clusters of near places, and blocks 
 few singular values that count (Amestoy et al. 2015, 10.1137/120903476).
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import SINGLE, FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled_fast
 from ssilang.kernel.base.scientific import la, spatial
 
-SINGLE: Any = np.float32
 CLUSTER = 192  # rows, at most but for one place
 
 

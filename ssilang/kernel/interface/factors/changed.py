@@ -168,7 +168,10 @@ def _iterate(
 @seldom
 @compiled
 def solve_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, x: FloatArray) -> bool:
-    """`x := (1 + S c K)^-1 x` by iterations on few vectors of the blocks of S: soft joints."""
+    """`x := (1 + S c K)^-1 x` by iterations on few vectors of the blocks of S, for soft joints.
+
+    False, and x as it was, if that takes too many turns.
+    """
     q, most = len(x), min(MOST_TURNS, len(x))
     V, H, turned, e = (
         np.zeros((most + 1, q)), np.zeros((most, most + 1)), np.zeros((most, 2)),
@@ -186,8 +189,8 @@ def solve_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, x: Floa
         add_low_rank_product(condensed.blocks, True, forces, V[k + 1])
         _orthogonalise(V, k, H[k])
         _rotate(H, k, turned, e)
-        if abs(e[k + 1]) <= ROUGH * size or k + 1 == most:
-            return _combine(H, V, e, k + 1, x)
+        if abs(e[k + 1]) <= ROUGH * size and _combine(H, V, e, k + 1, x):
+            return True
     return False
 
 

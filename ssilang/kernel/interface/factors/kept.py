@@ -159,8 +159,8 @@ def solve_tangent(
 
     `enough` is the relative residual up to which a solution is iterated.
     """
-    if len(condensed.blocks.values):
-        return solve_by_blocks(joints, condensed, D, x)
+    if len(condensed.blocks.values) and solve_by_blocks(joints, condensed, D, x):
+        return True
     known, left = factors.tangents, list_others(factors, D)
     if left:
         left = follow_points(joints, condensed, factors, D, left)

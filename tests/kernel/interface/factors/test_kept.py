@@ -7,8 +7,8 @@ from references.soil_block import FRICTION, soil_block
 from together import together
 
 from ssilang.kernel.interface.condensed import Condensed
-from ssilang.kernel.interface.factors.changed import ALL, CALLS, LONG
-from ssilang.kernel.interface.factors.kept import LONG_WORTH, solve_tangent
+from ssilang.kernel.interface.factors.changed import ALL, CALLS, LONG, MOST_TURNS
+from ssilang.kernel.interface.factors.kept import LONG_WORTH, is_factorised, solve_tangent
 from ssilang.kernel.interface.response import accept, interface_stiffness
 from ssilang.kernel.solvers.dense import (
     factorise_dense,
@@ -55,7 +55,7 @@ def test_a_walk_of_steps_by_blocks_agrees(monkeypatch, words, few):
     S = 1e-9 * np.kron(away + np.eye(q // 2), [[1.0, 0.3], [0.3, 2.0]])
     blocks = low_rank(S, x, few, 1e-7)
     assert (blocks.ranks[:, 0] < blocks.ranks[:, 1]).any()
-    S = np.array([product(blocks, row) for row in np.eye(q)])  # as they have it
+    S = as_they_have_it(blocks)
     condensed = Condensed(np.full((q, q), np.nan), np.zeros((0, 0)), 0.7, blocks=blocks)
     now, work = at_rest(joints, q, whole.initial_state()), room(joints, q, "usual")
     work.shares[:] = 1.0
@@ -73,10 +73,33 @@ def test_a_walk_of_steps_by_blocks_agrees(monkeypatch, words, few):
     assert len(states) > 5
 
 
-def product(blocks, x):
-    found = np.zeros(len(x))
-    add_low_rank_product(blocks, False, x, found)
-    return found
+def as_they_have_it(blocks):
+    """The matrix (q, q) of blocks with all their vectors."""
+    S = np.zeros(2 * [len(blocks.order)])
+    for row, x in zip(S, np.eye(len(S)), strict=True):
+        add_low_rank_product(blocks, False, x, row)
+    return S
+
+
+def test_blocks_that_take_too_many_turns_leave_it_to_an_inverse():
+    """Tangents of any sign, so stiff that no value of the compliance is like another."""
+    whole = soil_block(steps=2, size=(84, 4, 80)).interface
+    joints, q, random = whole.points, whole.size, np.random.default_rng(3)
+    assert q > 2 * MOST_TURNS
+    U = np.linalg.qr(random.standard_normal((q, q)))[0]
+    blocks = low_rank(1e-9 * U * np.geomspace(1.0, 1e-2, q) @ U.T, np.zeros((q // 2, 1)), 1e-3, 0.0)
+    S, K = as_they_have_it(blocks), np.zeros((q, q))
+    condensed = Condensed(S, np.zeros((0, 0)), 1.0, blocks=blocks)
+    factors = room(joints, q, "usual").factors
+    for stiff, exact in ((1e-6, False), (1.0, True), (1e-6, True)):
+        D = stiff * 1e13 * random.standard_normal((len(joints.weights), 2, 2))
+        interface_stiffness(joints, D, K)
+        b = random.standard_normal(q)
+        x = b.copy()
+        assert solve_tangent(joints, condensed, factors, D, x, 1e-4)
+        left = np.linalg.norm(x + S @ K @ x - b) / np.linalg.norm(b)
+        assert left < (1e-6 if stiff == 1.0 else 1e-2)
+        assert is_factorised(factors) == exact
 
 
 @together("held", [False, True])

@@ -7,11 +7,10 @@ of its side of the joints and no more.
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
+from ssilang.kernel.base.arrays import SINGLE, BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.scientific import sp
 from ssilang.kernel.interface.interface import interface_of
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
@@ -24,7 +23,6 @@ from ssilang.kernel.stepping.problem.initial import joint_state
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction
 
-SINGLE: Any = np.float32
 TOLD_BY = 4  # motions that tell grounds apart
 REST = 1e-3  # of the joints' forces: what may be out of balance where a motion starts
 

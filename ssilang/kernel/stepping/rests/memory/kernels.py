@@ -19,13 +19,13 @@ from threading import Lock
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import SINGLE, FloatArray
 from ssilang.kernel.base.compiled.compiler import compiled_threaded
 from ssilang.kernel.base.scientific import fft, la, spla
 from ssilang.kernel.base.threads import side_by_side
 from ssilang.kernel.solvers.cholesky.triangular import solve_together
 from ssilang.kernel.stepping.newmark import Newmark
-from ssilang.kernel.stepping.rests.memory.ground import SINGLE, Ground, GroundSteps, alike
+from ssilang.kernel.stepping.rests.memory.ground import Ground, GroundSteps, alike
 from ssilang.kernel.stepping.run import Progress
 from ssilang.kernel.stepping.verbs import advance, damped, from_past
 

@@ -4,10 +4,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import FloatArray
+from ssilang.kernel.base.arrays import SINGLE, FloatArray
 from ssilang.kernel.base.threads import begun
 from ssilang.kernel.interface.copies import add_symmetric_product
-from ssilang.kernel.stepping.rests.memory.ground import SINGLE
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels
 
 BLOCK = 8
