@@ -35,7 +35,8 @@ def test_products_are_those_of_the_matrix_but_for_what_is_said(
     A = low_rank(S, places, 1e-3, 1e-7)
     assert np.diff(A.first).max() < cluster + d
     assert np.array_equal(np.sort(A.order), np.arange(n * d))
-    X = np.eye(n * d)
+    X, sides = np.eye(n * d), np.diff(A.first)
+    assert 2 * len(A.values) <= (n * d) ** 2 + (sides**2).sum()  # no more than the blocks whole
     size = np.linalg.norm(S, 2)
     for few, least in ((True, 1e-3), (False, 1e-7)):
         found = np.array([product(A, few, x) for x in X])

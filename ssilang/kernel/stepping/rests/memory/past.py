@@ -51,7 +51,7 @@ class Past:
         """
         total, now = self.brought(), self.pad + self.done
         self.forces[now] = forces
-        add_symmetric_product(self.near[0], self.forces[now], total)
+        add_symmetric_product(self.near[0], self.forces[now].astype(float), total)
         self.done += 1
         if self.done < len(self.incoming):
             self.brought = begun(self._brought)  # while this step is solved
@@ -65,9 +65,9 @@ class Past:
             self._add_kernels(range(BLOCK + 1, len(self.kernels.whole)))
         elif phase == EVEN[1]:
             self._add_stages()
-        total = -self.incoming[self.done]
+        total = -self.incoming[self.done].astype(float)  # sums of increments drift by rounding
         for j in range(1, phase + 1):
-            add_symmetric_product(self.near[j], self.forces[now - j], total)
+            add_symmetric_product(self.near[j], self.forces[now - j].astype(float), total)
         return total
 
     def _add_kernels(self, numbers: Sequence[int]) -> None:

@@ -98,7 +98,7 @@ class MemoryLoop(InterleavedLoop):
                 work=np.zeros((2, 1, loads)),
             )  # fmt: skip
             before = x.f.copy()
-            brought = self.past.next(before - self.start).astype(float)
+            brought = self.past.next(before - self.start)
             lift[:, -1] = brought
             factors = np.hstack([block.factors[k : k + 2], unit])
             _, turns, residual = run_interleaved(

@@ -366,6 +366,27 @@ def test_convolution_is_that_of_sums_which_last(staged):
         np.testing.assert_allclose(past.next(forces[n]), brought, rtol=2e-4, atol=2e-4)
 
 
+def test_rounding_of_increments_adds_up_to_little():
+    """Forces that stay: what kernels of single precision bring in each step is summed in double."""
+    random, q, steps = np.random.default_rng(1), 600, 200
+    sums = random.uniform(0.5, 1.0, (9, q, q))
+    whole = np.diff(sums + sums.transpose(0, 2, 1), axis=0, prepend=0.0, append=0.0)
+    whole, mark = whole.astype(np.float32), np.zeros(1)
+    stage = kernels.Stage(9, np.eye(q, 1, dtype=np.float32), np.zeros((3, 1, 1), np.float32))
+    loads, patterns = np.zeros((1, q, 1), np.float32), np.ones((1, 1))
+    made = kernels.Kernels(mark, 0.01, 1e-3, whole, (stage,), loads, patterns, mark, 0)
+    past = Past(made, np.zeros((steps + 1, 1)), steps)
+    history = 1.0 + 0.3 * np.sin(0.3 * np.arange(steps))
+    forces = np.outer(history, random.uniform(1.0, 2.0, q)).astype(np.float32).astype(float)
+    whole, away, largest = whole.astype(float), np.zeros(q), 0.0
+    for n in range(steps):
+        known = [forces[n], *forces[n::-1]]
+        exact = -sum(G @ f for G, f in zip(whole, known, strict=False))
+        away += past.next(forces[n]) - exact
+        largest = max(largest, float(np.abs(away).max()))
+    assert largest < 2e-5 * np.abs(whole[0] @ forces[0]).max()
+
+
 @pytest.mark.parametrize("elsewhere", [True, False], ids=["another process", "the same"])
 def test_a_memory_serves_other_motions(truncated, elsewhere):
     file, stamp = truncated[0], truncated[0].path.stat().st_mtime_ns
