@@ -16,8 +16,9 @@ from ssilang.io.atomic import replacing
 from ssilang.io.errors import InputError, OutputError
 from ssilang.io.run_output import RunLock
 from ssilang.kernel.base.arrays import SINGLE, FloatArray
+from ssilang.kernel.solvers.low_rank import LowRank
 from ssilang.kernel.stepping.rests.memory.ground import TOLD_BY
-from ssilang.kernel.stepping.rests.memory.kernels import WHOLE, Kernels, Stage
+from ssilang.kernel.stepping.rests.memory.kernels import NEAR, Kernels, Stage
 from ssilang.system import GUARDED, lock
 
 _LOOK = 0.05  # s between two tries of a file that another process writes
@@ -55,15 +56,20 @@ class MemoryFile:
                 if sum(i.file_size for i in f.zip.infolist()) > self.path.stat().st_size:
                     raise ValueError("packed")
                 given = {name: f[name] for name in f.files}
+                order, clusters = given.pop("order"), given.pop("clusters")
+                sums = tuple(
+                    LowRank(order, clusters, ranks, given.pop(f"values{i}"))
+                    for i, ranks in enumerate(given.pop("ranks"))
+                )
                 stages = tuple(
                     Stage(int(first), given.pop(f"P{i}"), given.pop(f"sums{i}"))
                     for i, first in enumerate(given.pop("firsts").tolist())
                 )
-                if others := {f.name for f in fields(Kernels)} ^ {"stages", *given}:
+                if others := {f.name for f in fields(Kernels)} ^ {"sums", "stages", *given}:
                     raise ValueError(", ".join(sorted(others)))
                 for name, kind in _NUMBERS.items():
                     given[name] = kind(given[name][()])
-                kernels = Kernels(**given, stages=stages)
+                kernels = Kernels(**given, sums=sums, stages=stages)
                 _check(kernels)
                 return kernels
         except DAMAGES as error:
@@ -100,7 +106,11 @@ class MemoryFile:
     def write(self, kernels: Kernels) -> None:
         """Put a memory there."""
         k = kernels
-        parts = {f.name: getattr(k, f.name) for f in fields(k) if f.name != "stages"}
+        many = ("sums", "stages")
+        parts = {f.name: getattr(k, f.name) for f in fields(k) if f.name not in many}
+        parts |= {"order": k.sums[0].order, "clusters": k.sums[0].first}
+        parts |= {"ranks": [A.ranks for A in k.sums]}
+        parts |= {f"values{i}": A.values for i, A in enumerate(k.sums)}
         for i, stage in enumerate(k.stages):
             parts |= {f"P{i}": stage.P, f"sums{i}": stage.sums}
         with replacing(self.path) as stream:
@@ -126,18 +136,37 @@ _NUMBERS: dict[str, Callable[[Any], Any]] = {
 def _check(k: Kernels) -> None:
     """Refuse arrays of kinds and shapes that no run wrote."""
     q, loads, r = int(k.mark[0]), k.loads_mark.size // TOLD_BY, k.patterns.shape[-1]
-    shapes = [(k.whole, SINGLE, (len(k.whole), q, q)), (k.loads, SINGLE, (len(k.loads), q, r))]
+    shapes = [(k.first, SINGLE, (q, q)), (k.loads, SINGLE, (len(k.loads), q, r))]
     shapes += [(k.patterns, float, (loads, r))]
     shapes += [(mark, float, (mark.size,)) for mark in (k.mark, k.loads_mark)]
     for stage in k.stages:
         r = stage.P.shape[-1]
         shapes += [(stage.P, SINGLE, (q, r)), (stage.sums, SINGLE, (len(stage.sums), r, r))]
+    for A in k.sums:
+        count = len(A.first)
+        shapes += [(A.order, np.int64, (q,)), (A.first, np.int64, (count,))]
+        shapes += [(A.ranks, np.int64, (count * (count - 1) // 2, 2))]
+        shapes += [(A.values, SINGLE, (A.values.size,))]
     for part, kind, shape in shapes:
         if part.dtype != kind or part.shape != shape or not np.isfinite(part).all():
             raise ValueError(f"{part.shape} {part.dtype}")
-    ends = [len(k.whole) - 1, *(s.first + len(s.sums) for s in k.stages)]
-    if len(k.whole) < WHOLE or any(s.first < end for s, end in zip(k.stages, ends, strict=False)):
-        raise ValueError(f"{len(k.whole)} kernels")
+    ends = [len(k.sums) + 1, *(s.first + len(s.sums) for s in k.stages)]
+    if ends[0] < NEAR or any(s.first < end for s, end in zip(k.stages, ends, strict=False)):
+        raise ValueError(f"{ends[0]} kernels")
+    if any(_numbers(A) != len(A.values) for A in k.sums):
+        raise ValueError("blocks")
+
+
+def _numbers(A: LowRank) -> int:
+    """How many values the blocks of a matrix have, -1 if these are no blocks."""
+    q, sides, (few, count) = len(A.order), np.diff(A.first), A.ranks.T
+    least = min(x.min() for x in (sides, few, q - count, count + 1, np.maximum(count, 0) - few))
+    rows = np.array_equal(np.sort(A.order), np.arange(q))
+    if least < 0 or not rows or [A.first[0], A.first[-1]] != [0, q]:
+        return -1
+    row, column = np.tril_indices(len(sides))
+    n, m = sides[row], sides[column]
+    return int(np.where(count < 0, n * m, count * (n + m)).sum())
 
 
 def _hold(path: Path) -> RunLock | None:

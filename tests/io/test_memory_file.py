@@ -15,12 +15,18 @@ from together import together
 from ssilang.io import memory_file
 from ssilang.io.errors import InputError
 from ssilang.io.memory_file import MemoryFile
+from ssilang.kernel.solvers.low_rank import LowRank
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels, Stage
 
 F = np.float32
-WHOLE, P, SUMS = np.ones((16, 6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
+FIRST, P, SUMS = np.ones((6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), F)
+ORDER, CLUSTERS = np.arange(6), np.arange(0, 7, 2)
+RANKS = np.array([[0, -1], [1, 1], [0, -1], [0, 0], [1, 1], [0, -1]])
+VALUES = np.ones(5 * 4, F)
+UNREAD = [f"values{i}" for i in range(7, 15)]
+NEAR = (LowRank(ORDER, CLUSTERS, RANKS, VALUES),) * 15
 SOUND = Kernels(
-    np.full(3, 6.0), 5e-3, 1e-2, WHOLE, (Stage(16, P, SUMS),), np.ones((3, 6, 2), F),
+    np.full(3, 6.0), 5e-3, 1e-2, FIRST, NEAR, (Stage(16, P, SUMS),), np.ones((3, 6, 2), F),
     np.ones((5, 2)), np.ones(20), 0,
 )  # fmt: skip
 
@@ -39,6 +45,13 @@ def declaring(shape: tuple[int, ...]) -> bytes:
     return stream.getvalue()
 
 
+def ranks(at: tuple[int, int] = (0, 0), value: int = 0, count: int = 15) -> bytes:
+    """Those of as many sums, with another value."""
+    found = RANKS.copy()
+    found[at] = value
+    return npy(np.array([found] * count))
+
+
 class Program:
     """Makes a folder when it is unpickled."""
 
@@ -49,25 +62,43 @@ class Program:
         return os.mkdir, (self.path,)
 
 
-def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> MemoryFile:
+def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes | None) -> MemoryFile:
     """A sound memory with other arrays in place of its own."""
     MemoryFile(path).write(SOUND)
     with zipfile.ZipFile(path) as file:
         whole = {n: file.read(n) for n in file.namelist()}
     with zipfile.ZipFile(path, "w", packing) as file:
         for name, raw in (whole | {f"{n}.npy": raw for n, raw in arrays.items()}).items():
-            file.writestr(name, raw)
+            if raw is not None:
+                file.writestr(name, raw)
     return MemoryFile(path)
 
 
 @together(
     "arrays, told",
     [
-        ({"whole": npy(WHOLE.astype(complex))}, "complex128"),
-        ({"whole": npy(np.full((16, 6, 6), "1"))}, "<U1"),
-        ({"whole": npy(WHOLE[:, :5])}, ""),
-        ({"whole": npy(WHOLE[:8])}, "8 kernels"),
-        ({"whole": npy(np.concatenate([WHOLE, WHOLE]))}, "32 kernels"),
+        ({"first": npy(FIRST.astype(complex))}, "complex128"),
+        ({"first": npy(np.full((6, 6), "1"))}, "<U1"),
+        ({"first": npy(FIRST[:, :5])}, ""),
+        ({"ranks": ranks(count=7)}, "values7"),
+        ({"ranks": ranks(count=7), **dict.fromkeys(UNREAD)}, "8 kernels"),
+        ({"ranks": ranks((0, 1), 0)}, "blocks"),
+        ({"ranks": ranks((1, 1), 0)}, "blocks"),
+        ({"ranks": ranks((1, 1), 2**62 + 1)}, "blocks"),
+        ({"ranks": ranks((1, 0), 2)}, "blocks"),
+        ({"ranks": ranks((1, 0), -1)}, "blocks"),
+        ({"ranks": ranks((0, 1), -2)}, "blocks"),
+        ({"order": npy(ORDER[::2])}, ""),
+        ({"order": npy(np.zeros(6, int))}, "blocks"),
+        ({"order": npy(ORDER.astype(np.int32))}, "int32"),
+        ({"clusters": npy(np.array([0, 2, 4, 5]))}, "blocks"),
+        ({"clusters": npy(np.array([1, 2, 4, 6]))}, "blocks"),
+        ({"clusters": npy(np.array([0, 4, 2, 6]))}, "blocks"),
+        ({"clusters": npy(np.array([0, 6]))}, ""),
+        ({"clusters": npy(CLUSTERS[:, None])}, ""),
+        ({"values3": npy(VALUES[:-1])}, "blocks"),
+        ({"values3": npy(VALUES.astype(float))}, "float64"),
+        ({"firsts": npy(np.array([15]))}, "16 kernels"),
         ({"loads": npy(np.full((3, 6, 2), np.nan, F))}, ""),
         ({"loads": npy(np.ones((3, 7, 2), F))}, ""),
         ({"loads": npy(np.ones((3, 6, 1), F))}, ""),
@@ -81,11 +112,11 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes) -> Memo
         ({"firsts": npy(np.zeros(0, int))}, ""),
         ({"firsts": npy(np.array([16, 32]))}, ""),
         ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),
-        ({"other": npy(WHOLE)}, ": other"),
-        ({"whole": declaring((10**11, 2))}, ""),
-        ({"whole": declaring((10**7, 2))}, ""),
+        ({"other": npy(FIRST)}, ": other"),
+        ({"first": declaring((10**11, 2))}, ""),
+        ({"first": declaring((10**7, 2))}, ""),
         ({"mark": npy(np.array([Program(Path("ran"))], object))}, "allow_pickle"),
-        ({"whole": pickle.dumps(Program(Path("ran")))}, ""),
+        ({"first": pickle.dumps(Program(Path("ran")))}, ""),
     ],
 )
 def test_arrays_that_no_run_wrote_are_damage(arrays, told, tmp_path, monkeypatch):
@@ -100,7 +131,7 @@ def test_arrays_that_no_run_wrote_are_damage(arrays, told, tmp_path, monkeypatch
 
 def test_what_is_packed_or_locked_is_damage(tmp_path):
     with pytest.raises(InputError, match=r"is damaged, .*: packed"):
-        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, whole=npy(np.zeros((10**6, 2)))).read()
+        made(tmp_path / "a.npz", zipfile.ZIP_DEFLATED, first=npy(np.zeros((10**6, 2)))).read()
     locked = made(tmp_path / "b.npz")
     raw = bytearray(locked.path.read_bytes())
     raw[raw.find(b"PK\x01\x02") + 8] |= 1  # the first array, by a password

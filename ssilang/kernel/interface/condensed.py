@@ -18,6 +18,8 @@ from ssilang.kernel.interface.copies import add_product, add_symmetric_product, 
 from ssilang.kernel.interface.response import InterfaceState, Trial
 from ssilang.kernel.solvers.low_rank import NONE, LowRank, add_low_rank_product
 
+LAST_DIGITS = 1e-12  # of the largest jump, increment or traction: what double precision leaves
+
 
 class Condensed(NamedTuple):
     """What all but the interface is to the interface."""
@@ -27,6 +29,7 @@ class Condensed(NamedTuple):
     c: float  # share of the end of the step in its equilibrium
     half: bool = False  # of S is read: it is symmetric, and large
     blocks: LowRank = NONE  # S where it is so large that its blocks are read in its place
+    tolerance: float = LAST_DIGITS  # residual of the jumps that is left, of the largest one
 
 
 FREE = np.zeros((0, 0))  # nothing is held in excess

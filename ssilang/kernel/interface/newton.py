@@ -10,7 +10,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import apart, seldom
 from ssilang.kernel.base.compiled.compiler import compiled, compiled_fast
-from ssilang.kernel.interface.condensed import Condensed, residual
+from ssilang.kernel.interface.condensed import LAST_DIGITS, Condensed, residual
 from ssilang.kernel.interface.copies import copy_rows, copy_state, largest
 from ssilang.kernel.interface.factors.inverse import VANISHING, solve_small
 from ssilang.kernel.interface.factors.kept import (
@@ -183,7 +183,7 @@ def find_start(
             for j in range(d):
                 F[i, j] = t[i, j] - trial.t[i, j]
                 size, top = max(size, abs(F[i, j])), max(top, abs(t[i, j]))
-        if size <= TOLERANCE * top:
+        if size <= LAST_DIGITS * top:
             return turn
         if not _tangents(joints, rho, trial.D, F):
             break
@@ -207,8 +207,6 @@ def find_start(
     return 0
 
 
-TOLERANCE = 1e-12  # of the largest jump, increment or traction: what double precision leaves
-OF_BLOCKS = 1e-9  # of a compliance in blocks, which are of single precision
 PLAIN_TURNS = 12  # turns without line search
 HOLDING_TURN = 16  # turn from which shear that jumps with the opening is held
 MOST_TURNS = 60
@@ -315,19 +313,18 @@ def solve_interface(
         solve_tangent(joints, condensed, work.factors, trial.D, y, FORCING)
     size = evaluate(joints, condensed, now, trial)
     scale = max(largest(trial.y0), largest(now.delta), 1e-300)
-    tolerance = OF_BLOCKS if len(condensed.blocks.values) else TOLERANCE
     turns = -MOST_TURNS
     for turn in range(1, MOST_TURNS + 1):
         scale = max(scale, largest(y))
         if turn == HOLDING_TURN:
             size = _restart_held(joints, condensed, now, trial)
-        if size <= tolerance * scale:
+        if size <= condensed.tolerance * scale:
             turns = turn
             break
         # Newton's direction
         for i in range(len(y)):
             dy[i] = -trial.r[i]
-        enough = max(FORCING, 0.1 * tolerance * scale / size)
+        enough = max(FORCING, 0.1 * condensed.tolerance * scale / size)
         if not solve_tangent(joints, condensed, work.factors, trial.D, dy, enough):
             turns = 0
             break

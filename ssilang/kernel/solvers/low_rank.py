@@ -10,7 +10,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import SINGLE, FloatArray, IntArray
 from ssilang.kernel.base.compiled.apart import seldom
-from ssilang.kernel.base.compiled.compiler import compiled_fast
+from ssilang.kernel.base.compiled.compiler import compiled_threaded
 from ssilang.kernel.base.scientific import la, spatial
 
 CLUSTER = 192  # rows, at most but for one place
@@ -22,7 +22,7 @@ class LowRank(NamedTuple):
     order: IntArray  # (n,) rows of the matrix, those of a cluster one after another
     first: IntArray  # (c + 1,) where clusters begin in it
     ranks: IntArray  # (c (c + 1) / 2, 2) vectors of each block: a few, all; 0, -1: it is whole
-    values: FloatArray  # of single precision: whole blocks, or pairs of columns and rows
+    values: FloatArray  # whole blocks, or pairs of columns and rows
 
 
 NONE = LowRank(
@@ -33,30 +33,32 @@ NONE = LowRank(
 def low_rank(A: FloatArray, places: FloatArray, few: float, least: float) -> LowRank:
     """A symmetric matrix (n d, n d) whose rows belong to places (n, dimension), d to each.
 
-    `few` and `least` are what few and all vectors leave out, of the norm of the matrix.
+    Blocks are of its precision.
+
+    `few` and `least` are norms of what few and all vectors leave out.
     """
     n, d = len(places), len(A) // len(places)
     clusters = 1 << max(0, int(np.ceil(np.log2(n * d / CLUSTER))))
     near = spatial.cKDTree(places, leafsize=1).indices
     parts = [(d * p[:, None] + np.arange(d)).ravel() for p in np.array_split(near, clusters)]
-    size = np.abs(A).sum(axis=1).max() / np.sqrt(clusters)  # a row's blocks add up
+    few, least = few / np.sqrt(clusters), least / np.sqrt(clusters)  # a row's blocks add up
     ranks, values = list[tuple[int, int]](), list[FloatArray]()
     for i, rows in enumerate(parts):
         for columns in parts[: i + 1]:
             block = A[np.ix_(rows, columns)]
             U, s, V = la.svd(block, full_matrices=False)
             left = np.sqrt(np.cumsum(s[::-1] ** 2))[::-1]
-            count = int((left > least * size).sum())
+            count = int((left > least).sum())
             whole = rows is columns or count * sum(block.shape) > block.size
-            ranks.append((0, -1) if whole else (int((left > few * size).sum()), count))
+            ranks.append((0, -1) if whole else (int((left > few).sum()), count))
             pairs = np.hstack([(U * s).T, V])[:count]
-            values.append((block if whole else pairs).astype(SINGLE).ravel())
+            values.append((block if whole else pairs).ravel())
     first = np.cumsum([0, *map(len, parts)])
     return LowRank(np.concatenate(parts), first, np.array(ranks), np.concatenate(values))
 
 
 @seldom
-@compiled_fast
+@compiled_threaded
 def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) -> None:
     """y += A x in the precision of x, by few vectors of each block or by all."""
     xs, ys, block, at = np.empty(len(x), x.dtype), np.zeros(len(x), x.dtype), 0, 0

@@ -32,12 +32,12 @@ def test_products_are_those_of_the_matrix_but_for_what_is_said(
     places = random.uniform(0.0, 10.0, (n, dimension))
     places[n // 2 : n // 2 + 3] = places[0]  # in one place
     S = compliance(places, d)
-    A = low_rank(S, places, 1e-3, 1e-7)
+    size = np.linalg.norm(S, 2)
+    A = low_rank(S, places, 1e-3 * size, 1e-7 * size)
     assert np.diff(A.first).max() < cluster + d
     assert np.array_equal(np.sort(A.order), np.arange(n * d))
     X, sides = np.eye(n * d), np.diff(A.first)
     assert 2 * len(A.values) <= (n * d) ** 2 + (sides**2).sum()  # no more than the blocks whole
-    size = np.linalg.norm(S, 2)
     for few, least in ((True, 1e-3), (False, 1e-7)):
         found = np.array([product(A, few, x) for x in X])
         left = np.linalg.norm(found - S, 2) / size
@@ -53,7 +53,8 @@ def test_little_is_kept_of_what_is_smooth_far_away(monkeypatch):
     monkeypatch.setattr(rooms, "CLUSTER", 48)
     x, y = np.meshgrid(np.linspace(0.0, 20.0, 21), np.linspace(0.0, 20.0, 19))
     places = np.column_stack([x.ravel(), y.ravel()])
-    A = low_rank(compliance(places, 3, reach=3.0), places, 1e-2, 1e-4)
+    S = compliance(places, 3, reach=3.0)
+    A = low_rank(S, places, *(x * np.linalg.norm(S, np.inf) for x in (1e-2, 1e-4)))
     few, all_of_them = A.ranks[A.ranks[:, 1] >= 0].mean(axis=0)
     assert few < 0.7 * all_of_them
     assert len(A.values) < 0.55 * (3 * len(places)) ** 2 / 2

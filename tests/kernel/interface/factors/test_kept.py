@@ -53,10 +53,12 @@ def test_a_walk_of_steps_by_blocks_agrees(monkeypatch, words, few):
     x = np.arange(q // 2)[:, None] % 17.0  # some stand in one place
     away = np.exp(-np.abs(x - x.T) / 3.0)
     S = 1e-9 * np.kron(away + np.eye(q // 2), [[1.0, 0.3], [0.3, 2.0]])
-    blocks = low_rank(S, x, few, 1e-7)
+    size = np.linalg.norm(S, np.inf)
+    blocks = low_rank(S, x, few * size, 1e-7 * size)
     assert (blocks.ranks[:, 0] < blocks.ranks[:, 1]).any()
     S = as_they_have_it(blocks)
-    condensed = Condensed(np.full((q, q), np.nan), np.zeros((0, 0)), 0.7, blocks=blocks)
+    none, nowhere = np.zeros((0, 0)), np.full((q, q), np.nan)
+    condensed = Condensed(nowhere, none, 0.7, blocks=blocks, tolerance=1e-9)
     now, work = at_rest(joints, q, whole.initial_state()), room(joints, q, "usual")
     work.shares[:] = 1.0
     states = set()
@@ -87,7 +89,9 @@ def test_blocks_that_take_too_many_turns_leave_it_to_an_inverse():
     joints, q, random = whole.points, whole.size, np.random.default_rng(3)
     assert q > 2 * MOST_TURNS
     U = np.linalg.qr(random.standard_normal((q, q)))[0]
-    blocks = low_rank(1e-9 * U * np.geomspace(1.0, 1e-2, q) @ U.T, np.zeros((q // 2, 1)), 1e-3, 0.0)
+    blocks = low_rank(
+        1e-9 * U * np.geomspace(1.0, 1e-2, q) @ U.T, np.zeros((q // 2, 1)), 3e-12, 0.0
+    )
     S, K = as_they_have_it(blocks), np.zeros((q, q))
     condensed = Condensed(S, np.zeros((0, 0)), 1.0, blocks=blocks)
     factors = room(joints, q, "usual").factors

@@ -20,6 +20,7 @@ from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.newmark import Newmark, newmark_of
 from ssilang.kernel.stepping.problem.constraints import split_damping
 from ssilang.kernel.stepping.problem.initial import joint_state
+from ssilang.kernel.stepping.problem.loading import Loading
 from ssilang.kernel.stepping.problem.problem import Problem
 from ssilang.kernel.stepping.rests.reduced.basis import NoReduction
 
@@ -58,6 +59,13 @@ class Ground:
     def J(self) -> sp.csr_array:  # noqa: N802
         """Its part (q, r) of the jumps."""
         return sp.csr_array(self.problem.interface.J @ self.T)
+
+    @cached_property
+    def places(self) -> FloatArray:
+        """Of its pairs (q / d, dimension), each with d jumps."""
+        joints, numbering = self.problem.interface, self.problem.numbering
+        at = joints.J.indices[joints.J.indptr[: -1 : joints.dimension]]
+        return numbering.table.coordinates[numbering.nodes[at]]
 
     @cached_property
     def _seen(self) -> FloatArray:
@@ -174,11 +182,17 @@ def parts_of(problem: Problem, asked: BoolArray) -> Parts:
     constraints, others = copy(p.constraints), sp.diags_array(keep)
     constraints.T = constraints.V = sp.csr_array(T[:, ~far])
     K, M, C = (sp.csr_array(others @ A) for A in (p.K, p.M, p.C))
-    loading = replace(p.loading, forces=p.loading.forces * keep[:, None])
-    near = replace(
-        p, constraints=constraints, loading=loading, K=K, M=M, C=C, solver=FIRST_FIT
+    for A in (K, M, C):
+        A.eliminate_zeros()  # most of what was read
+    loads, above = (np.flatnonzero(p.loading.forces[x].any(axis=0)) for x in (rows, keep > 0.0))
+    loading = Loading(
+        p.loading.forces[:, above] * keep[:, None], p.loading.imposed[:, above],
+        tuple(p.loading.curves[i] for i in above),
     )  # fmt: skip
-    loads = np.flatnonzero(p.loading.forces[rows].any(axis=0))
+    near = replace(
+        p, constraints=constraints, loading=loading, K=K, M=M, C=C, solver=FIRST_FIT,
+        contact=replace(p.contact, imposed=p.contact.imposed[:, above]),
+    )  # fmt: skip
     return Parts(near, Ground(p, own, loads), touched, back)
 
 

@@ -4,11 +4,12 @@ Discrete kernels of the scheme's own steps: `G_k` (q, q) are the increments of t
 step under unit forces at the end of the first one. They are seen through answers `G_k W` to probes
 W, orthonormal forces: waves leave, and what is left of them is smooth, so that fewer and fewer
 probes tell all of a kernel (Halko, Martinsson and Tropp 2011, 10.1137/090771806: the mixed cosines
-of section 4.6, symmetric kernels from one pass of section 5.5). The first kernels are kept whole.
-Later ones are kept as sums `G_1 + .. + G_k`, how far an impulse has moved the jumps, in the span of
-their answers but for singular vectors below the tolerance: what is left out of a sum is there for a
-step, what is left out of an increment stays. Of loads there are the patterns that a motion has, as
-edges of a soil follow what comes from below: so few that other motions have the same.
+of section 4.6, symmetric kernels from one pass of section 5.5). The first one is kept whole, all
+others as sums `G_1 + .. + G_k`, how far an impulse has moved the jumps: what is left out of a sum
+is there for a step, what is left out of an increment stays. The next sums are kept in blocks, later
+ones in the span of their answers, both but for singular vectors below the tolerance. Of loads there
+are the patterns that a motion has, as edges of a soil follow what comes from below: so few that
+other motions have the same.
 """
 
 import hashlib
@@ -24,6 +25,7 @@ from ssilang.kernel.base.compiled.compiler import compiled_threaded
 from ssilang.kernel.base.scientific import fft, la, spla
 from ssilang.kernel.base.threads import side_by_side
 from ssilang.kernel.solvers.cholesky.triangular import solve_together
+from ssilang.kernel.solvers.low_rank import LowRank, low_rank
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.rests.memory.ground import Ground, GroundSteps, alike
 from ssilang.kernel.stepping.run import Progress
@@ -33,9 +35,9 @@ COLUMNS = 192  # stepped together
 PROBES = 64  # at first; half as many more while they do not suffice
 OVER = 2  # probes of one singular vector
 MOST = 0.75  # singular vectors of one probe
-WHOLE = 9  # first kernels, kept as they are
+NEAR = 9  # first kernels, of any number of vectors
 GUESSED = 20  # steps of most probes, until it is known
-FEW = 0.6  # of the jumps: more singular vectors than that are kept as whole kernels
+FEW = 0.6  # of the jumps: kernels with more singular vectors are kept in blocks
 CLOSER = 0.25  # of the tolerance: the same of one step, as many add up
 LONGER = 1.25  # where steps end that share their vectors, over where they begin
 QUIET = 16  # steps without an answer, after which none comes
@@ -88,8 +90,9 @@ class Kernels:
     mark: FloatArray  # of the ground
     dt: float
     tolerance: float
-    whole: FloatArray  # (m + 1, q, q) G_1 to G_m, less their sum where stages follow
-    stages: tuple[Stage, ...]
+    first: FloatArray  # (q, q) G_1
+    sums: tuple[LowRank, ...]  # (q, q) each: of the first 2 to m kernels
+    stages: tuple[Stage, ...]  # none: the last sum lasts
     loads: FloatArray  # (l, q, r) the same of loads, in patterns
     patterns: FloatArray  # (k, r) orthonormal, of the k loads
     loads_mark: FloatArray  # of their forces
@@ -99,7 +102,7 @@ class Kernels:
     @property
     def size(self) -> int:
         """Number q of jumps."""
-        return int(self.whole.shape[1])
+        return len(self.first)
 
     @property
     def vectors(self) -> int:
@@ -108,7 +111,7 @@ class Kernels:
 
     def compliance(self, n: Newmark) -> FloatArray:
         """That of a step (q, q): what forces at its end answer in it."""
-        return self.whole[0].astype(float) / n.end
+        return self.first.astype(float) / n.end
 
 
 def increments(ground: GroundSteps, changes: Iterable[FloatArray]) -> Iterator[FloatArray]:
@@ -183,35 +186,33 @@ def kernels_of(
         If the ground has no factor.
     """
     own, q = ground.steps, ground.J.shape[0]
-    probes, steps = _probes(q), max(steps, WHOLE)
+    probes, steps = _probes(q), max(steps, NEAR)
     patterns = _patterns(ground, np.zeros((len(ground.loads), 0)), tolerance)
     making = Making(kept, progress, steps * (PROBES + patterns.shape[1]) + q * GUESSED)
     first_answers, loads, reach = _first_answers(
         own, probes[:, :PROBES], patterns, tolerance, steps, making.answered
     )  # fmt: skip
     answers = _answers_to_probes(own, probes, first_answers, CLOSER * tolerance, making)
-    whole, stages = list[FloatArray](), list[Stage]()
+    sums, stages = list[LowRank](), list[Stage]()
     first, least = 0, CLOSER * tolerance * _norm(answers[0])
     while first < len(answers):
         count = answers[first].shape[1]
-        longest = answers[first : max(WHOLE, int(LONGER * first))]
+        longest = answers[first : max(NEAR, int(LONGER * first))]
         part = [Y for Y in longest if Y.shape[1] == count]
-        as_it_is = first < WHOLE or (count == q and _rank(part[-1], least) > FEW * q)
+        as_it_is = first < NEAR or (count == q and _rank(part[-1], least) > FEW * q)
         P = probes if as_it_is else _span(part, least * np.sqrt(count / q), MOST * count)
-        if count == q and first == len(whole) and P.shape[1] > FEW * q:
-            whole += [_symmetric(Y @ probes.T) for Y in part]  # sums
+        if count == q and not stages and P.shape[1] > FEW * q:
+            near = (_symmetric(Y @ probes.T) for Y in part[0 if first else 1 :])
+            sums += [low_rank(A, ground.places, least, least) for A in near]
         elif P.shape[1]:
             seen = P.T @ probes[:, :count]
             back = la.solve(seen @ seen.T, seen, assume_a="pos").T
-            sums = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
-            stages.append(Stage(first, P.astype(SINGLE), sums))
+            cores = np.array([_symmetric(P.T @ Y @ back) for Y in part], SINGLE)
+            stages.append(Stage(first, P.astype(SINGLE), cores))
         first += len(part)
-    near = np.array([*whole, np.zeros((q, q), SINGLE) if stages else whole[-1]])
-    for k in range(len(whole), 0, -1):
-        near[k] -= near[k - 1]
     return Kernels(
-        ground.mark, ground.dt, tolerance, near, tuple(stages), loads, patterns,
-        ground.loads_mark, reach,
+        ground.mark, ground.dt, tolerance, _symmetric(answers[0] @ probes.T), tuple(sums),
+        tuple(stages), loads, patterns, ground.loads_mark, reach,
     )  # fmt: skip
 
 
@@ -251,7 +252,7 @@ def _answers_to_probes(
     while (count := found[0].shape[1]) < len(probes):
         least = tolerance * _norm(found[0])
         end = bisect_left(
-            range(end), True, WHOLE, key=lambda k: _rank(found[k], least) <= count / OVER
+            range(end), True, NEAR, key=lambda k: _rank(found[k], least) <= count / OVER
         )  # fmt: skip
         more = probes[:, count : count + max(count // 2, PROBES)]
         making.left = end * (len(probes) - count)

@@ -13,9 +13,10 @@ from typing import Protocol
 
 import numpy as np
 
-from ssilang.kernel.base.arrays import BoolArray, FloatArray
+from ssilang.kernel.base.arrays import SINGLE, BoolArray, FloatArray
 from ssilang.kernel.base.errors import KernelError
-from ssilang.kernel.solvers.low_rank import low_rank
+from ssilang.kernel.base.threads import begun
+from ssilang.kernel.solvers.low_rank import LowRank, low_rank
 from ssilang.kernel.stepping.choose import Choice, only
 from ssilang.kernel.stepping.effective import Effective, effective_matrix, effective_of
 from ssilang.kernel.stepping.extremes import Extremes
@@ -49,7 +50,9 @@ KEPT = 0.97  # of an alternating velocity, in a step
 NOW, BEFORE = 0.25 * (3.0 + KEPT), -0.25 * (1.0 - KEPT)  # so that slow motions have the scheme's
 MANY = 1000  # jumps beyond which blocks of their compliance are read
 SOFT = 10.0  # stiffness of their joints times compliance, up to which directions are iterated
-FEW, ALL = 2e-3, 5e-7  # of the compliance: what few and all vectors of a block leave out
+FEW = 2e-3  # of the compliance: what few vectors of a block leave out
+LEFT = 1e-2  # of the tolerance of kernels: the same of all vectors, residual of the jumps
+EXACT = 1e-9  # of the building's compliance: what is left out is forces that are not there
 LOOKED_AT = 160  # steps over which kernels are compared with the ground itself
 
 
@@ -62,15 +65,13 @@ class MemoryLoop(InterleavedLoop):
         p = parts.near
         self.S = kernels.compliance(parts.ground.newmark)
         """The ground's compliance."""
+        past = begun(lambda: Past(kernels, parts.ground.loading[1], len(p.times) - 1))
         super().__init__(p, motion, replace(effective, S=effective.S + self.S))
-        condensed, joints = self.plan.condensed, p.interface
-        if len(condensed.S) > MANY and joints.is_soft(condensed.S, SOFT):
-            at = joints.J.indices[joints.J.indptr[: -1 : joints.dimension]]
-            places = p.numbering.table.coordinates[p.numbering.nodes[at]]
-            blocks = low_rank(condensed.S, places, FEW, ALL)
-            self.plan = self.plan._replace(condensed=condensed._replace(blocks=blocks))
-        self.parts, self.start = parts, motion.f.copy()
-        self.past = Past(kernels, parts.ground.loading[1], len(p.times) - 1)
+        self.parts = parts
+        if len(self.S) > MANY:
+            self._use_blocks(effective, kernels.tolerance)
+        self.start = motion.f.copy()
+        self.past = past()
         self.at = motion.delta - self.J @ self._folded(motion.u)
         """The ground's part (q,) of the jumps: what the building's is not."""
         self.moved = np.zeros((3, len(self.at)))
@@ -79,6 +80,29 @@ class MemoryLoop(InterleavedLoop):
         """Last increments of the first two."""
         self.largest = 0.0
         """Jump so far."""
+
+    def _use_blocks(self, effective: Effective, tolerance: float) -> None:
+        """In place of what is read in each step, where that is symmetric and large.
+
+        Directions are rough ones then, and what is left of a step is taken to the next one.
+        """
+        plan, S, root = self.plan, self.plan.condensed.S, effective.root
+        assert root is not None  # else nothing fits
+        if self.parts.near.interface.is_soft(S, SOFT):
+            blocks = self._blocks(S.astype(SINGLE), FEW, LEFT * tolerance)
+            condensed = plan.condensed._replace(blocks=blocks, tolerance=LEFT * tolerance)
+            plan = plan._replace(condensed=condensed)
+        at, data = root.J.indices, root.J.data
+        one = (np.diff(root.J.indptr) == 1).all()  # unknown of each jump
+        if one and np.array_equal(np.sort(at), np.arange(root.J.shape[1])):
+            blocks = self._blocks(root.Y[at] / data, EXACT, EXACT)
+            blocks = blocks._replace(order=at[blocks.order].astype(np.int64))
+            plan = plan._replace(Yr=root.Y[:0], blocks=blocks)
+        self.plan = plan
+
+    def _blocks(self, A: FloatArray, few: float, least: float) -> LowRank:
+        size = float(np.linalg.norm(A, np.inf))
+        return low_rank(A, self.parts.ground.places, few * size, least * size)
 
     def stepped(self, block: PreparedBlock, kept: Recorder) -> Outcome:
         """Each step of a block: the ground's motion under old forces, then all together."""
@@ -98,7 +122,7 @@ class MemoryLoop(InterleavedLoop):
                 work=np.zeros((2, 1, loads)),
             )  # fmt: skip
             before = x.f.copy()
-            brought = self.past.next(before - self.start)
+            brought = self.past.next(before - self.start) - self.newton.trial.r
             lift[:, -1] = brought
             factors = np.hstack([block.factors[k : k + 2], unit])
             _, turns, residual = run_interleaved(

@@ -10,6 +10,7 @@ from ssilang.kernel.interface.condensed import condensed_of
 from ssilang.kernel.interface.newton import workspace
 from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.triangular import longest
+from ssilang.kernel.solvers.low_rank import NONE
 from ssilang.kernel.stepping.effective import Effective, RootResponse
 from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import split_damping
@@ -94,6 +95,7 @@ class InterleavedLoop:
             _rows(self.M), Damping(alpha, beta, _all_rows(rest)), self.C.nnz > 0, self.forces,
             *self._acting(self.forces), np.zeros((q, 0)), _all_rows(root.J),
             _all_rows(sp.csr_array(root.J.T)), root.Y,
+            NONE._replace(values=np.zeros(0)),
             condensed_of(effective.S, 1.0 - problem.scheme.alpha_f, effective.R, q >= HALVED),
             newmark_of(problem.scheme, effective.dt), longest(factor.panels),
         )  # fmt: skip

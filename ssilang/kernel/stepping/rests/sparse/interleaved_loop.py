@@ -36,6 +36,7 @@ from ssilang.kernel.interface.newton import Workspace, solve_interface
 from ssilang.kernel.interface.response import InterfaceState, Joints, accept, interface_energies
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 from ssilang.kernel.solvers.cholesky.triangular import backward, forward
+from ssilang.kernel.solvers.low_rank import LowRank, add_low_rank_product
 from ssilang.kernel.stepping.newmark import Newmark
 from ssilang.kernel.stepping.state import (
     DAMPED,
@@ -87,6 +88,7 @@ class Plan(NamedTuple):
     Jr: Sparse  # (q, r) jumps of the root's unknowns
     JrT: Sparse  # its transpose
     Yr: FloatArray  # (r, q) motions of the root's unknowns under forces on the jumps
+    blocks: LowRank  # (r, r) motions under their own forces, in place of panels and Yr (or none)
     condensed: Condensed
     newmark: Newmark
     room: int  # length of the longest supernode
@@ -269,7 +271,12 @@ def settle_interface(
         released = trial.dy
         for i in range(q):
             released[i] = flow.f[i] - trial.f[i]
-        add_product(-1.0, plan.Yr, trial.h, own)
+        if len(plan.blocks.values):
+            for i in range(end - begin):
+                sweep.room[begin + i] = -_row(plan.JrT, i, trial.h)
+            add_low_rank_product(plan.blocks, False, sweep.room[begin:end], own)
+        else:
+            add_product(-1.0, plan.Yr, trial.h, own)
         for i in range(end - begin):
             sweep.change[begin + i] = _row(plan.JrT, i, released)
         accept(trial, now)
@@ -311,6 +318,13 @@ def account(
 def _root(plan: Plan, sweep: Sweep) -> None:
     """Forward and backward solves of the root, under the joints' old forces."""
     L, s = plan.L, plan.root
+    if len(plan.blocks.values):
+        begin, end = L.first[s], L.first[s + 1]
+        for i in range(begin, end):
+            sweep.b[i] += sweep.above[i]
+            sweep.above[i] = sweep.du[i] = 0.0
+        add_low_rank_product(plan.blocks, False, sweep.b[begin:end], sweep.du[begin:end])
+        return
     _rise(L, s, s + 1, UP, sweep)
     backward(L, s, s + 1, sweep.b, sweep.du, sweep.local)
 
