@@ -1,5 +1,6 @@
 """A ground by its memory against the whole model: without truncation steps are the same ones."""
 
+from copy import copy
 from dataclasses import replace
 
 import numpy as np
@@ -145,22 +146,39 @@ def test_memory_without_truncation_is_the_whole_model(file, scheme, given):
     assert relative(history.energies[:, 2:4], exact.energies[:, 2:4]) < 1e-4
 
 
-@pytest.mark.parametrize("threads", [1, 2])
-def test_blocks_of_the_compliance_lead_to_the_same_steps(monkeypatch, file, threads):
+def tied(problem):
+    """The same with one motion along the joints at two of the block's lower nodes."""
+    T = sp.csr_array(problem.constraints.T)
+    one, other = (int(T[[i]].indices[0]) for i in _upper(problem)[[0, 4]])
+    merged = sp.lil_array(sp.eye_array(T.shape[1]))
+    merged[other, one] = 1.0
+    constraints = copy(problem.constraints)
+    kept = np.delete(np.arange(T.shape[1]), other)
+    T = constraints.T = constraints.V = sp.csr_array(T @ sp.csr_array(merged)[:, kept])
+    problem = replace(problem, constraints=constraints)
+    K = sp.csc_array(closed_stiffness(problem))
+    return replace(problem, u=T @ spla.spsolve(K, T.T @ problem.loading.forces[:, 0]))
+
+
+@pytest.mark.parametrize(
+    ("threads", "changed"), [(1, replace), (2, replace), (2, tied)], ids=["1", "2", "tied"]
+)
+def test_blocks_of_compliances_lead_to_the_same_steps(monkeypatch, file, threads, changed):
     """Where joints are soft beside what they join, whatever the number of processors is."""
     monkeypatch.setattr(run, "MANY", 9)
     monkeypatch.setattr("ssilang.kernel.solvers.low_rank.CLUSTER", 8)
     monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: threads)
     loops, made = [], run.MemoryLoop
     monkeypatch.setattr(run, "MemoryLoop", lambda *given: loops.append(made(*given)) or loops[-1])
-    problem = record(strength=1.5)
+    problem = changed(record(strength=1.5))
     whole, found, exact, history = beside_the_whole(problem, 1e-4, file)
     assert all(len(x.plan.condensed.blocks.values) for x in loops)
+    assert all(bool(len(x.plan.blocks.values)) == (changed is replace) for x in loops)
     assert whole.joints("w")[..., 1].max() > 1e-2
     assert history.loop == "memory"
     assert max(errors(whole, found)[:3]) < 2e-5
     assert relative(history.energies[:, 2:4], exact.energies[:, 2:4]) < 1e-4
-    stiff = record(steps=20, joint=FRICTION | {"KN": 1e3 * FRICTION["KN"]})
+    stiff = changed(record(steps=20, joint=FRICTION | {"KN": 1e3 * FRICTION["KN"]}))
     integrate_reduced(stiff, 1e-4, [], shelf=file)
     assert not len(loops[-1].plan.condensed.blocks.values)
 
