@@ -31,11 +31,15 @@ def rows_of(inside: IntArray, wanted: IntArray) -> IntArray:
     """Row (m,) of a table (n, k) with the nodes of each of other rows (m, k), -1 for none."""
     if not len(inside) or not len(wanted):
         return np.full(len(wanted), -1)
-    keys, probe = row_keys(inside), row_keys(wanted)
+    meant = np.zeros(max(inside.max(), wanted.max()) + 1, bool)
+    meant[wanted] = True
+    near = np.flatnonzero(meant[inside].all(axis=1))  # as a rule few, and sorting takes long
+    if not len(near):
+        return np.full(len(wanted), -1)
+    keys, probe = row_keys(inside[near]), row_keys(wanted)
     order = np.argsort(keys, kind="stable")
-    place = np.minimum(np.searchsorted(keys, probe, sorter=order), len(keys) - 1)
-    rows = order[place]
-    return np.where(keys[rows] == probe, rows, -1)
+    rows = order[np.minimum(np.searchsorted(keys, probe, sorter=order), len(keys) - 1)]
+    return np.where(keys[rows] == probe, near[rows], -1)
 
 
 def _fitting_basis(cell_type: str, source: FloatArray, target: FloatArray) -> list[FloatArray]:

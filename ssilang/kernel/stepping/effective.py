@@ -9,6 +9,7 @@ on the motions `du = T q + particular(dd)` that the conditions leave. Where A al
 `interface.condensed` takes it back exactly.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,6 +18,7 @@ import numpy as np
 
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.sparse import for_products, sp
+from ssilang.kernel.base.threads import side_by_side
 from ssilang.kernel.solvers.backends import DISSECTION
 from ssilang.kernel.solvers.cholesky.inverse import Inverse, invert
 from ssilang.kernel.solvers.factor import Ordering
@@ -25,7 +27,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import Constraints
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 
-COLUMNS = 64  # right-hand sides solved together
+COLUMNS, MANY = 64, 512  # right-hand sides solved together: of all unknowns, of a root
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,5 +171,9 @@ def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
     own = sp.csr_array(loads[begin:])
     Y = own.toarray()
     count = len(factor.panels.first) - 1
-    solve_columns(factor.panels, Y, count - 1, count, begin)
+
+    def solved(part: FloatArray) -> Iterator[None]:
+        yield solve_columns(factor.panels, part, count - 1, count, begin)
+
+    side_by_side([solved(part) for part in np.array_split(Y, -(-Y.shape[1] // MANY), axis=1)])
     return RootResponse(sp.csr_array(own.T), np.ascontiguousarray(Y))

@@ -63,6 +63,15 @@ def test_length_of_the_blocks_of_steps_changes_nothing(block, monkeypatch):
     assert np.abs(found.u - expected.u).max() <= 1e-10 * np.abs(expected.u).max()
 
 
+@pytest.mark.parametrize("many", [1, 3])
+def test_number_of_columns_solved_together_changes_nothing(many, monkeypatch):
+    problem = soil_block(steps=50, size=SIZE)
+    expected = recorded(problem)[0].snapshots[-1]
+    monkeypatch.setattr(effective, "MANY", many)
+    found = recorded(problem)[0].snapshots[-1]
+    assert np.abs(found.u - expected.u).max() <= 1e-11 * np.abs(expected.u).max()
+
+
 @pytest.mark.parametrize("branch", [0, 300, 10**9])
 def test_size_of_the_branches_changes_nothing(branch, monkeypatch):
     """Nor where loads act on a few unknowns, of some branches alone."""
