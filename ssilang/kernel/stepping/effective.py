@@ -27,7 +27,7 @@ from ssilang.kernel.stepping.newmark import newmark_of
 from ssilang.kernel.stepping.problem.constraints import Constraints
 from ssilang.kernel.stepping.problem.problem import SMALL, Problem
 
-COLUMNS, MANY = 64, 512  # right-hand sides solved together: of all unknowns, of a root
+COLUMNS, MANY = 64, 128  # right-hand sides solved together: of all unknowns, of a root
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,11 +169,13 @@ def root_response(inverse: Inverse, right: sp.csc_array) -> RootResponse | None:
     if loads[:begin].count_nonzero():
         return None
     own = sp.csr_array(loads[begin:])
-    Y = own.toarray()
-    count = len(factor.panels.first) - 1
+    count, q = len(factor.panels.first) - 1, own.shape[1]
 
-    def solved(part: FloatArray) -> Iterator[None]:
-        yield solve_columns(factor.panels, part, count - 1, count, begin)
+    def solved(part: FloatArray) -> Iterator[FloatArray]:
+        Y = np.ascontiguousarray(part)
+        solve_columns(factor.panels, Y, count - 1, count, begin)
+        yield Y
 
-    side_by_side([solved(part) for part in np.array_split(Y, -(-Y.shape[1] // MANY), axis=1)])
-    return RootResponse(sp.csr_array(own.T), np.ascontiguousarray(Y))
+    parts = np.array_split(own.toarray(), -(-q // MANY), axis=1)
+    Y = np.hstack([found[0] for found in side_by_side([solved(part) for part in parts])])
+    return RootResponse(sp.csr_array(own.T), Y)
