@@ -545,6 +545,19 @@ def test_a_short_motion_with_another_load_shortens_no_memory():
     assert (held.reach, len(held.loads)) == (60, 60)
 
 
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("steps", [1, 2, 8])
+def test_a_motion_of_few_steps_runs_on_a_memory(monkeypatch, file, steps, threads):
+    """Fewer than kernels are near; before the end of one no force has changed to look at."""
+    monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: threads)
+    problem = record(2, steps=steps, strength=20.0)
+    whole, found = (track(problem, building(problem)) for _ in range(2))
+    whole.wanted[:] = found.wanted[:] = True
+    integrate(problem, [whole])
+    assert integrate_reduced(problem, 1e-4, [found], shelf=file).loop == "memory"
+    assert max(errors(whole, found)[:3]) < 1e-5
+
+
 def test_a_ground_that_no_load_acts_on_answers_none():
     problem = record(steps=40)
     ground = parts_of(problem, np.zeros(problem.numbering.size, bool)).ground
