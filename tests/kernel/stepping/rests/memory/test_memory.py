@@ -324,6 +324,23 @@ def test_places_are_those_of_both_sides_of_the_joints(wide_ground):
         np.testing.assert_allclose(numbering.table.coordinates[nodes], [at, at], atol=1e-12)
 
 
+@pytest.mark.parametrize("between", [0, 1])
+def test_kernels_may_have_more_vectors_again(monkeypatch, wide_ground, between):
+    """After steps of few vectors, or of none: each sum stays in its step."""
+    ground = wide_ground[0]
+    q, random = ground.J.shape[0], np.random.default_rng(6)
+    U = np.linalg.qr(random.standard_normal((q, q)))[0]
+    count = np.repeat([q, between, q], [9, 2, 6])
+    sums = [(U[:, :n] * random.uniform(1.0, 2.0, n)) @ U[:, :n].T for n in count]
+    monkeypatch.setattr(
+        kernels, "_answers_to_probes",
+        lambda ground, probes, *_: [np.asarray(A @ probes, np.float32) for A in sums],
+    )  # fmt: skip
+    made = kernels.kernels_of(ground, 1e-2, len(sums), as_they_come)
+    np.testing.assert_allclose(_sums(made, len(sums))[:9], sums[:9], atol=1e-4)
+    np.testing.assert_allclose(_sums(made, len(sums))[11:], sums[11:], atol=1e-4)
+
+
 def test_a_making_that_is_broken_off_goes_on(monkeypatch, wide_ground):
     """Piece by piece, to the same numbers; of another step or tolerance nothing is taken over."""
     monkeypatch.setattr(kernels, "PROBES", 4)
