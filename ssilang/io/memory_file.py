@@ -150,8 +150,11 @@ def _check(k: Kernels) -> None:
     for part, kind, shape in shapes:
         if part.dtype != kind or part.shape != shape or not np.isfinite(part).all():
             raise ValueError(f"{part.shape} {part.dtype}")
+    if not (k.dt > 0.0 and k.tolerance > 0.0):  # no number is not
+        raise ValueError(f"{k.dt} s, to {k.tolerance}")
     ends = [len(k.sums) + 1, *(s.first + len(s.sums) for s in k.stages)]
-    if ends[0] < NEAR or any(s.first < end for s, end in zip(k.stages, ends, strict=False)):
+    known = zip(k.stages, ends, strict=False)
+    if ends[0] < NEAR or any(s.first < end or not len(s.sums) for s, end in known):
         raise ValueError(f"{ends[0]} kernels")
     if any(_numbers(A) != len(A.values) for A in k.sums):
         raise ValueError("blocks")
@@ -160,7 +163,9 @@ def _check(k: Kernels) -> None:
 def _numbers(A: LowRank) -> int:
     """How many values the blocks of a matrix have, -1 if these are no blocks."""
     q, sides, (few, count) = len(A.order), np.diff(A.first), A.ranks.T
-    least = min(x.min() for x in (sides, few, q - count, count + 1, np.maximum(count, 0) - few))
+    within = (A.first, q - A.first, sides)  # sides alone could rise by more than 64 bits hold
+    counts = (few, q - count, count + 1, np.maximum(count, 0) - few)
+    least = min(x.min() for x in (*within, *counts))
     rows = np.array_equal(np.sort(A.order), np.arange(q))
     if least < 0 or not rows or [A.first[0], A.first[-1]] != [0, q]:
         return -1

@@ -23,6 +23,8 @@ FIRST, P, SUMS = np.ones((6, 6), F), np.eye(6, 2, dtype=F), np.ones((16, 2, 2), 
 ORDER, CLUSTERS = np.arange(6), np.arange(0, 7, 2)
 RANKS = np.array([[0, -1], [1, 1], [0, -1], [0, 0], [1, 1], [0, -1]])
 VALUES = np.ones(5 * 4, F)
+OVER = np.array([0, 7399589116837456614, -5551089986157539896, 6])
+"""Rising by 64 bits, for which the sizes of blocks are twenty numbers by 64 bits."""
 UNREAD = [f"values{i}" for i in range(7, 15)]
 NEAR = (LowRank(ORDER, CLUSTERS, RANKS, VALUES),) * 15
 SOUND = Kernels(
@@ -95,6 +97,7 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes | None) 
         ({"clusters": npy(np.array([1, 2, 4, 6]))}, "blocks"),
         ({"clusters": npy(np.array([0, 4, 2, 6]))}, "blocks"),
         ({"clusters": npy(np.array([0, 6]))}, ""),
+        ({"clusters": npy(OVER)}, "blocks"),
         ({"clusters": npy(CLUSTERS[:, None])}, ""),
         ({"values3": npy(VALUES[:-1])}, "blocks"),
         ({"values3": npy(VALUES.astype(float))}, "float64"),
@@ -109,6 +112,10 @@ def made(path: Path, packing: int = zipfile.ZIP_STORED, **arrays: bytes | None) 
         ({"mark": npy(np.full((3, 1), 6.0))}, ""),
         ({"P0": npy(np.eye(6, 3, dtype=F))}, ""),
         ({"sums0": npy(SUMS[:, :1])}, ""),
+        ({"sums0": npy(SUMS[:0])}, "16 kernels"),
+        ({"dt": npy(np.array(np.nan))}, "nan s"),
+        ({"tolerance": npy(np.array(np.nan))}, "to nan"),
+        ({"tolerance": npy(np.array(-1.0))}, "to -1.0"),
         ({"firsts": npy(np.zeros(0, int))}, ""),
         ({"firsts": npy(np.array([16, 32]))}, ""),
         ({"estimate": npy(np.zeros(0, "M8[s]"))}, ""),

@@ -201,7 +201,7 @@ def kernels_of(
         part = [Y for Y in longest if Y.shape[1] == count]
         as_it_is = first < NEAR or (count == q and _rank(part[-1], least) > FEW * q)
         P = probes if as_it_is else _span(part, least * np.sqrt(count / q), MOST * count)
-        if count == q and not stages and P.shape[1] > FEW * q:
+        if count == q and first <= len(sums) + 1 and P.shape[1] > FEW * q:
             near = (_symmetric(Y @ probes.T) for Y in part[0 if first else 1 :])
             sums += [low_rank(A, ground.places, least, least) for A in near]
         elif P.shape[1]:

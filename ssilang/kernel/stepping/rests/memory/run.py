@@ -330,6 +330,8 @@ def _looked_at(ground: Ground, loop: MemoryLoop) -> float:
     forces = past.forces[past.pad : past.pad + past.done]
     changes = np.abs(np.diff(forces, axis=0)).sum(axis=1)
     length = min(LOOKED_AT, len(changes))
+    if not length:
+        return 0.0  # one step, before which no force has changed
     first = int(np.argmax(np.convolve(changes, np.ones(length), "valid")))
     part = slice(first, first + length + 1)
     f, c = forces[part] - forces[first], past.loads[part] - past.loads[first]

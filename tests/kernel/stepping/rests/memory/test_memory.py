@@ -183,6 +183,25 @@ def test_blocks_of_compliances_lead_to_the_same_steps(monkeypatch, file, threads
     assert not len(loops[-1].plan.condensed.blocks.values)
 
 
+def test_the_building_is_read_in_blocks_that_are_as_good_as_exact(monkeypatch, file):
+    """Those of the compliance of its own side of the joints."""
+    monkeypatch.setattr("ssilang.kernel.solvers.low_rank.CLUSTER", 16)
+    loops, made = [], run.MemoryLoop
+    monkeypatch.setattr(run, "MemoryLoop", lambda *given: loops.append(made(*given)) or loops[-1])
+    problem = record(size=(80, 3, 64), dt=1e-3, steps=3)
+    for many in (9, 1000):
+        monkeypatch.setattr(run, "MANY", many)
+        assert integrate_reduced(problem, 0.5, [], shelf=file).loop == "memory"
+    blocks, plan = loops[0].plan.blocks, loops[-1].plan
+    assert (blocks.ranks[:, 1] > 0).any()
+    assert (blocks.ranks[:, 0] == blocks.ranks[:, 1]).any()
+    assert not len(plan.blocks.values)
+    exact = np.zeros((len(plan.Yr), len(plan.Yr)))
+    exact[:, plan.Jr.indices] = plan.Yr / plan.Jr.data
+    left = np.linalg.norm(_dense(blocks) - exact, 2)
+    assert left < 1e-9 * np.linalg.norm(exact, np.inf)
+
+
 def test_what_is_left_of_a_step_is_taken_to_the_next(monkeypatch, file):
     """Jumps of which much is left in each step do not drift: a third of what that adds up to."""
     monkeypatch.setattr(run, "MANY", 9)
@@ -296,6 +315,50 @@ def test_few_probes_tell_what_impulses_on_each_joint_do(monkeypatch, wide_ground
     assert 1e-4 * size < left.max() < 1e-2 * size
 
 
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_blocks_of_near_sums_leave_out_what_is_said(monkeypatch, file, wide_ground, tolerance):
+    """A quarter of the tolerance, of the norm of the first kernel; and something of it."""
+    monkeypatch.setattr("ssilang.kernel.solvers.low_rank.CLUSTER", 8)
+    ground, exact = wide_ground
+    made = kernels.kernels_of(ground, tolerance, STEPS, as_they_come)
+    near = len(made.sums) + 1
+    left = np.linalg.norm(_sums(made, STEPS)[1:near] - exact[1:near], 2, axis=(1, 2)).max()
+    said = 0.25 * tolerance * np.linalg.norm(exact[0], 2)
+    assert 0.05 * said < left < said
+    file.write(made)
+    for one, other in zip(made.sums, file.read().sums, strict=True):
+        for part, same in zip(one, other, strict=True):
+            np.testing.assert_array_equal(part, same)
+    assert len({A.ranks.tobytes() for A in made.sums}) > 1
+
+
+def test_places_are_those_of_both_sides_of_the_joints(wide_ground):
+    """One of each pair, in the order of the jumps."""
+    problem, places = wide_ground[0].problem, wide_ground[0].places
+    J, numbering = problem.interface.J, problem.numbering
+    assert 2 * len(places) == J.shape[0]
+    for row, at in enumerate(np.repeat(places, 2, axis=0)):
+        nodes = numbering.nodes[J[[row]].indices]
+        np.testing.assert_allclose(numbering.table.coordinates[nodes], [at, at], atol=1e-12)
+
+
+@pytest.mark.parametrize("between", [0, 1])
+def test_kernels_may_have_more_vectors_again(monkeypatch, wide_ground, between):
+    """After steps of few vectors, or of none: each sum stays in its step."""
+    ground = wide_ground[0]
+    q, random = ground.J.shape[0], np.random.default_rng(6)
+    U = np.linalg.qr(random.standard_normal((q, q)))[0]
+    count = np.repeat([q, between, q], [9, 2, 6])
+    sums = [(U[:, :n] * random.uniform(1.0, 2.0, n)) @ U[:, :n].T for n in count]
+    monkeypatch.setattr(
+        kernels, "_answers_to_probes",
+        lambda ground, probes, *_: [np.asarray(A @ probes, np.float32) for A in sums],
+    )  # fmt: skip
+    made = kernels.kernels_of(ground, 1e-2, len(sums), as_they_come)
+    np.testing.assert_allclose(_sums(made, len(sums))[:9], sums[:9], atol=1e-4)
+    np.testing.assert_allclose(_sums(made, len(sums))[11:], sums[11:], atol=1e-4)
+
+
 def test_a_making_that_is_broken_off_goes_on(monkeypatch, wide_ground):
     """Piece by piece, to the same numbers; of another step or tolerance nothing is taken over."""
     monkeypatch.setattr(kernels, "PROBES", 4)
@@ -374,9 +437,12 @@ def test_ground_whose_patterns_all_count_is_kept_whole(monkeypatch, wide_ground)
     assert np.diff([made.first, *map(_dense, made.sums)], axis=0).any(axis=(1, 2)).all()
 
 
-@pytest.mark.parametrize("staged", [True, False])
+MANY_STAGES = tuple((12 + 2 * k, 1 + k % 3, 2) for k in range(19))
+
+
+@pytest.mark.parametrize("staged", [((12, 2, 9), (21, 1, 6)), (), MANY_STAGES])
 def test_convolution_is_that_of_sums_which_last(staged):
-    """Of kernels by hand: whole ones, two stages, what impulses have moved for good."""
+    """Of kernels by hand: whole ones, stages, what impulses have moved for good."""
     random, q, steps = np.random.default_rng(4), 3, 70
 
     def symmetric(count, r):
@@ -384,7 +450,7 @@ def test_convolution_is_that_of_sums_which_last(staged):
         return found + found.transpose(0, 2, 1)
 
     sums, stages = symmetric(12, q), []
-    for first, r, count in ((12, 2, 9), (21, 1, 6)) if staged else ():
+    for first, r, count in staged:
         P = np.linalg.qr(random.standard_normal((q, r)))[0]
         stages.append(kernels.Stage(first, P, symmetric(count, r)))
         sums = np.concatenate([sums, P @ stages[-1].sums @ P.T])
@@ -430,6 +496,21 @@ def test_rounding_of_increments_adds_up_to_little():
         away += past.next(forces[n]) - exact
         largest = max(largest, float(np.abs(away).max()))
     assert largest < 2e-5 * np.abs(whole[0] @ forces[0]).max()
+
+
+def test_forces_that_stay_bring_nothing_once_all_sums_have_them():
+    """Changes are those of the forces, not of what single precision has of these."""
+    random, q, mark = np.random.default_rng(2), 7, np.zeros(1)
+    sums = random.uniform(0.5, 1.0, (9, q, q)).astype(np.float32)
+    sums += sums.transpose(0, 2, 1)
+    near = tuple(low_rank(A, np.zeros((q, 1)), 0.0, 0.0) for A in sums[1:])
+    stage = kernels.Stage(9, np.eye(q, 1, dtype=np.float32), np.zeros((3, 1, 1), np.float32))
+    loads, patterns = np.zeros((1, q, 1), np.float32), np.ones((1, 1))
+    made = kernels.Kernels(mark, 0.01, 1e-3, sums[0], near, (stage,), loads, patterns, mark, 0)
+    past, forces = Past(made, np.zeros((41, 1)), 40), random.uniform(1.0, 2.0, q)
+    brought = np.array([past.next(forces) for _ in range(40)])
+    assert brought[:8].any(axis=1).all()
+    assert not brought[8:].any()
 
 
 @pytest.mark.parametrize("elsewhere", [True, False], ids=["another process", "the same"])
@@ -561,6 +642,19 @@ def test_a_short_motion_with_another_load_shortens_no_memory():
         replace(memory, reach=60), parts_of(second, nowhere).ground, 30, as_they_come
     )  # fmt: skip
     assert (held.reach, len(held.loads)) == (60, 60)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("steps", [1, 2, 8])
+def test_a_motion_of_few_steps_runs_on_a_memory(monkeypatch, file, steps, threads):
+    """Fewer than kernels are near; before the end of one no force has changed to look at."""
+    monkeypatch.setattr("ssilang.kernel.base.threads.cores", lambda: threads)
+    problem = record(2, steps=steps, strength=20.0)
+    whole, found = (track(problem, building(problem)) for _ in range(2))
+    whole.wanted[:] = found.wanted[:] = True
+    integrate(problem, [whole])
+    assert integrate_reduced(problem, 1e-4, [found], shelf=file).loop == "memory"
+    assert max(errors(whole, found)[:3]) < 1e-5
 
 
 def test_a_ground_that_no_load_acts_on_answers_none():
