@@ -51,7 +51,7 @@ NOW, BEFORE = 0.25 * (3.0 + KEPT), -0.25 * (1.0 - KEPT)  # so that slow motions 
 MANY = 1000  # jumps beyond which blocks of their compliance are read
 SOFT = 10.0  # stiffness of their joints times compliance, up to which directions are iterated
 FEW = 2e-3  # of the compliance: what few vectors of a block leave out
-LEFT = 1e-2  # of the tolerance of kernels: the same of all vectors, residual of the jumps
+ALL, LEFT = 1e-2, 1e-3  # of the tolerance of kernels: the same of all vectors, residual of jumps
 EXACT = 1e-9  # of the building's compliance: what is left out is forces that are not there
 LOOKED_AT = 160  # steps over which kernels are compared with the ground itself
 
@@ -89,7 +89,7 @@ class MemoryLoop(InterleavedLoop):
         plan, S, root = self.plan, self.plan.condensed.S, effective.root
         assert root is not None  # else nothing fits
         if self.parts.near.interface.is_soft(S, SOFT):
-            blocks = self._blocks(S.astype(SINGLE), FEW, LEFT * tolerance)
+            blocks = self._blocks(S.astype(SINGLE), FEW, ALL * tolerance)
             condensed = plan.condensed._replace(blocks=blocks, tolerance=LEFT * tolerance)
             plan = plan._replace(condensed=condensed)
         at, data = root.J.indices, root.J.data
