@@ -13,7 +13,7 @@ from ssilang.kernel.base.compiled.apart import seldom
 from ssilang.kernel.base.compiled.compiler import compiled_threaded
 from ssilang.kernel.base.scientific import la, spatial
 
-CLUSTER = 192  # rows, at most but for one place
+CLUSTER = 192  # rows, at most but for those of one place
 
 
 class LowRank(NamedTuple):
@@ -30,15 +30,16 @@ NONE = LowRank(
 )  # fmt: skip
 
 
-def low_rank(A: FloatArray, places: FloatArray, few: float, least: float) -> LowRank:
+def low_rank(
+    A: FloatArray, places: FloatArray, few: float, least: float, wider: int = 1
+) -> LowRank:
     """A symmetric matrix (n d, n d) whose rows belong to places (n, dimension), d to each.
 
-    Blocks are of its precision.
-
-    `few` and `least` are norms of what few and all vectors leave out.
+    Blocks have its precision, and `wider` times as many rows as `CLUSTER` says; `few` and `least`
+    are norms of what few and all vectors leave out.
     """
     n, d = len(places), len(A) // len(places)
-    clusters = 1 << max(0, int(np.ceil(np.log2(n * d / CLUSTER))))
+    clusters = 1 << max(0, int(np.ceil(np.log2(n * d / (wider * CLUSTER)))))
     near = spatial.cKDTree(places, leafsize=1).indices
     parts = [(d * p[:, None] + np.arange(d)).ravel() for p in np.array_split(near, clusters)]
     few, least = few / np.sqrt(clusters), least / np.sqrt(clusters)  # a row's blocks add up
@@ -60,36 +61,47 @@ def low_rank(A: FloatArray, places: FloatArray, few: float, least: float) -> Low
 @seldom
 @compiled_threaded
 def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) -> None:
-    """y += A x in the precision of x, by few vectors of each block or by all."""
-    xs, ys, block, at = np.empty(len(x), x.dtype), np.zeros(len(x), x.dtype), 0, 0
-    zero = x.dtype.type(0.0)
-    for i in range(len(x)):
-        xs[i] = x[A.order[i]]
+    """y += A x in the precision of x, by few vectors of each block or by all.
+
+    Several x and y (c n,) stand one after another: each block is read once for all of them.
+    """
+    size, block, at, zero = len(A.order), 0, 0, x.dtype.type(0.0)
+    xs = np.empty((len(x) // size, size), x.dtype)
+    ys = np.zeros(xs.shape, x.dtype)
+    for c in range(len(xs)):
+        for i in range(size):
+            xs[c, i] = x[c * size + A.order[i]]
     for i in range(len(A.first) - 1):
-        xi, yi = xs[A.first[i] : A.first[i + 1]], ys[A.first[i] : A.first[i + 1]]
-        n = len(xi)
+        i0, n = A.first[i], A.first[i + 1] - A.first[i]
         for j in range(i + 1):
-            xj, yj = xs[A.first[j] : A.first[j + 1]], ys[A.first[j] : A.first[j + 1]]
-            m, count = len(xj), A.ranks[block, 1]
-            for k in range(n if count < 0 else 0):
-                row, x_k, y_k = A.values[at : at + m], xi[k] if i != j else zero, zero
-                for e in range(m):
-                    y_k += row[e] * xj[e]
-                    yj[e] += row[e] * x_k
-                yi[k] += y_k
+            j0, m, count = A.first[j], A.first[j + 1] - A.first[j], A.ranks[block, 1]
+            for k in range(i0, i0 + n if count < 0 else i0):
+                row = A.values[at : at + m]
+                for c in range(len(xs)):
+                    xj, yj = xs[c, j0 : j0 + m], ys[c, j0 : j0 + m]
+                    x_k, y_k = xs[c, k] if i != j else zero, zero
+                    for e in range(m):
+                        y_k += row[e] * xj[e]
+                        yj[e] += row[e] * x_k
+                    ys[c, k] += y_k
                 at += m
             after = at + max(count, 0) * (n + m)
             for _ in range(A.ranks[block, 0] if few else count):
-                u, v, s, t = A.values[at : at + n], A.values[at + n : at + n + m], zero, zero
-                for e in range(n):
-                    s += u[e] * xi[e]
-                for e in range(m):
-                    t += v[e] * xj[e]
-                for e in range(n):
-                    yi[e] += u[e] * t
-                for e in range(m):
-                    yj[e] += v[e] * s
+                u, v = A.values[at : at + n], A.values[at + n : at + n + m]
+                for c in range(len(xs)):
+                    xi, yi = xs[c, i0 : i0 + n], ys[c, i0 : i0 + n]
+                    xj, yj = xs[c, j0 : j0 + m], ys[c, j0 : j0 + m]
+                    s, t = zero, zero
+                    for e in range(n):
+                        s += u[e] * xi[e]
+                    for e in range(m):
+                        t += v[e] * xj[e]
+                    for e in range(n):
+                        yi[e] += u[e] * t
+                    for e in range(m):
+                        yj[e] += v[e] * s
                 at += n + m
             at, block = after, block + 1
-    for i in range(len(x)):
-        y[A.order[i]] += ys[i]
+    for c in range(len(xs)):
+        for i in range(size):
+            y[c * size + A.order[i]] += ys[c, i]

@@ -43,6 +43,9 @@ def test_products_are_those_of_the_matrix_but_for_what_is_said(
         left = np.linalg.norm(found - S, 2) / size
         assert left < least
         np.testing.assert_allclose(found, found.T, atol=1e-15 * size)
+        rows = X[: n // 2 + 1]
+        together = product(A, few, rows.ravel()).reshape(rows.shape)
+        np.testing.assert_allclose(together, found[: len(rows)], atol=1e-15 * size)
         if n > 200 and few:
             assert left > 0.03 * least
         for k in (1, n * d - 1):

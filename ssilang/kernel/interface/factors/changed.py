@@ -173,10 +173,8 @@ def solve_by_blocks(joints: Joints, condensed: Condensed, D: FloatArray, x: Floa
     False, and x as it was, if that takes too many turns.
     """
     q, most = len(x), min(MOST_TURNS, len(x))
-    V, H, turned, e = (
-        np.zeros((most + 1, q)), np.zeros((most, most + 1)), np.zeros((most, 2)),
-        np.zeros(most + 1),
-    )  # fmt: skip
+    V, H = np.empty((most + 1, q)), np.zeros((most, most + 1))
+    turned, e = np.zeros((most, 2)), np.zeros(most + 1)
     size = e[0] = math.sqrt(dot(x, x))
     if size == 0.0:
         return True

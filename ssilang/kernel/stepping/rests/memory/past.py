@@ -2,7 +2,8 @@
 
 Sums `A_k = G_1 + .. + G_k` of kernels act on changes of forces, `G_1 f_n + G_2 f_(n-1) + .. =
 A_1 (f_n - f_(n-1)) + A_2 (f_(n-1) - f_(n-2)) + ..`: what is left out of them adds up to nothing
-while forces stay.
+while forces stay. What acts k steps later is known for the k steps to come, so that large sums,
+which come from memory, are read once for many.
 """
 
 import numpy as np
@@ -12,8 +13,10 @@ from ssilang.kernel.base.threads import begun
 from ssilang.kernel.solvers.low_rank import add_low_rank_product
 from ssilang.kernel.stepping.rests.memory.kernels import Kernels
 
-BLOCK = 8
-"""Steps for which a stage is summed together: each is read once for all of them, in its turn."""
+
+def _together(delay: int) -> int:
+    """Steps, a power of two, for which what acts so many steps later is summed at once."""
+    return 1 << (delay.bit_length() - 1)
 
 
 class Past:
@@ -31,55 +34,65 @@ class Past:
         self.pad = max([len(k.sums) + 1, *(s.first + len(s.sums) for s in k.stages)])
         self.forces, self.changes = np.zeros((2, self.pad + steps + 1, q), SINGLE)
         self.parts = [np.zeros((len(self.forces), s.P.shape[1]), SINGLE) for s in k.stages]
-        self.incoming = self._incoming((loads @ k.patterns).astype(SINGLE), steps)
+        self.coming = self._loaded((loads @ k.patterns).astype(SINGLE), steps)
+        """What is known of each step: in doubles, as sums of increments drift by rounding."""
         self.far = np.zeros((len(k.stages), q), SINGLE)
         self.gone = np.zeros(k.stages[-1].P.shape[1] if k.stages else 0, SINGLE)
         """Sum of the forces before all kernels, in the last stage."""
         self.done = 0  # steps
         self.begun = [self.pad] * len(k.stages)  # rows of forces that each stage has
-        self.brought = begun(self._brought)
-        """What the next step has of the forces before its start's."""
+        self.brought = begun(self._bring)
+        """Until the next step has what the forces before its start's bring."""
 
-    def _incoming(self, loads: FloatArray, steps: int) -> FloatArray:
+    def _loaded(self, loads: FloatArray, steps: int) -> FloatArray:
         found = np.zeros((steps, self.kernels.size), SINGLE)
         for k, rows in enumerate(self.kernels.loads[:steps]):
             found[k:] += loads[1 : steps + 1 - k] @ rows.T
-        return found
+        return -found.astype(float)
 
     def next(self, forces: FloatArray) -> FloatArray:
         """Increment (q,) of the jumps in the next step, under unchanged forces (less the start's).
 
         Those of the whole past are there, and stay.
         """
-        total, now = self.brought(), self.pad + self.done
+        self.brought()
+        now = self.pad + self.done
         self.forces[now], self.changes[now] = forces, forces - self.last
         self.last = forces.copy()
-        self._add(0, now, total)
+        self._add(0, 1)
         self.done += 1
-        if self.done < len(self.incoming):
-            self.brought = begun(self._brought)  # while this step is solved
-        return -total
+        if self.done < len(self.coming):
+            self.brought = begun(self._bring)  # while this step is solved
+        return -self.coming[self.done - 1]
 
-    def _add(self, number: int, row: int, total: FloatArray) -> None:
-        """What one sum brings of the changes, or of the forces if it lasts."""
-        sums = self.kernels.sums
+    def _add(self, number: int, steps: int) -> None:
+        """What one sum brings in the next steps of the changes, or of the forces if it lasts."""
+        sums, at = self.kernels.sums, self.pad + self.done - number
         lasts = number == len(sums) - 1 and not self.kernels.stages
-        x = (self.forces if lasts else self.changes)[row].astype(float)
-        add_low_rank_product(sums[number], False, x, total)
+        to = self.coming[self.done : self.done + steps]
+        x = (self.forces if lasts else self.changes)[at : at + len(to)]
+        add_low_rank_product(sums[number], False, x.ravel(), to.ravel())
 
-    def _brought(self) -> FloatArray:
-        for i in range(self.done % BLOCK, len(self.kernels.stages), BLOCK):
-            self._add_stage(i)
-        total = -self.incoming[self.done].astype(float)  # sums of increments drift by rounding
-        for j in range(1, len(self.kernels.sums)):
-            self._add(j, self.pad + self.done - j, total)
-        return total
+    def _bring(self) -> None:
+        """What is due: sums and stages are read once for as many steps as is known, in turns."""
+        for number in range(1, len(self.kernels.sums)):
+            steps = _together(number)
+            if (self.done - number) % steps == 0:
+                self._add(number, steps)
+        for number, stage in enumerate(self.kernels.stages):
+            steps = _together(stage.first - 1)
+            if (self.done + number + 1) % steps == 0:  # rather where no large sum is
+                self._add_stage(number, steps)
 
-    def _add_stage(self, number: int) -> None:
+    def _add_stage(self, number: int, steps: int) -> None:
         """What forces before the next steps bring in each of them, by a stage."""
         stages, first, at = self.kernels.stages, self.done, self.pad + self.done + 1
-        stage, part, steps = stages[number], self.parts[number], len(self.incoming) - first
-        rows, steps = slice(self.begun[number], at - 1), min(BLOCK, steps)
+        stage, part, steps = (
+            stages[number],
+            self.parts[number],
+            min(steps, len(self.coming) - first),
+        )
+        rows = slice(self.begun[number], at - 1)
         part[rows] = self.forces[rows] @ stage.P
         found = np.zeros((steps, part.shape[1]), SINGLE)
         for j, core in enumerate(stage.sums, stage.first):
@@ -89,5 +102,5 @@ class Past:
             gone = self.gone + np.cumsum(part[j : j + steps], axis=0)
             found, self.gone = found + gone @ stage.sums[-1], gone[-1]
         far = found @ stage.P.T
-        self.incoming[first : first + steps] -= np.diff(far, axis=0, prepend=self.far[number, None])
+        self.coming[first : first + steps] += np.diff(far, axis=0, prepend=self.far[number, None])
         self.begun[number], self.far[number] = at - 1, far[-1]

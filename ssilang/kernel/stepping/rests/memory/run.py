@@ -95,38 +95,34 @@ class MemoryLoop(InterleavedLoop):
         at, data = root.J.indices, root.J.data
         one = (np.diff(root.J.indptr) == 1).all()  # unknown of each jump
         if one and np.array_equal(np.sort(at), np.arange(root.J.shape[1])):
-            blocks = self._blocks(root.Y[at] / data, EXACT, EXACT)
+            blocks = self._blocks(root.Y[at] / data, EXACT, EXACT, wider=2)
             blocks = blocks._replace(order=at[blocks.order].astype(np.int64))
             plan = plan._replace(Yr=root.Y[:0], blocks=blocks)
         self.plan = plan
 
-    def _blocks(self, A: FloatArray, few: float, least: float) -> LowRank:
+    def _blocks(self, A: FloatArray, few: float, least: float, wider: int = 1) -> LowRank:
         size = float(np.linalg.norm(A, np.inf))
-        return low_rank(A, self.parts.ground.places, few * size, least * size)
+        return low_rank(A, self.parts.ground.places, few * size, least * size, wider)
 
     def stepped(self, block: PreparedBlock, kept: Recorder) -> Outcome:
         """Each step of a block: the ground's motion under old forces, then all together."""
         x, n, worst, loads = block.motion, block.plan.newmark, 0, block.factors.shape[1] + 1
-        # one load more, which acts on nothing but the jumps: a step's own motion of the ground
+        # one load more, which acts on nothing but the jumps: a step's own motion of the ground,
+        # by an increment of one in each step
         lift = np.zeros((len(x.f), loads))
         forces = np.vstack([block.plan.forces, np.zeros(len(x.u))])
         plan = block.plan._replace(forces=forces, lift=lift)
         products = block.products._replace(loads=np.append(block.products.loads, 0.0))
-        sweep, unit = sweep_of(plan, len(x.u), loads), np.array([[0.0], [1.0]])
+        sweep, unit = sweep_of(plan, len(x.u), loads), np.arange(len(block.factors))[:, None]
+        factors = np.hstack([block.factors, unit])
+        to = kept._replace(work=np.zeros((2, len(kept.row), loads)))
         self._ground = np.zeros((len(kept.row), *self.moved.shape))
         for k in range(len(kept.row)):
-            one = slice(k, k + 1)
-            tap = kept.tap._replace(row=kept.tap.row[one])
-            to = kept._replace(
-                row=kept.row[one], energies=kept.energies[one], tap=tap,
-                work=np.zeros((2, 1, loads)),
-            )  # fmt: skip
             before = x.f.copy()
             brought = self.past.next(before - self.start) - self.newton.trial.r
             lift[:, -1] = brought
-            factors = np.hstack([block.factors[k : k + 2], unit])
             _, turns, residual = run_interleaved(
-                plan, self.joints, x, products, sweep, self.newton, factors, to
+                plan, self.joints, x, products, sweep, self.newton, factors, to, k - (k == 0), k + 1
             )
             if turns <= 0:
                 return k, turns, residual
@@ -136,7 +132,7 @@ class MemoryLoop(InterleavedLoop):
             self._move(step, n)
             self._ground[k] = self.moved
             self.largest = max(self.largest, float(np.abs(x.delta).max()))
-            x.energies[ELASTIC] += 0.5 * (self.at - brought) @ x.f
+            x.energies[ELASTIC] += 0.5 * (self.at - (k + 1) * brought) @ x.f
             x.energies[EXTERNAL] += 0.5 * (before + x.f) @ step
             kept.energies[k] = x.energies
         return len(kept.row), worst, 0.0

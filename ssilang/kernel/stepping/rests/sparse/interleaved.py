@@ -146,7 +146,7 @@ class InterleavedLoop:
         return run_interleaved(
             block.plan, self.joints, block.motion, block.products,
             sweep_of(block.plan, len(block.motion.u), block.factors.shape[1]), self.newton,
-            block.factors, kept,
+            block.factors, kept, -1, len(kept.row),
         )  # fmt: skip
 
     def view(self, unknowns: IntArray) -> View:

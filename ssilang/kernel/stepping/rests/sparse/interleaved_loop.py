@@ -332,16 +332,18 @@ def _root(plan: Plan, sweep: Sweep) -> None:
 @compiled_free
 def run_interleaved(
     plan: Plan, joints: Joints, x: Motion, products: Products, sweep: Sweep, newton: Workspace,
-    factors: FloatArray, to: Recorder,
+    factors: FloatArray, to: Recorder, first: int, last: int,
 ) -> tuple[int, int, float]:  # fmt: skip
-    """Steps between the rows of `factors`; see `state.Outcome` for the results.
+    """Steps between the rows of `factors`, of which `last - first` now; see `state.Outcome`.
+
+    Those from `first` on, which the sweep has begun, or from 0 on if that is -1.
 
     The recorder's work (2, n_steps, k) is that of each load on the step's increment, and of the
     joints' forces on the jumps of `lift` at its end.
     """
-    L, steps, worst, visits = plan.L, len(to.row), 1, plan.visits
+    L, worst, visits = plan.L, 1, plan.visits
     b, du, local = sweep.b, sweep.du, sweep.local
-    for k in range(-1, steps):  # first what leads to the first step
+    for k in range(first, last):  # -1: what leads to the first step
         # solve: Newton's method on the interface, which is the root
         if k >= 0 and len(x.f):
             _root(plan, sweep)
@@ -363,7 +365,7 @@ def run_interleaved(
                     advance_range(plan, x, products, sweep, acting, begin, end)
                     add_work(plan.forces, acting, du, begin, end, work)
                 predict(plan, products, sweep.next_load_change, acting, b, begin, end)
-                if s0 < plan.root and k + 1 < steps:
+                if s0 < plan.root and k + 1 < len(to.row):
                     _rise(L, s0, s1, kind, sweep)
         copy_state(sweep.next_load_change, sweep.load_change)
         if k >= 0:
@@ -371,4 +373,4 @@ def run_interleaved(
             if not np.isfinite(sweep.sums[4]):
                 return k, -1, np.inf
             end_of_step(x, to, k)
-    return steps, worst, 0.0
+    return last, worst, 0.0
