@@ -340,7 +340,9 @@ def _until_quiet(
     return said.hexdigest(), (q, c), rows()
 
 
-def with_loads(kernels: Kernels, ground: Ground, steps: int, kept: Kept) -> Kernels:
+def with_loads(
+    kernels: Kernels, ground: Ground, steps: int, kept: Kept, progress: Progress | None = None
+) -> Kernels:
     """A memory that knows the loads of a motion, the same one if it does already."""
     k, none = kernels, np.zeros((kernels.size, 0), SINGLE)
     if not alike(k.loads_mark, ground.loads_mark):
@@ -350,7 +352,8 @@ def with_loads(kernels: Kernels, ground: Ground, steps: int, kept: Kept) -> Kern
     if not new.size:
         return k
     steps = max(steps, k.reach or FOLLOWED * len(kernels.loads))
-    _, loads, reach = _first_answers(ground.steps, none, new, k.tolerance, steps, kept)
+    making = Making(kept, progress, steps * new.shape[1])
+    _, loads, reach = _first_answers(ground.steps, none, new, k.tolerance, steps, making.answered)
     return replace(
         k, loads=_beside([k.loads, loads]), patterns=np.hstack([k.patterns, new]),
         reach=min(filter(None, (k.reach, reach)), default=0),

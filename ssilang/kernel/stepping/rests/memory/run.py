@@ -309,7 +309,7 @@ def _memory(ground: Ground, tolerance: float, shelf: Shelf, progress: Progress |
         if found is None or found.tolerance > tolerance or 0 < found.reach < steps:
             found = kernels_of(ground, tolerance, steps, shelf.answered, progress)
             shelf.write(found)
-        elif (more := with_loads(found, ground, steps, shelf.answered)) is not found:
+        elif (more := with_loads(found, ground, steps, shelf.answered, progress)) is not found:
             found = more
             shelf.write(found)
     _KEPT[:] = [found]

@@ -619,12 +619,15 @@ def test_loads_are_followed_until_next_to_nothing_is_left():
     nowhere, steps = np.zeros(record().numbering.size, bool), 400
     first, second = record(steps=steps), with_another_load(record(steps=steps))
     memory = kernels.kernels_of(parts_of(first, nowhere).ground, 1e-2, NEAR, as_they_come)
-    ground = parts_of(second, nowhere).ground
-    made = kernels.with_loads(memory, ground, steps, as_they_come)
+    ground, told = parts_of(second, nowhere).ground, []
+    made = kernels.with_loads(
+        memory, ground, steps, as_they_come, lambda *progress: told.append(progress)
+    )
     forces = np.asarray(ground.steps.forces @ made.patterns, np.float32)
     exact = np.array(list(kernels.increments(ground.steps, kernels.impulse(forces, steps))))
-    followed = len(made.loads)
+    followed, _, count = made.loads.shape
     assert followed < 0.5 * steps
+    assert told == [(k * count, steps * count) for k in range(1, followed + 1)]
     np.testing.assert_array_equal(made.loads, exact[:followed])
     assert np.abs(exact[followed:]).max() < 0.05 * 1e-2 * np.abs(exact).max()
 
