@@ -113,8 +113,8 @@ class MemoryLoop(InterleavedLoop):
         forces = np.vstack([block.plan.forces, np.zeros(len(x.u))])
         plan = block.plan._replace(forces=forces, lift=lift)
         products = block.products._replace(loads=np.append(block.products.loads, 0.0))
-        sweep, unit = sweep_of(plan, len(x.u), loads), np.arange(len(block.factors))[:, None]
-        factors = np.hstack([block.factors, unit])
+        sweep, steps = sweep_of(plan, len(x.u), loads), np.arange(len(block.factors), dtype=float)
+        factors = np.column_stack([block.factors, steps])
         to = kept._replace(work=np.zeros((2, len(kept.row), loads)))
         self._ground = np.zeros((len(kept.row), *self.moved.shape))
         for k in range(len(kept.row)):
