@@ -66,11 +66,8 @@ def add_low_rank_product(A: LowRank, few: bool, x: FloatArray, y: FloatArray) ->
     Several x and y (c n,) stand one after another: each block is read once for all of them.
     """
     size, block, at, zero = len(A.order), 0, 0, x.dtype.type(0.0)
-    xs = np.empty((len(x) // size, size), x.dtype)
+    xs = x.reshape((-1, size))[:, A.order]
     ys = np.zeros(xs.shape, x.dtype)
-    for c in range(len(xs)):
-        for i in range(size):
-            xs[c, i] = x[c * size + A.order[i]]
     for i in range(len(A.first) - 1):
         i0, n = A.first[i], A.first[i + 1] - A.first[i]
         for j in range(i + 1):
