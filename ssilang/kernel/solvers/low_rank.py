@@ -30,16 +30,13 @@ NONE = LowRank(
 )  # fmt: skip
 
 
-def low_rank(
-    A: FloatArray, places: FloatArray, few: float, least: float, wider: int = 1
-) -> LowRank:
+def low_rank(A: FloatArray, places: FloatArray, few: float, least: float) -> LowRank:
     """A symmetric matrix (n d, n d) whose rows belong to places (n, dimension), d to each.
 
-    Blocks have its precision, and `wider` times as many rows as `CLUSTER` says; `few` and `least`
-    are norms of what few and all vectors leave out.
+    Blocks have its precision; `few` and `least` are norms of what few and all vectors leave out.
     """
     n, d = len(places), len(A) // len(places)
-    clusters = 1 << max(0, int(np.ceil(np.log2(n * d / (wider * CLUSTER)))))
+    clusters = 1 << max(0, int(np.ceil(np.log2(n * d / CLUSTER))))
     near = spatial.cKDTree(places, leafsize=1).indices
     parts = [(d * p[:, None] + np.arange(d)).ravel() for p in np.array_split(near, clusters)]
     few, least = few / np.sqrt(clusters), least / np.sqrt(clusters)  # a row's blocks add up

@@ -95,14 +95,14 @@ class MemoryLoop(InterleavedLoop):
         at, data = root.J.indices, root.J.data
         one = (np.diff(root.J.indptr) == 1).all()  # unknown of each jump
         if one and np.array_equal(np.sort(at), np.arange(root.J.shape[1])):
-            blocks = self._blocks(root.Y[at] / data, EXACT, EXACT, wider=2)
+            blocks = self._blocks(root.Y[at] / data, EXACT, EXACT)
             blocks = blocks._replace(order=at[blocks.order].astype(np.int64))
             plan = plan._replace(Yr=root.Y[:0], blocks=blocks)
         self.plan = plan
 
-    def _blocks(self, A: FloatArray, few: float, least: float, wider: int = 1) -> LowRank:
+    def _blocks(self, A: FloatArray, few: float, least: float) -> LowRank:
         size = float(np.linalg.norm(A, np.inf))
-        return low_rank(A, self.parts.ground.places, few * size, least * size, wider)
+        return low_rank(A, self.parts.ground.places, few * size, least * size)
 
     def stepped(self, block: PreparedBlock, kept: Recorder) -> Outcome:
         """Each step of a block: the ground's motion under old forces, then all together."""
