@@ -9,19 +9,11 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.base.scientific import sp, spatial
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
-)
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
+from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.matrices.matrix import PRIMAL_OF, ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-
-PRIMAL_OF = {
-    "FX": "UX", "FY": "UY", "FZ": "UZ", "MX": "RX", "MY": "RY", "MZ": "RZ", "FR": "UR",
-    "FT": "UT", "MT": "RT", "FLX": "LX", "Q": "T", "FP": "P", "FALF": "ALFA", "FBET": "BETA",
-}  # fmt: skip
-"""Unknown of each usual dual."""
 
 
 def nodal_diagonal(

@@ -162,6 +162,9 @@ PRIMAL_TO_DUAL: dict[str, str] = {
 }  # fmt: skip
 """Dual of each unknown, as Cast3M names them; others: 'F' + name cut at 4 characters."""
 
+PRIMAL_OF = {dual: unknown for unknown, dual in PRIMAL_TO_DUAL.items()}
+"""Unknown of each usual dual."""
+
 PRIMAL_TO_DUAL |= {imaginary(u): imaginary(d) for u, d in PRIMAL_TO_DUAL.items()}
 
 

@@ -205,7 +205,7 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     moduli = moduli_of(zone, parameters, "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))
-        ends = zone.cells.nodes.coordinates[zone.cells.connectivity][..., :d]
+        ends = zone.cells.coordinates[..., :d]
         span = ends[:, 1] - ends[:, 0]
         stiffness = moduli[:, 0, 0, 0] / np.linalg.norm(span, axis=1)
         start = np.zeros((len(ends), 1))
