@@ -21,15 +21,16 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
         raise MaterialError("kernel.elements.orthotropic-material-needs-axes")
     rolled = parameters.zone.mode is Mode.FOURIER and "V2Z" in parameters
     flat = parameters.zone.mode is not Mode.THREE_DIMENSIONAL and not rolled
-    first = np.stack(
-        np.broadcast_arrays(*(parameters.at(f"V1{a}", support, 0.0) for a in "XYZ")), axis=-1
-    )
+
+    def given(name: str) -> FloatArray:
+        parts = (parameters.at(name + a, support, 0.0) for a in "XYZ")
+        return np.stack(np.broadcast_arrays(*parts), axis=-1)
+
+    first = given("V1")
     if flat:
         second = np.stack([-first[..., 1], first[..., 0], 0 * first[..., 0]], axis=-1)
     else:
-        second = np.stack(
-            np.broadcast_arrays(*(parameters.at(f"V2{a}", support, 0.0) for a in "XYZ")), axis=-1
-        )
+        second = given("V2")
     v1, v2 = elasticity.two_axes(first, second)
     return np.stack([v1, v2, np.cross(v1, v2)], axis=-2)
 
@@ -136,12 +137,10 @@ def hooke_block(zone: Zone, moduli: FloatArray, support: Support) -> CellFieldBl
     ----------
     moduli : array (n_cells or 1, n_points or 1, s, s)
     """
-    n, p = len(zone.cells), moduli.shape[1]
     objects = np.empty(moduli.shape[:2], dtype=object)
-    for i in range(moduli.shape[0]):
-        for j in range(p):
-            objects[i, j] = moduli[i, j]
-    values = np.broadcast_to(objects, (n, p))
+    for place in np.ndindex(*objects.shape):
+        objects[place] = moduli[place]
+    values = np.broadcast_to(objects, (len(zone.cells), objects.shape[1]))
     return zone.block({HOOKE_COMPONENT: values}, support)
 
 
