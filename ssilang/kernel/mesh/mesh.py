@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -93,6 +93,11 @@ class CellBlock:
         table = np.ascontiguousarray(connectivity, dtype=np.int64).reshape(-1, kind.n_nodes)
         shades = np.broadcast_to(np.asarray(colours, dtype=np.int8), (len(table),)).copy()
         return cls(nodes, cell_type, table, shades)
+
+    def some(self, which: IntArray | BoolArray | slice) -> "CellBlock":
+        """Some of the cells, in the order given."""
+        table, colours = self.connectivity[which], self.colours[which]
+        return CellBlock.make(self.nodes, self.cell_type, table, colours)
 
     @property
     def kind(self) -> CellType:

@@ -64,9 +64,7 @@ def reversed_line(mesh: Mesh) -> Mesh:
     for block in mesh.blocks:
         turned = flip(block)
         if block.kind.dimension == 1 and not block.kind.joint:
-            turned = CellBlock.make(
-                block.nodes, block.cell_type, turned.connectivity[::-1], block.colours[::-1]
-            )
+            turned = turned.some(slice(None, None, -1))
         blocks.append(turned)
     return Mesh(mesh.nodes, tuple(blocks))
 

@@ -28,8 +28,7 @@ def containing(mesh: Mesh, position: FloatArray, every: bool = False) -> Mesh:
     found = take(mesh, lambda b: cells_containing(b, position))
     if every or not found.blocks:
         return found
-    first = found.blocks[0]
-    return Mesh.of(mesh.nodes, first.cell_type, first.connectivity[:1], first.colours[:1])
+    return Mesh(mesh.nodes, (found.blocks[0].some(slice(1)),))
 
 
 def cells_containing(block: CellBlock, position: FloatArray) -> BoolArray:
