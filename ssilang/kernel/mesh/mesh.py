@@ -191,6 +191,10 @@ class Mesh:
         """Largest dimension of the cells, 0 for points."""
         return max((b.kind.dimension for b in self.blocks), default=0)
 
+    def blocks_of(self, dimension: int) -> tuple[CellBlock, ...]:
+        """The blocks of cells of a dimension, joints left out."""
+        return tuple(b for b in self.blocks if b.kind.dimension == dimension and not b.kind.joint)
+
     def single_block(self) -> CellBlock:
         """The one block of an elementary mesh.
 

@@ -174,9 +174,7 @@ def check_consistent(mesh: Mesh) -> Mesh:
 def _opposed(mesh: Mesh, dimension: int) -> IntArray:
     """Nodes of a boundary (end or directed edge) that two cells run in the same sense."""
     keys: list[IntArray] = []
-    for block in mesh.blocks:
-        if block.kind.dimension != dimension or block.kind.joint:
-            continue
+    for block in mesh.blocks_of(dimension):
         table = block.connectivity
         if dimension == 1:
             one = np.ones(len(table), dtype=np.int64)

@@ -180,7 +180,7 @@ def plane_axes(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _segments(line: Mesh) -> tuple[FloatArray, FloatArray]:
-    lines = [b.coordinates for b in line.blocks if b.kind.dimension == 1 and not b.kind.joint]
+    lines = [b.coordinates for b in line.blocks_of(1)]
     if not lines:
         raise MeshError("kernel.mesh.contour-made-lines-needed")
     starts, ends = (np.concatenate([x[:, k].reshape(-1, 3) for x in lines])
