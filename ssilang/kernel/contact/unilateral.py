@@ -106,10 +106,10 @@ def project(side: Side, points: FloatArray, normals: FloatArray) -> Projection:
     first = side.corners[:, 0]
     edges = side.corners[:, 1:] - first[:, None]
     metric = np.einsum("cid,cjd->cij", edges, edges)
-    right = np.einsum("ncd,cid->nci", points[:, None] - first[None], edges)
+    offset = points[:, None] - first[None]
+    right = np.einsum("ncd,cid->nci", offset, edges)
     local = np.einsum("cij,ncj->nci", np.linalg.inv(metric), right)
     shapes = np.concatenate([1 - local.sum(axis=2, keepdims=True), local], axis=2)
-    offset = points[:, None] - side.corners[None, :, 0]
     gap = np.einsum("ncd,cd->nc", offset, side.normals)
     inside = (shapes >= -OUTSIDE).all(axis=2)
     against = normals @ side.normals.T <= FACING
@@ -179,15 +179,14 @@ def contact_relations(
     dimension = len(unknowns)
     a, b = side_of(master, dimension), side_of(slave, dimension)
     pairs = [(a, b)] if method != "SYME" else [(a, b), (b, a)]
-    parts = [_rows(one, other, _POINTS[method](one, other), distance) for one, other in pairs]
+    parts = (_rows(one, other, _POINTS[method](one, other), distance) for one, other in pairs)
     kept = [p for p in parts if p is not None]
     if not kept:
         return None
     relations = joined([_as_relations(table, unknowns, p.nodes, p.normals, 1) for p in kept])
     least = np.concatenate([p.least for p in kept])
-    if rubbing is None:
-        return ContactRelations(relations, least)
-    return ContactRelations(relations, least, _friction(table, unknowns, kept, relations, rubbing))
+    friction = _friction(table, unknowns, kept, relations, rubbing) if rubbing else None
+    return ContactRelations(relations, least, friction)
 
 
 def _friction(

@@ -105,7 +105,7 @@ def sides_of_zones(
         for number, zone in enumerate(model.zones):
             rows = np.flatnonzero(of.zone == number)
             if len(rows):
-                part = CellBlock.make(block.nodes, block.cell_type, block.raw[rows])
+                part = block.some(rows)
                 geometry = face_geometry(part, zone.mode, harmonic(zone))
                 yield zone, part, geometry, Parents(of.zone[rows], of.cell[rows])
 

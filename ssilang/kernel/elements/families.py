@@ -28,7 +28,7 @@ from ssilang.kernel.elements.solids.solid import Incompressible, OnePoint, Solid
 from ssilang.kernel.fields.cell_field import CellField, CellFieldBlock, Support
 from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.materials.model import Mode, Zone, same_elements
-from ssilang.kernel.matrices.matrix import ElementMatrices
+from ssilang.kernel.matrices.matrix import ElementMatrices, diagonal_matrices
 
 _OTHER = 1e-3  # of a stiffness: what differs more was given otherwise
 
@@ -145,12 +145,11 @@ def mass(zone: Zone, material: CellField, lumped: bool = False) -> ElementMatric
     family, parameters = family_of(zone), zone_fields.zone_field(zone, material)
     values, layout = family.mass_values(zone, parameters)
     if lumped:
-        rotations = np.array([u.startswith("R") for u in layout.unknowns])
-        summed = zone.cells.kind.degree == 1 and not rotations.any()
-        if summed:
-            values = _diagonal(values.sum(axis=2))
-        else:
+        turning = any(u.startswith("R") for u in layout.unknowns)
+        if zone.cells.kind.degree > 1 or turning:
             values = scaled_diagonal(values, layout.unknowns)
+        else:
+            values = diagonal_matrices(values.sum(axis=2))
     return element_matrices(zone, layout, values, "MASSE", keep_zone=False)
 
 
@@ -167,14 +166,7 @@ def scaled_diagonal(values: FloatArray, unknowns: tuple[str, ...]) -> FloatArray
     mean = np.mean(list(ratios.values()), axis=0)
     for i, name in enumerate(unknowns):
         out[:, i] = diagonal[:, i] * ratios.get(name, mean)
-    return _diagonal(out)
-
-
-def _diagonal(rows: FloatArray) -> FloatArray:
-    n, m = rows.shape
-    values = np.zeros((n, m, m))
-    values[:, np.arange(m), np.arange(m)] = rows
-    return values
+    return diagonal_matrices(out)
 
 
 def geometric_stiffness(
@@ -279,10 +271,8 @@ def components_of(zone: Zone, field: CellField, names: tuple[str, ...]) -> Float
 
 def renamed(parameters: zone_fields.ZoneField, names: dict[str, str]) -> zone_fields.ZoneField:
     """The same field with some components under other names (others of that name are dropped)."""
-    parts = []
-    for block, rows in parameters.parts:
-        parts.append((_renamed(block, names), rows))
-    return zone_fields.ZoneField(parameters.zone, tuple(parts))
+    parts = tuple((_renamed(block, names), rows) for block, rows in parameters.parts)
+    return zone_fields.ZoneField(parameters.zone, parts)
 
 
 def _renamed(block: CellFieldBlock, names: dict[str, str]) -> CellFieldBlock:

@@ -190,8 +190,7 @@ def principal_strokes(
     parts = []
     for block, tensor in tensors:
         values, directions = np.linalg.eigh(tensor)
-        for rank in range(3):
-            name = _PRINCIPAL[rank]
+        for rank, name in enumerate(_PRINCIPAL):
             if name not in shade:
                 continue
             column = 2 - rank  # eigh sorts upwards

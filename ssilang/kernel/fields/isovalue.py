@@ -204,9 +204,5 @@ def _without_parts(meshes: list[Mesh], nodes: NodeTable) -> Mesh:
                 faces = CellBlock.make(other.nodes, _SIMPLICES[size - 1], table)
                 alone &= ~np.isin(cell_keys(block), cell_keys(faces))
         if alone.any():
-            kept.append(
-                CellBlock.make(
-                    nodes, block.cell_type, block.connectivity[alone], block.colours[alone]
-                )
-            )
+            kept.append(block.some(alone))
     return Mesh(nodes, tuple(kept))

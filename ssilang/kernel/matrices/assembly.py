@@ -15,13 +15,13 @@ The multipliers (LX) are no unknowns of the numbering: they stand in `Constraint
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, KernelError
 from ssilang.kernel.base.sparse import assemble_triplets, sp
 from ssilang.kernel.fields.node_field import Nature, NodeField, NodeValues
@@ -86,6 +86,10 @@ class Numbering:
     def where(self, name: str) -> IntArray:
         """Indices of all unknowns called `name`, by increasing node."""
         return np.flatnonzero(self.codes == self.code(name))
+
+    def some(self, which: IntArray | BoolArray) -> Numbering:
+        """Of some of the unknowns alone."""
+        return replace(self, nodes=self.nodes[which], codes=self.codes[which])
 
     def name(self, index: int) -> str:
         """Name of one unknown: 'UX'."""

@@ -9,19 +9,17 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError, MeshError
 from ssilang.kernel.base.scientific import sp, spatial
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.assembly import (
-    Numbering,
+from ssilang.kernel.matrices.assembly import Numbering
+from ssilang.kernel.matrices.matrix import (
+    PRIMAL_OF,
+    ElementMatrices,
+    Matrix,
+    diagonal_matrices,
+    dual_of,
 )
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.cells import CELL_TYPES
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.nodes import NodeTable
-
-PRIMAL_OF = {
-    "FX": "UX", "FY": "UY", "FZ": "UZ", "MX": "RX", "MY": "RY", "MZ": "RZ", "FR": "UR",
-    "FT": "UT", "MT": "RT", "FLX": "LX", "Q": "T", "FP": "P", "FALF": "ALFA", "FBET": "BETA",
-}  # fmt: skip
-"""Unknown of each usual dual."""
 
 
 def nodal_diagonal(
@@ -186,13 +184,10 @@ def lumped_matrix(matrix: Matrix, kept: tuple[str, ...] = ()) -> Matrix:
 
 
 def _lumped(block: ElementMatrices, kept: tuple[str, ...]) -> ElementMatrices:
-    n, m, _ = block.values.shape
     rows = block.values.sum(axis=2)
     own = np.einsum("cii->ci", block.values)
     diagonal = np.where([u in kept for u in block.unknowns], own, rows)
-    values = np.zeros((n, m, m))
-    values[:, np.arange(m), np.arange(m)] = diagonal
-    return replace(block, values=values)
+    return replace(block, values=diagonal_matrices(diagonal))
 
 
 def filter_weights(

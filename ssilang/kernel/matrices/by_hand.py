@@ -7,8 +7,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import FieldError
 from ssilang.kernel.fields.node_field import NodeField
-from ssilang.kernel.matrices.build import PRIMAL_OF
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix, dual_of
+from ssilang.kernel.matrices.matrix import PRIMAL_OF, ElementMatrices, Matrix, dual_of
 from ssilang.kernel.mesh.nodes import NodeTable
 
 

@@ -75,7 +75,7 @@ def condensed_by_relations(matrix: Matrix, relations: Matrix) -> Matrix:
     K = assembly.assemble(body, numbering)
     T, kept = _given(relations, numbering) if given else _eliminated(rows_only, numbering)
     A = sp.csr_array(T.T @ K @ T)
-    masters = replace(numbering, nodes=numbering.nodes[kept], codes=numbering.codes[kept])
+    masters = numbering.some(kept)
     made = matrix_from_sparse(A, masters, matrix.kind, assembly.is_symmetric(matrix))
     return replace(made, relations=_carried(body, numbering, T, masters), cache={})
 

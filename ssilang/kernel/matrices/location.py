@@ -98,14 +98,12 @@ def _simplex(xi: FloatArray) -> FloatArray:
     return np.column_stack([-xi, xi.sum(axis=1) - 1.0])
 
 
-def _pyramid(xi: FloatArray) -> FloatArray:
-    return np.column_stack([np.abs(xi[:, :2]).max(axis=1) + xi[:, 2] - 1.0, -xi[:, 2]])
-
-
 _EXCESS: dict[str, Callable[[FloatArray], FloatArray]] = {
     "triangle": _simplex,
     "tetrahedron": _simplex,
     "prism": lambda xi: np.column_stack([_simplex(xi[:, :2]), np.abs(xi[:, 2]) - 1.0]),
-    "pyramid": _pyramid,
+    "pyramid": lambda xi: np.column_stack(
+        [np.abs(xi[:, :2]).max(axis=1) + xi[:, 2] - 1.0, -xi[:, 2]]
+    ),
     "point": np.abs,
 }

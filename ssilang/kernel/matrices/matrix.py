@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.mesh.nodes import NodeTable
 
@@ -67,6 +67,10 @@ class ElementMatrices:
             ids, local = nodes, np.arange(len(nodes))
         rows = (local.astype(np.int64), tuple(unknowns), tuple(duals))
         return cls(table, ids[None, :], *rows, values[None], kind, None, symmetric)
+
+    def some(self, which: BoolArray) -> "ElementMatrices":
+        """Of some of the elements (n,) alone."""
+        return replace(self, raw_nodes=self.raw_nodes[which], values=self.values[which])
 
     @property
     def nodes(self) -> IntArray:
@@ -162,9 +166,20 @@ PRIMAL_TO_DUAL: dict[str, str] = {
 }  # fmt: skip
 """Dual of each unknown, as Cast3M names them; others: 'F' + name cut at 4 characters."""
 
+PRIMAL_OF = {dual: unknown for unknown, dual in PRIMAL_TO_DUAL.items()}
+"""Unknown of each usual dual."""
+
 PRIMAL_TO_DUAL |= {imaginary(u): imaginary(d) for u, d in PRIMAL_TO_DUAL.items()}
 
 
 def dual_of(unknown: str) -> str:
     """Name of the dual (force) of an unknown."""
     return PRIMAL_TO_DUAL.get(unknown, ("F" + unknown)[:4])
+
+
+def diagonal_matrices(rows: FloatArray) -> FloatArray:
+    """Matrices (n, m, m) that have those rows (n, m) on their diagonals."""
+    n, m = rows.shape
+    values = np.zeros((n, m, m))
+    values[:, np.arange(m), np.arange(m)] = rows
+    return values

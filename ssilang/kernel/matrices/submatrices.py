@@ -130,9 +130,7 @@ def on_mesh(matrix: Matrix, mesh: Mesh) -> Matrix:
         rows = np.sort(block.nodes, axis=1).tolist()
         keep = np.array([tuple(row) in keys for row in rows], dtype=bool)
         if keep.any():
-            blocks.append(
-                replace(block, raw_nodes=block.raw_nodes[keep], values=block.values[keep])
-            )
+            blocks.append(block.some(keep))
     inside = mesh.sorted_node_ids
     relations = [r for r in (_rows_inside(p, inside) for p in matrix.relations) if len(r)]
     return Matrix(matrix.table, tuple(blocks), tuple(relations), matrix.kind)

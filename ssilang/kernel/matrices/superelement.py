@@ -13,7 +13,7 @@ import numpy as np
 from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import KernelError
 from ssilang.kernel.base.sparse import sp
-from ssilang.kernel.fields.node_field import NodeField, NodeValues
+from ssilang.kernel.fields.node_field import NodeField
 from ssilang.kernel.matrices.assembly import (
     ConstraintRows,
     Numbering,
@@ -207,26 +207,12 @@ def condensed_load(element: SuperElement, load: NodeField) -> NodeField:
     f = _forces(element, load)
     K = assemble(element.source, element.numbering)
     u0 = _responses(element, f[:, None], _inner_values(element, load)[:, None])[0][:, 0]
-    whole = np.zeros(element.numbering.size)
-    whole[element.masters] = element.shapes.T @ (f - K @ u0)
-    field = vector_to_field(whole, element.numbering, dual=True)
-    masters = _only(field, element)
+    values = element.shapes.T @ (f - K @ u0)
+    field = vector_to_field(values, element.numbering.some(element.masters), dual=True)
     imposed = load.components.get("FLX")
-    if imposed is not None and not element.inner_rows:
-        masters["FLX"] = imposed
-    return NodeField(field.table, masters, "DISCRET")
-
-
-def _only(field: NodeField, element: SuperElement) -> dict[str, NodeValues]:
-    """Components of a field at the masters alone."""
-    numbering = element.numbering
-    kept: dict[str, NodeValues] = {}
-    for code, name in enumerate(numbering.duals):
-        nodes = numbering.nodes[element.masters[numbering.codes[element.masters] == code]]
-        part = field.components.get(name)
-        if part is not None and len(nodes):
-            kept[name] = NodeValues(nodes, part.at(nodes))
-    return kept
+    if imposed is None or element.inner_rows:
+        return field
+    return NodeField(field.table, {**field.components, "FLX": imposed}, "DISCRET")
 
 
 def inner_displacement(

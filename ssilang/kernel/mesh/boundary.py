@@ -16,9 +16,7 @@ from ssilang.kernel.mesh.orientation import surface_normals
 def faces_of(mesh: Mesh, dimension: int) -> dict[str, tuple[IntArray, IntArray]]:
     """All faces of the cells of one dimension: type -> (connectivity, colours), with repeats."""
     found: dict[str, tuple[list[IntArray], list[IntArray]]] = {}
-    for block in mesh.blocks:
-        if block.kind.dimension != dimension or block.kind.joint:
-            continue
+    for block in mesh.blocks_of(dimension):
         table = block.connectivity
         for name, local in block.kind.faces:
             tables, colours = found.setdefault(name, ([], []))
@@ -71,9 +69,7 @@ def contour(mesh: Mesh, shared: tuple[float, float] = (1, 1)) -> Mesh:
 def _edges_of_surfaces(mesh: Mesh) -> tuple[IntArray, IntArray, NDArray[np.int8]]:
     """Edges (start, middle or -1, end) cell by cell, their corners as met, their colours."""
     edges, corners, colours = [], [], []
-    for block in mesh.blocks:
-        if block.kind.dimension != 2 or block.kind.joint:
-            continue
+    for block in mesh.blocks_of(2):
         rows = block.connectivity[:, [local for _, local in block.kind.faces]]
         if rows.shape[2] == 2:
             rows = np.insert(rows, 1, -1, axis=2)
@@ -144,8 +140,7 @@ def _all_faces(mesh: Mesh) -> Mesh:
 
 def lone_cells(mesh: Mesh, dimension: int = 2) -> Mesh:
     """Surfaces, or lines or points, whose nodes no other cell of the same type shares."""
-    blocks = (b for b in mesh.blocks if b.kind.dimension == dimension and not b.kind.joint)
-    flat = Mesh(mesh.nodes, tuple(blocks))
+    flat = Mesh(mesh.nodes, mesh.blocks_of(dimension))
     return take(flat, lambda b: sharing(b.connectivity)[0] == 1)
 
 
@@ -175,9 +170,8 @@ def edges(mesh: Mesh) -> Mesh:
 def faces(mesh: Mesh) -> Mesh:
     """All faces of volume cells, each once, and the surface cells themselves."""
     tables: dict[str, list[IntArray]] = {k: [t] for k, (t, _) in faces_of(mesh, 3).items()}
-    for block in mesh.blocks:
-        if block.kind.dimension == 2 and not block.kind.joint:
-            tables.setdefault(block.cell_type, []).append(block.connectivity)
+    for block in mesh.blocks_of(2):
+        tables.setdefault(block.cell_type, []).append(block.connectivity)
     return _each_once(mesh.nodes, tables)
 
 
@@ -202,9 +196,7 @@ def sharp_edges(mesh: Mesh, angle: float = 20.0) -> Mesh:
     MeshError
         If the mesh has neither volumes nor surfaces.
     """
-    skin = envelope(mesh)
-    own = tuple(b for b in mesh.blocks if b.kind.dimension == 2 and not b.kind.joint)
-    skin = Mesh(mesh.nodes, skin.blocks + own)
+    skin = Mesh(mesh.nodes, envelope(mesh).blocks + mesh.blocks_of(2))
     if not skin.blocks:
         raise MeshError("kernel.mesh.edges-sought-volumes-surfaces")
     rows, normals, middles = _skin_edges(skin)

@@ -78,68 +78,51 @@ def _linear(name: str, quadratic: CellType) -> CellType:
     return CellType(name, quadratic.dimension, n, 1, tuple(range(n)), named)
 
 
+def _volume(name: str, *faces: tuple[int, ...]) -> CellType:
+    """The quadratic cell of faces, which begin with a corner and go round."""
+    corners = tuple(sorted({node for face in faces for node in face[::2]}))
+    named = tuple(("TRI6" if len(face) == 6 else "QUA8", face) for face in faces)
+    return CellType(name, 3, 1 + max(map(max, faces)), 2, corners, named)
+
+
 # CU20: bottom contour of 8 (corner, middle, ...), 4 middles of the vertical edges, top of 8
-_CU20 = CellType(
+_CU20 = _volume(
     "CU20",
-    3,
-    20,
-    2,
-    (0, 2, 4, 6, 12, 14, 16, 18),
-    (
-        ("QUA8", (0, 7, 6, 5, 4, 3, 2, 1)),
-        ("QUA8", (12, 13, 14, 15, 16, 17, 18, 19)),
-        ("QUA8", (0, 1, 2, 9, 14, 13, 12, 8)),
-        ("QUA8", (2, 3, 4, 10, 16, 15, 14, 9)),
-        ("QUA8", (4, 5, 6, 11, 18, 17, 16, 10)),
-        ("QUA8", (6, 7, 0, 8, 12, 19, 18, 11)),
-    ),
+    (0, 7, 6, 5, 4, 3, 2, 1),
+    (12, 13, 14, 15, 16, 17, 18, 19),
+    (0, 1, 2, 9, 14, 13, 12, 8),
+    (2, 3, 4, 10, 16, 15, 14, 9),
+    (4, 5, 6, 11, 18, 17, 16, 10),
+    (6, 7, 0, 8, 12, 19, 18, 11),
 )
 
 # PR15: triangle contour of 6, 3 middles of the vertical edges, triangle contour of 6
-_PR15 = CellType(
+_PR15 = _volume(
     "PR15",
-    3,
-    15,
-    2,
-    (0, 2, 4, 9, 11, 13),
-    (
-        ("TRI6", (0, 5, 4, 3, 2, 1)),
-        ("TRI6", (9, 10, 11, 12, 13, 14)),
-        ("QUA8", (0, 1, 2, 7, 11, 10, 9, 6)),
-        ("QUA8", (2, 3, 4, 8, 13, 12, 11, 7)),
-        ("QUA8", (4, 5, 0, 6, 9, 14, 13, 8)),
-    ),
+    (0, 5, 4, 3, 2, 1),
+    (9, 10, 11, 12, 13, 14),
+    (0, 1, 2, 7, 11, 10, 9, 6),
+    (2, 3, 4, 8, 13, 12, 11, 7),
+    (4, 5, 0, 6, 9, 14, 13, 8),
 )
 
 # TE10: triangle contour of 6, 3 middles of the edges to the apex, apex
-_TE10 = CellType(
+_TE10 = _volume(
     "TE10",
-    3,
-    10,
-    2,
-    (0, 2, 4, 9),
-    (
-        ("TRI6", (0, 5, 4, 3, 2, 1)),
-        ("TRI6", (0, 1, 2, 7, 9, 6)),
-        ("TRI6", (2, 3, 4, 8, 9, 7)),
-        ("TRI6", (4, 5, 0, 6, 9, 8)),
-    ),
+    (0, 5, 4, 3, 2, 1),
+    (0, 1, 2, 7, 9, 6),
+    (2, 3, 4, 8, 9, 7),
+    (4, 5, 0, 6, 9, 8),
 )
 
 # PY13: base contour of 8, 4 middles of the edges to the apex, apex
-_PY13 = CellType(
+_PY13 = _volume(
     "PY13",
-    3,
-    13,
-    2,
-    (0, 2, 4, 6, 12),
-    (
-        ("QUA8", (0, 7, 6, 5, 4, 3, 2, 1)),
-        ("TRI6", (0, 1, 2, 9, 12, 8)),
-        ("TRI6", (2, 3, 4, 10, 12, 9)),
-        ("TRI6", (4, 5, 6, 11, 12, 10)),
-        ("TRI6", (6, 7, 0, 8, 12, 11)),
-    ),
+    (0, 7, 6, 5, 4, 3, 2, 1),
+    (0, 1, 2, 9, 12, 8),
+    (2, 3, 4, 10, 12, 9),
+    (4, 5, 6, 11, 12, 10),
+    (6, 7, 0, 8, 12, 11),
 )
 
 CELL_TYPES: dict[str, CellType] = {

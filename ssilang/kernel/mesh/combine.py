@@ -104,13 +104,8 @@ def poi1(nodes: NodeTable, ids: IntArray, colour: int = 0) -> Mesh:
 
 def take(mesh: Mesh, chosen: Callable[[CellBlock], BoolArray | IntArray]) -> Mesh:
     """The cells of each block that `chosen` picks (mask or indices); empty blocks vanish."""
-    parts = []
-    for block in mesh.blocks:
-        pick = chosen(block)
-        table, colours = block.connectivity[pick], block.colours[pick]
-        if len(table):
-            parts.append(CellBlock.make(mesh.nodes, block.cell_type, table, colours))
-    return Mesh(mesh.nodes, tuple(parts))
+    parts = (block.some(chosen(block)) for block in mesh.blocks)
+    return Mesh(mesh.nodes, tuple(p for p in parts if len(p)))
 
 
 def cell_keys(block: CellBlock, ordered: bool = False) -> NDArray[np.void]:

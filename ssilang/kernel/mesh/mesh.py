@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from ssilang.kernel.base.arrays import FloatArray, IntArray
+from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.mesh.cells import CELL_TYPES, CellType
 from ssilang.kernel.mesh.nodes import NodeTable
@@ -93,6 +93,11 @@ class CellBlock:
         table = np.ascontiguousarray(connectivity, dtype=np.int64).reshape(-1, kind.n_nodes)
         shades = np.broadcast_to(np.asarray(colours, dtype=np.int8), (len(table),)).copy()
         return cls(nodes, cell_type, table, shades)
+
+    def some(self, which: IntArray | BoolArray | slice) -> "CellBlock":
+        """Some of the cells, in the order given."""
+        table, colours = self.connectivity[which], self.colours[which]
+        return CellBlock.make(self.nodes, self.cell_type, table, colours)
 
     @property
     def kind(self) -> CellType:
@@ -185,6 +190,10 @@ class Mesh:
     def dimension(self) -> int:
         """Largest dimension of the cells, 0 for points."""
         return max((b.kind.dimension for b in self.blocks), default=0)
+
+    def blocks_of(self, dimension: int) -> tuple[CellBlock, ...]:
+        """The blocks of cells of a dimension, joints left out."""
+        return tuple(b for b in self.blocks if b.kind.dimension == dimension and not b.kind.joint)
 
     def single_block(self) -> CellBlock:
         """The one block of an elementary mesh.

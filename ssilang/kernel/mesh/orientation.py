@@ -64,9 +64,7 @@ def reversed_line(mesh: Mesh) -> Mesh:
     for block in mesh.blocks:
         turned = flip(block)
         if block.kind.dimension == 1 and not block.kind.joint:
-            turned = CellBlock.make(
-                block.nodes, block.cell_type, turned.connectivity[::-1], block.colours[::-1]
-            )
+            turned = turned.some(slice(None, None, -1))
         blocks.append(turned)
     return Mesh(mesh.nodes, tuple(blocks))
 
@@ -176,9 +174,7 @@ def check_consistent(mesh: Mesh) -> Mesh:
 def _opposed(mesh: Mesh, dimension: int) -> IntArray:
     """Nodes of a boundary (end or directed edge) that two cells run in the same sense."""
     keys: list[IntArray] = []
-    for block in mesh.blocks:
-        if block.kind.dimension != dimension or block.kind.joint:
-            continue
+    for block in mesh.blocks_of(dimension):
         table = block.connectivity
         if dimension == 1:
             one = np.ones(len(table), dtype=np.int64)

@@ -210,9 +210,6 @@ def _linear(problem: ReducedProblem) -> tuple[sp.csc_array, sp.csc_array]:
     r, m = problem.size, problem.S.shape[0]
     C = problem.C if problem.C is not None else sp.csr_array((r, r))
     identity = sp.eye_array(r, format="csr")
-    if m == 0:
-        A = sp.block_array([[None, identity], [-problem.K, -C]], format="csc")
-        return sp.csc_array(A), sp.csc_array(sp.block_diag([identity, problem.M], format="csc"))
     A = sp.block_array(
         [
             [None, identity, None],

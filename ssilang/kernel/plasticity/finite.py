@@ -191,7 +191,6 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     FieldError
         For an element or a hypothesis that has none.
     """
-    parameters = zone_field(zone, material)
     weights = integration_weights(zone, "STRESSES", material)
     if is_plane_beam(zone):
         return finite_beam(zone, material, weights.shape[1])
@@ -202,10 +201,10 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
         return finite_plane_shell(zone, material, weights.shape[1])
     if is_facet_shell(zone):
         return finite_plate(zone, material, weights.shape[1])
-    moduli = moduli_of(zone, parameters, "STRESSES")
+    moduli = moduli_of(zone, zone_field(zone, material), "STRESSES")
     if zone.element == "BARR":
         d = len(set(family_of(zone).layout(zone).unknowns))
-        ends = zone.cells.nodes.coordinates[zone.cells.connectivity][..., :d]
+        ends = zone.cells.coordinates[..., :d]
         span = ends[:, 1] - ends[:, 0]
         stiffness = moduli[:, 0, 0, 0] / np.linalg.norm(span, axis=1)
         start = np.zeros((len(ends), 1))
@@ -213,10 +212,9 @@ def finite_zone(zone: Zone, material: CellField) -> FiniteZone:
     turning = zone.mode is Mode.FOURIER or (zone.mode in REVOLUTION and harmonic(zone))
     if not is_solid(zone) or turning:
         raise FieldError("kernel.plasticity.finite-displacements-not-built", element=zone.element)
-    slopes = _slopes(zone)
     count = moduli.shape[-1]
     D = np.broadcast_to(moduli, (*weights.shape, count, count)).copy()
-    return FiniteSolid(zone, slopes, D, weights, np.zeros((*weights.shape, count)))
+    return FiniteSolid(zone, _slopes(zone), D, weights, np.zeros((*weights.shape, count)))
 
 
 def _slopes(zone: Zone) -> FloatArray:

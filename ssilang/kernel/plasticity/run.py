@@ -1,8 +1,6 @@
 """Load steps and time steps of problems with plastic bodies."""
 
-import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -18,7 +16,7 @@ from ssilang.kernel.plasticity.newton import BulkSolver
 from ssilang.kernel.plasticity.snapshot import NOTHING, BulkSnapshot
 from ssilang.kernel.plasticity.solving.accelerated import AcceleratedSolver, is_accelerated
 from ssilang.kernel.plasticity.solving.dense import DenseSolver, is_small
-from ssilang.kernel.statics.stepping import hand_over, lost
+from ssilang.kernel.statics.stepping import hand_over, lost, recorded, through
 from ssilang.kernel.stepping.effective import effective_matrix, effective_of
 from ssilang.kernel.stepping.keeping import Keeper, KeptSteps, leaves, memory, rebuilt, recall
 from ssilang.kernel.stepping.newmark import newmark_of
@@ -38,7 +36,6 @@ from ssilang.kernel.stepping.state import (
     ELASTIC,
     EXTERNAL,
     LOST,
-    N_ENERGIES,
     STORED,
     Motion,
 )
@@ -161,27 +158,12 @@ def step_bulk_statics(run: BulkRun) -> History:
     """
     problem = run.problem
     factors = problem.loading.at(problem.times)
-    with _recorded(run) as history:
+    with recorded(problem, run.observers) as history:
         solver = newton_solver(problem, problem.K, 1.0, run.bulk, run.state)
         _name(run, history, solver)
         run.motion.reaction[:] = run.imbalance(solver.force, factors[0])
         _through(run, history, solver, lambda k: _static_step(run, solver, history, k, factors))
     return history
-
-
-@contextmanager
-def _recorded(run: BulkRun) -> Iterator[History]:
-    """The history of a run that begins; where it ends the observers are closed."""
-    times, started = run.problem.times, time.perf_counter()
-    history = History(times, np.zeros((len(times), N_ENERGIES)))
-    _name(run, history, BulkSolver)
-    try:
-        yield history
-    finally:
-        for observer in run.observers:
-            observer.close()
-    history.beyond = run.bulk.beyond_curves(run.begun, run.state)
-    history.seconds += time.perf_counter() - started
 
 
 def _name(run: BulkRun, history: History, solver: BulkSolver | type[BulkSolver]) -> None:
@@ -193,20 +175,10 @@ def _name(run: BulkRun, history: History, solver: BulkSolver | type[BulkSolver])
 def _through(
     run: BulkRun, history: History, solver: BulkSolver | SparseLoop, step: Callable[[int], None]
 ) -> None:
-    """All steps: note the energies of each, hand its state over, tell how far the run is."""
-    history.energies[0] = run.motion.energies
+    """All steps, and what went beyond curves in them."""
     steps = KeptSteps(run.keeper, history, run.motion, solver, run)
-    if not steps.go_on():
-        run.save(0)
-    with steps.going():
-        for k in range(steps.done + 1, len(history.times)):
-            with steps.step(k):
-                step(k)
-                history.energies[k] = run.motion.energies
-                run.save(k)
-                if run.progress is not None:
-                    run.progress(k, len(history.times) - 1)
-            steps.reached()
+    through(steps, step, run.save, run.progress)
+    history.beyond = run.bulk.beyond_curves(run.begun, run.state)
 
 
 def _static_step(
@@ -277,7 +249,8 @@ def integrate_bulk(run: BulkRun) -> History:
         If a step does not converge; says at which time.
     """
     factors = run.problem.loading.at(run.problem.times)
-    with _recorded(run) as history:
+    with recorded(run.problem, run.observers) as history:
+        _name(run, history, BulkSolver)
         _start(run, factors[0])
         loop = _BulkLoop(run)
         _through(run, history, loop, lambda k: _moving_step(run, loop, history, k, factors))

@@ -18,7 +18,6 @@ from ssilang.kernel.elements.catalog import LOCKING
 from ssilang.kernel.interface.elements import is_joint, joint_element
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.queries.select import cells_containing
 from ssilang.kernel.statics.doubled import face_keys
 
@@ -109,8 +108,7 @@ def overlapping_cells(matrix: Matrix, solids: Solids) -> IntArray:
         inner = np.flatnonzero(there)
         for i in inner[:: 1 + len(inner) // _LOOKED_AT].tolist():
             near = ((low <= middles[i]) & (high >= middles[i])).all(axis=1)
-            some = CellBlock.make(cells.nodes, cells.cell_type, cells.connectivity[near])
-            if near.any() and cells_containing(some, middles[i]).any():
+            if near.any() and cells_containing(cells.some(near), middles[i]).any():
                 found.append(int(block.nodes[i, 0]))
     return np.array(found, np.int64)
 

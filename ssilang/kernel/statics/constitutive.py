@@ -44,9 +44,7 @@ class Answer:
 
 def has_law(zone: Zone) -> bool:
     """Whether a zone's law is more than elasticity."""
-    return (is_joint(zone) and not law_of(zone.behaviour).linear) or (
-        not is_joint(zone) and is_plastic(zone)
-    )
+    return not law_of(zone.behaviour).linear if is_joint(zone) else is_plastic(zone)
 
 
 def variable_names(zone: Zone) -> tuple[str, ...]:
@@ -105,15 +103,15 @@ def probing_step(
     where that is a tension), elastically: the law's tangent over it is the one of the state.
     """
     _no_fibres(zone)
+    step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
     if is_joint(zone) and not law_of(zone.behaviour).linear:
         joints = joint_points(zone, material)
         trial = joints.local(stress) * precision
         trial[:, -1] = np.maximum(trial[:, -1], 0.0)
-        step = np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
         step[:, : joints.dimension] = joints.named(joints.jumps(trial))
         return step
     if not is_plastic(zone) or "FLUAGE" in zone.behaviour:
-        return np.zeros((len(stress), len(family_of(zone).strain_names(zone)), stress.shape[2]))
+        return step
     points = plastic_points(zone, material)
     raised = section_stress(points, stress) * precision
     strain = np.einsum("mij,mj->mi", points.parameters.compliance, raised) / points.roots
@@ -216,8 +214,7 @@ def joint_points(zone: Zone, material: CellField) -> JointPoints:
     given = zone_field(zone, material)
     cells = joint_cells(zone, given)
     table = joint_parameters(cells, given)
-    n, g = cells.weights.shape
-    return JointPoints(zone, table, cells.element.dimension, (n, g))
+    return JointPoints(zone, table, cells.element.dimension, cells.weights.shape)
 
 
 def joint_state(points: JointPoints, variables: ZoneField) -> FloatArray:
@@ -250,7 +247,7 @@ def _jump(points: JointPoints, traction: FloatArray, state: FloatArray, code: in
 def _joint(
     zone: Zone, material: CellField, stress: FloatArray, variables: ZoneField, step: FloatArray
 ) -> Answer:
-    law, d = law_of(zone.behaviour), None
+    law = law_of(zone.behaviour)
     if law.macro and (zone_field(zone, material).at("COHE", "STRESSES", 0.0) > 0.0).any():
         raise MaterialError("kernel.statics.ground-is-not-at-a-point")
     if law.linear or law.macro:

@@ -338,14 +338,7 @@ def reactions(matrix: Matrix, solution: NodeField) -> NodeField:
     multipliers = solution.values_at(assembly.MULTIPLIER, rows.multipliers)
     forces = -(rows.D.T @ multipliers)
     used = np.diff(sp.csc_array(rows.D).indptr) > 0
-    whole = assembly.vector_to_field(forces, numbering, dual=True)
-    keep = {}
-    for code, name in enumerate(numbering.duals):
-        on = used[numbering.codes == code]
-        part = whole.components.get(name)
-        if part is not None and on.any():
-            keep[name] = type(part)(part.nodes[on], part.values[on])
-    return NodeField(matrix.table, keep, "DISCRET")
+    return assembly.vector_to_field(forces[used], numbering.some(used), dual=True)
 
 
 def _require_multipliers(

@@ -1,7 +1,8 @@
 """Load steps of a static problem with joints: Newton's method on the condensed interface."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -61,36 +62,57 @@ def step_statics(
     SingularMatrixError
         If bodies are free even with all joints closed.
     """
-    started, times = time.perf_counter(), problem.times
-    motion = motion_at_rest(problem)
-    motion.reaction[:] = _imbalance(problem, motion, problem.loading.at(times[:1])[0])
-    history = History(times, np.zeros((len(times), N_ENERGIES)))
-    seen = partial(snapshot_of, problem, motion)
-    history.energies[0] = motion.energies
-    try:
+    motion, factors = motion_at_rest(problem), problem.loading.at(problem.times)
+    motion.reaction[:] = _imbalance(problem, motion, factors[0])
+    with recorded(problem, observers) as history:
         solver, inverse = _solver_of(problem)
         history.solver = MULTIGRID if inverse is None else inverse.factor.name
         history.loop = "static"
-        factors = problem.loading.at(times)
-        run = KeptSteps(keeper, history, motion, solver)
-        if not run.go_on():
-            hand_over(observers, 0, seen)
-        with run.going():
-            for k in range(run.done + 1, len(times)):
-                with run.step(k):
-                    _check_balanced(problem, inverse, motion, factors[k])
-                    outcome = _at_load_step(problem, solver, motion, factors, k)
-                    history.iterations = max(history.iterations, outcome.turns)
-                    history.energies[k] = motion.energies
-                    hand_over(observers, k, seen)
-                if progress is not None:
-                    progress(k, len(times) - 1)
-                run.reached()
+
+        def step(k: int) -> None:
+            _check_balanced(problem, inverse, motion, factors[k])
+            outcome = _at_load_step(problem, solver, motion, factors, k)
+            history.iterations = max(history.iterations, outcome.turns)
+
+        seen = partial(snapshot_of, problem, motion)
+        save = partial(hand_over, observers, made=seen)
+        through(KeptSteps(keeper, history, motion, solver), step, save, progress)
+    return history
+
+
+@contextmanager
+def recorded(problem: Problem, observers: Sequence[Observer]) -> Iterator[History]:
+    """The history of a run that begins; where it ends the observers are closed."""
+    times, started = problem.times, time.perf_counter()
+    history = History(times, np.zeros((len(times), N_ENERGIES)))
+    try:
+        yield history
     finally:
         for observer in observers:
             observer.close()
     history.seconds += time.perf_counter() - started
-    return history
+
+
+def through(
+    steps: KeptSteps,
+    step: Callable[[int], None],
+    save: Callable[[int], None],
+    progress: Progress | None,
+) -> None:
+    """All steps: note the energies of each, hand its state over, tell how far the run is."""
+    energies, last = steps.history.energies, len(steps.history.times) - 1
+    energies[0] = steps.motion.energies
+    if not steps.go_on():
+        save(0)
+    with steps.going():
+        for k in range(steps.done + 1, last + 1):
+            with steps.step(k):
+                step(k)
+                energies[k] = steps.motion.energies
+                save(k)
+            if progress is not None:
+                progress(k, last)
+            steps.reached()
 
 
 def _solver_of(problem: Problem) -> tuple[StepSolver, Inverse | None]:

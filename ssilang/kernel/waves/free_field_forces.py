@@ -18,7 +18,7 @@ And those of a free field that have yielded: no linear ground moves as they did.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -40,7 +40,7 @@ from ssilang.kernel.matrices.assembly import (
     numbering_of,
     vector_to_field,
 )
-from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
+from ssilang.kernel.matrices.matrix import Matrix
 from ssilang.kernel.mesh.mesh import CellBlock, Mesh
 from ssilang.kernel.plasticity.points import is_plastic
 
@@ -212,17 +212,13 @@ def _share(ground: Ground, kept: Callable[[IntArray], BoolArray]) -> Share:
     numbering = ground.numbering
     stiffness, mass, damping = (
         assemble_blocks(
-            [_rows(b, kept(b.nodes)) for b in (matrix.blocks if matrix is not None else ())],
+            [b.some(kept(b.nodes)) for b in (matrix.blocks if matrix is not None else ())],
             numbering,
         )
         for matrix in (ground.stiffness, ground.mass, ground.damping)
     )
     touched = sum(np.diff(m.indptr) for m in (stiffness, mass, damping)) > 0
     return Share(numbering, stiffness, mass, damping, np.asarray(touched, dtype=bool))
-
-
-def _rows(block: ElementMatrices, keep: BoolArray) -> ElementMatrices:
-    return replace(block, raw_nodes=block.raw_nodes[keep], values=block.values[keep])
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,6 @@ from ssilang.kernel.base.arrays import BoolArray, FloatArray, IntArray
 from ssilang.kernel.interface.elements import is_joint
 from ssilang.kernel.materials.model import Zone
 from ssilang.kernel.matrices.matrix import ElementMatrices, Matrix
-from ssilang.kernel.mesh.mesh import CellBlock
 from ssilang.kernel.mesh.queries.measure import cell_measures
 from ssilang.kernel.statics.cells_amiss import bordered_solids
 from ssilang.kernel.statics.doubled import face_keys
@@ -256,10 +255,8 @@ def matter(stiffness: Matrix, mass: Matrix) -> FloatArray:
     """Node, height, density, speed of shear waves (n, 4) of some cells of solids that have mass."""
     found = [np.zeros((0, 4))]
     for block, zone, some, stiff, whole in _sheared(stiffness, mass, "UX"):
-        cells = zone.cells
-        own = CellBlock.make(cells.nodes, cells.cell_type, cells.connectivity[some])
-        up = block.table.coordinates[block.nodes[some], cells.kind.dimension - 1].mean(axis=1)
+        up = block.table.coordinates[block.nodes[some], zone.cells.kind.dimension - 1].mean(axis=1)
         speed = np.sqrt(np.maximum(stiff, 0.0) / np.where(whole > 0.0, whole, np.inf))
-        rows = [block.nodes[some, 0], up, whole / cell_measures(own), speed]
+        rows = [block.nodes[some, 0], up, whole / cell_measures(zone.cells.some(some)), speed]
         found.append(np.stack(rows, axis=1)[whole > 0.0])
     return np.concatenate(found)

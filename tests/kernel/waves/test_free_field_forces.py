@@ -17,7 +17,6 @@ from ssilang.kernel.waves.free_field_forces import (
     PLASTIC,
     Ground,
     Motion,
-    _rows,
     along_columns,
     edge_forces,
     elements_at,
@@ -201,7 +200,7 @@ def test_cells_that_are_kept_keep_their_own_matrices():
     nodes = table.add(random.normal(size=(4, 2)))[np.array([[0, 1], [1, 2], [2, 3]])]
     values, names = random.normal(size=(3, 2, 2)), (("UX",) * 2, ("FX",) * 2)
     block = ElementMatrices(table, nodes, np.arange(2), *names, values)
-    kept = _rows(block, np.array([False, True, True]))
+    kept = block.some(np.array([False, True, True]))
     np.testing.assert_array_equal(kept.raw_nodes, nodes[1:])
     np.testing.assert_array_equal(kept.values, values[1:])
 

@@ -302,7 +302,7 @@ def shell_load(
             raise MeshError("kernel.elements.load-shells-not-element", element=zone.element)
         aim = along
         if towards is not None:
-            corners = zone.cells.nodes.coordinates[zone.cells.connectivity]
+            corners = zone.cells.coordinates
             aim = towards[: corners.shape[-1]] - corners.mean(axis=1)
         out.append(_on_shell(zone, value, aim, material))
     return total(model.mesh.nodes, out)

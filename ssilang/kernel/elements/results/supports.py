@@ -169,7 +169,7 @@ def model_on_mesh(model: Model, mesh: Mesh) -> Model:
     for zone in model.zones:
         for kept in _rows_in(mesh, zone.cells):
             same = len(kept) == len(zone.cells) and np.array_equal(kept, np.arange(len(kept)))
-            cells = zone.cells if same else _picked(zone.cells, kept)
+            cells = zone.cells if same else zone.cells.some(kept)
             zones.append(replace(zone, cells=cells))
     if not zones and mesh.n_cells:
         raise FieldError("kernel.elements.no-cell-mesh-belongs")
@@ -182,10 +182,6 @@ def _rows_in(mesh: Mesh, cells: CellBlock) -> Iterator[IntArray]:
         rows = cell_rows(cells, block)
         if (kept := rows[rows >= 0]).size:
             yield kept
-
-
-def _picked(cells: CellBlock, rows: np.ndarray) -> CellBlock:
-    return CellBlock(cells.nodes, cells.cell_type, cells.raw[rows], cells.colours[rows])
 
 
 def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
@@ -205,7 +201,7 @@ def field_on_mesh(field: CellField, mesh: Mesh) -> CellField:
                 n: np.broadcast_to(v, (len(block.cells), v.shape[1]))[kept]
                 for n, v in block.components.items()
             }
-            blocks.append(replace(block, cells=_picked(block.cells, kept), components=full))
+            blocks.append(replace(block, cells=block.cells.some(kept), components=full))
     if not blocks and field.title not in NONE_IF_ELASTIC:
         raise FieldError("kernel.elements.no-cell-mesh-belongs-to-support")
     return CellField(tuple(blocks), field.title)

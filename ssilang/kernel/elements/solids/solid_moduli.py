@@ -21,37 +21,38 @@ def material_axes(parameters: ZoneField, support: Support) -> FloatArray:
         raise MaterialError("kernel.elements.orthotropic-material-needs-axes")
     rolled = parameters.zone.mode is Mode.FOURIER and "V2Z" in parameters
     flat = parameters.zone.mode is not Mode.THREE_DIMENSIONAL and not rolled
-    first = np.stack(
-        np.broadcast_arrays(*(parameters.at(f"V1{a}", support, 0.0) for a in "XYZ")), axis=-1
-    )
+
+    def given(name: str) -> FloatArray:
+        parts = (parameters.at(name + a, support, 0.0) for a in "XYZ")
+        return np.stack(np.broadcast_arrays(*parts), axis=-1)
+
+    first = given("V1")
     if flat:
         second = np.stack([-first[..., 1], first[..., 0], 0 * first[..., 0]], axis=-1)
     else:
-        second = np.stack(
-            np.broadcast_arrays(*(parameters.at(f"V2{a}", support, 0.0) for a in "XYZ")), axis=-1
-        )
+        second = given("V2")
     v1, v2 = elasticity.two_axes(first, second)
     return np.stack([v1, v2, np.cross(v1, v2)], axis=-2)
 
 
-def _isotropic_pair(
-    zone: Zone, parameters: ZoneField, support: Support
-) -> tuple[FloatArray, FloatArray]:
+_Pair = tuple[FloatArray, FloatArray]
+"""Moduli and compliance."""
+
+
+def _isotropic_pair(parameters: ZoneField, support: Support) -> _Pair:
     young, poisson = (parameters.at(name, support) for name in ("YOUN", "NU"))
     elasticity.check_isotropic(young, poisson)
-    return elasticity.isotropic_moduli(young, poisson), elasticity.isotropic_compliance(
-        young, poisson
-    )
+    compliance = elasticity.isotropic_compliance(young, poisson)
+    return elasticity.isotropic_moduli(young, poisson), compliance
 
 
-def _orthotropic_pair(
-    zone: Zone, parameters: ZoneField, support: Support
-) -> tuple[FloatArray, FloatArray]:
+def _orthotropic_pair(parameters: ZoneField, support: Support) -> _Pair:
     # the nine constants; those that a hypothesis does not use get harmless values
     constants = {name: parameters.at(name, support) for name in ("YG1", "YG2", "NU12", "G12")}
+    mode = parameters.zone.mode
     shears = {"G23": constants["G12"], "G13": constants["G12"]}
-    spared = {} if zone.mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER) else shears
-    if zone.mode is Mode.PLANE_STRESS:
+    spared = {} if mode in (Mode.THREE_DIMENSIONAL, Mode.FOURIER) else shears
+    if mode is Mode.PLANE_STRESS:
         nothing = np.zeros((1, 1))
         spared |= {"YG3": constants["YG2"], "NU23": nothing, "NU13": nothing}
     for name in ("YG3", "NU23", "NU13", "G23", "G13"):
@@ -65,13 +66,11 @@ def _orthotropic_pair(
     return moduli, back @ local @ np.swapaxes(back, -1, -2)
 
 
-def _with_compliance(moduli: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _with_compliance(moduli: FloatArray) -> _Pair:
     return moduli, np.linalg.pinv(moduli).astype(np.float64)
 
 
-def _anisotropic_pair(
-    zone: Zone, parameters: ZoneField, support: Support
-) -> tuple[FloatArray, FloatArray]:
+def _anisotropic_pair(parameters: ZoneField, support: Support) -> _Pair:
     """The 21 terms D11 D21 D22 ... in the axes given, the global ones without."""
     terms = {
         (i, j): parameters.at(f"D{i + 1}{j + 1}", support, 0.0)
@@ -86,9 +85,7 @@ def _anisotropic_pair(
     return _with_compliance(elasticity.rotated_moduli(D, axes))
 
 
-def _unidirectional_pair(
-    zone: Zone, parameters: ZoneField, support: Support
-) -> tuple[FloatArray, FloatArray]:
+def _unidirectional_pair(parameters: ZoneField, support: Support) -> _Pair:
     """Stiffness along the first axis only."""
     young = parameters.at("YOUN", support)
     D = np.zeros((*young.shape, 6, 6))
@@ -96,8 +93,7 @@ def _unidirectional_pair(
     return _with_compliance(elasticity.rotated_moduli(D, material_axes(parameters, support)))
 
 
-Pair = Callable[[Zone, ZoneField, Support], tuple[FloatArray, FloatArray]]
-SOLID_LAWS: dict[str, Pair] = {
+SOLID_LAWS: dict[str, Callable[[ZoneField, Support], _Pair]] = {
     "ISOTROPE": _isotropic_pair,
     "ORTHOTROPE": _orthotropic_pair,
     "ANISOTROPE": _anisotropic_pair,
@@ -111,24 +107,24 @@ def symmetry_of(zone: Zone) -> str:
     return after[0] if after else "ISOTROPE"
 
 
-def _law(zone: Zone) -> Pair:
+def _pair(zone: Zone, parameters: ZoneField, support: Support) -> _Pair:
     name = symmetry_of(zone)
     if name not in SOLID_LAWS:
         raise MaterialError(
             "kernel.elements.elasticity-not-available-element", name=name, element=zone.element
         )
-    return SOLID_LAWS[name]
+    return SOLID_LAWS[name](parameters, support)
 
 
 def solid_moduli(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Moduli (n_cells or 1, n_points or 1, n_strains, n_strains) of a zone's hypothesis."""
-    return elasticity.reduced_moduli(_law(zone)(zone, parameters, support)[0], zone.mode)
+    return elasticity.reduced_moduli(_pair(zone, parameters, support)[0], zone.mode)
 
 
 def solid_compliance(zone: Zone, parameters: ZoneField, support: Support) -> FloatArray:
     """Compliance with the same shape; in plane stress EPZZ follows from the stresses."""
     kept = list(elasticity.KEPT[zone.mode])
-    return _law(zone)(zone, parameters, support)[1][..., kept, :][..., kept]
+    return _pair(zone, parameters, support)[1][..., kept, :][..., kept]
 
 
 HOOKE_COMPONENT = "MAHO"
@@ -141,12 +137,10 @@ def hooke_block(zone: Zone, moduli: FloatArray, support: Support) -> CellFieldBl
     ----------
     moduli : array (n_cells or 1, n_points or 1, s, s)
     """
-    n, p = len(zone.cells), moduli.shape[1]
     objects = np.empty(moduli.shape[:2], dtype=object)
-    for i in range(moduli.shape[0]):
-        for j in range(p):
-            objects[i, j] = moduli[i, j]
-    values = np.broadcast_to(objects, (n, p))
+    for place in np.ndindex(*objects.shape):
+        objects[place] = moduli[place]
+    values = np.broadcast_to(objects, (len(zone.cells), objects.shape[1]))
     return zone.block({HOOKE_COMPONENT: values}, support)
 
 

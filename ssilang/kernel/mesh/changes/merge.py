@@ -152,9 +152,7 @@ _COLLAPSES: dict[str, _Collapse] = {
 
 def regenerate(mesh: Mesh) -> Mesh:
     """Cells in which nodes coincide replaced by simpler ones (QUA4 by TRI3, CUB8 by PRI6 ...)."""
-    parts = []
-    for block in mesh.blocks:
-        parts += [Mesh(mesh.nodes, (b,)) for b in _regenerated(block)]
+    parts = [Mesh(mesh.nodes, (b,)) for block in mesh.blocks for b in _regenerated(block)]
     made = union(*parts, as_given=True) if parts else mesh
     same = [b.cell_type for b in made.blocks] == [b.cell_type for b in mesh.blocks]
     return mesh if same else made

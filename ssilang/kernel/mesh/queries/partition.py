@@ -118,12 +118,8 @@ def _by_label(mesh: Mesh, label: IntArray) -> list[Mesh]:
         mine = label[start : start + len(block)]
         order = np.argsort(mine, kind="stable")
         ends = np.searchsorted(mine[order], np.arange(len(names) + 1))
-        table, colours = block.connectivity[order], block.colours[order]
         for number in np.unique(mine):
-            rows = slice(ends[number], ends[number + 1])
-            parts[number].append(
-                CellBlock.make(mesh.nodes, block.cell_type, table[rows], colours[rows])
-            )
+            parts[number].append(block.some(order[ends[number] : ends[number + 1]]))
     return [Mesh(mesh.nodes, tuple(parts[number])) for number in np.argsort(first)]
 
 
@@ -145,7 +141,7 @@ def by_neighbours(block: CellBlock) -> CellBlock:
         order.append(met.astype(np.int64))
         found[order[-1]] = True
     places = np.concatenate(order) if order else np.empty(0, dtype=np.int64)
-    return CellBlock.make(block.nodes, block.cell_type, block.raw[places], block.colours[places])
+    return block.some(places)
 
 
 def _sides(mesh: Mesh) -> tuple[IntArray, IntArray, IntArray, IntArray]:

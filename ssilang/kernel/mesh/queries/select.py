@@ -28,8 +28,7 @@ def containing(mesh: Mesh, position: FloatArray, every: bool = False) -> Mesh:
     found = take(mesh, lambda b: cells_containing(b, position))
     if every or not found.blocks:
         return found
-    first = found.blocks[0]
-    return Mesh.of(mesh.nodes, first.cell_type, first.connectivity[:1], first.colours[:1])
+    return Mesh(mesh.nodes, (found.blocks[0].some(slice(1)),))
 
 
 def cells_containing(block: CellBlock, position: FloatArray) -> BoolArray:
@@ -181,7 +180,7 @@ def plane_axes(normal: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _segments(line: Mesh) -> tuple[FloatArray, FloatArray]:
-    lines = [b.coordinates for b in line.blocks if b.kind.dimension == 1 and not b.kind.joint]
+    lines = [b.coordinates for b in line.blocks_of(1)]
     if not lines:
         raise MeshError("kernel.mesh.contour-made-lines-needed")
     starts, ends = (np.concatenate([x[:, k].reshape(-1, 3) for x in lines])

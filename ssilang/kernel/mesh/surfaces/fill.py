@@ -8,7 +8,7 @@ from ssilang.kernel.base.scientific import interpolate, spatial
 from ssilang.kernel.mesh.boundary import chained
 from ssilang.kernel.mesh.mesh import Mesh
 from ssilang.kernel.mesh.queries.select import crossing_inside, segment_distance
-from ssilang.kernel.mesh.surfaces.triangulate import triangulate_inside
+from ssilang.kernel.mesh.surfaces.triangulate import cross, triangulate_inside
 
 _ROUNDS = 400
 
@@ -81,7 +81,7 @@ def _circumscribed(points: FloatArray, triangles: IntArray) -> tuple[FloatArray,
     """Circumcentres (t, 2) and circumradii (t,)."""
     a = points[triangles[:, 0]]
     u, v = points[triangles[:, 1]] - a, points[triangles[:, 2]] - a
-    twice = 2.0 * (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0])
+    twice = 2.0 * cross(u, v)
     uu, vv = (u * u).sum(axis=1), (v * v).sum(axis=1)
     arm = np.column_stack([v[:, 1] * uu - u[:, 1] * vv, u[:, 0] * vv - v[:, 0] * uu])
     arm /= np.where(twice == 0.0, 1e-300, twice)[:, None]
@@ -219,7 +219,7 @@ def certain_sides(points: FloatArray, triangles: IntArray) -> IntArray:
     """
     corners = points[triangles]
     u, v = (np.roll(corners, -k, axis=1) - corners for k in (1, 2))  # towards the opposite side
-    opposite = (u * v).sum(axis=2) / (u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+    opposite = (u * v).sum(axis=2) / cross(u, v)
     sides = np.sort(np.stack([np.roll(triangles, -k, axis=1) for k in (1, 2)], axis=2), axis=2)
     found, inverse = np.unique(sides.reshape(-1, 2), axis=0, return_inverse=True)
     inverse = inverse.ravel()

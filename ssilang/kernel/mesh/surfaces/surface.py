@@ -17,6 +17,7 @@ from ssilang.kernel.mesh.surfaces import fill
 from ssilang.kernel.mesh.surfaces.analytic import Shape
 from ssilang.kernel.mesh.surfaces.charts import Chart
 from ssilang.kernel.mesh.surfaces.grid import grid_surface
+from ssilang.kernel.mesh.surfaces.triangulate import cross
 
 MOST_SIDES = 12
 FLATTEST = 0.05
@@ -120,8 +121,7 @@ def _convex(corners: FloatArray) -> bool:
     way = np.roll(corners, -1, axis=0) - corners
     way /= np.linalg.norm(way, axis=1)[:, None]
     before = np.roll(way, 1, axis=0)
-    turn = before[:, 0] * way[:, 1] - before[:, 1] * way[:, 0]
-    return bool(turn.min() > FLATTEST)
+    return bool(cross(before, way).min() > FLATTEST)
 
 
 _WORST = 0.15  # quadrangles with a corner further than this part of 90 degrees from flat are made
@@ -160,9 +160,7 @@ def squareness(points: FloatArray, quads: IntArray) -> FloatArray:
     """1 for rectangles, 0 or less when a corner is flat or re-entrant, shape (q,)."""
     x = points[quads]
     before, after = np.roll(x, 1, axis=1) - x, np.roll(x, -1, axis=1) - x
-    sine = after[..., 0] * before[..., 1] - after[..., 1] * before[..., 0]
-    cosine = (after * before).sum(axis=2)
-    angle = np.arctan2(sine, cosine) % (2 * np.pi)
+    angle = np.arctan2(cross(after, before), (after * before).sum(axis=2)) % (2 * np.pi)
     return 1.0 - np.abs(angle - np.pi / 2).max(axis=1) / (np.pi / 2)
 
 
@@ -241,7 +239,7 @@ def fill_surface(
     segments = local.reshape(-1, 2).astype(np.int64)
     flat = chart.flatten(nodes.coordinates[ids].copy())
     a, b = flat[segments[:, 0]], flat[segments[:, 1]]
-    turned = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() < 0
+    turned = cross(a, b).sum() < 0
     if turned:
         flat = flat * [1.0, -1.0]
     at, wanted = (flat, fill.mean_sizes(flat, segments))
@@ -295,9 +293,7 @@ def _as_grid(contour: Mesh, chart: Chart, colour: int) -> Mesh | None:
     way = chart.flatten(contour.nodes.coordinates[table[:, -1]].copy())
     way -= chart.flatten(contour.nodes.coordinates[table[:, 0]].copy())
     before = np.roll(way, 1, axis=0)
-    turn = np.arctan2(
-        before[:, 0] * way[:, 1] - before[:, 1] * way[:, 0], (before * way).sum(axis=1)
-    )
+    turn = np.arctan2(cross(before, way), (before * way).sum(axis=1))
     corners = np.flatnonzero(np.abs(turn) > np.pi / 4)
     counts = np.diff(np.append(corners, corners[:1] + len(table)))
     if len(corners) != 4 or not np.array_equal(counts[:2], counts[2:]):

@@ -54,6 +54,7 @@ def doubled_areas(points: FloatArray, triangles: IntArray) -> FloatArray:
 
 
 def cross(u: FloatArray, v: FloatArray) -> FloatArray:
+    """Products u x v (...,) of vectors (..., 2) of the plane."""
     return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
 
 

@@ -15,6 +15,7 @@ from ssilang.kernel.base.arrays import FloatArray, IntArray
 from ssilang.kernel.base.errors import MeshError
 from ssilang.kernel.base.scientific import spatial
 from ssilang.kernel.mesh.queries.select import crossing_inside, places_once, segment_distance
+from ssilang.kernel.mesh.surfaces.triangulate import cross
 
 OUTSIDE = -1
 _FEW = 12
@@ -74,7 +75,7 @@ def voronoi_partition(
         If germs lie outside or at one place, or a weight is too large beside another.
     """
     a, b = corners[sides[:, 0]], corners[sides[:, 1]]
-    if (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() < 0:
+    if cross(a, b).sum() < 0:
         sides = sides[:, ::-1]
         a, b = b, a
     size = float(np.ptp(corners, axis=0).max())

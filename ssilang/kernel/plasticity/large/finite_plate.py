@@ -86,6 +86,6 @@ def finite_plate(zone: Zone, material: CellField, points: int) -> FinitePlate:
     back = np.swapaxes(T, 1, 2)
     seen, held = seen_and_held(zone, material, points, back)
     local = T @ stiffness(zone, material).values @ back
-    ends = zone.cells.nodes.coordinates[zone.cells.connectivity]
+    ends = zone.cells.coordinates
     start = np.zeros(seen.shape[:3])
     return FinitePlate(zone, local, start, points, seen, held, ends, axes)

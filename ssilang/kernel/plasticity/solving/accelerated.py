@@ -216,11 +216,10 @@ class AcceleratedSolver(BulkSolver):
         """The part that the solver's cells make; all if the factor is not elastic."""
         if self._part is None or self._part[0] is not self.cells or self._part[1] is not known:
             factor = known.dissected
-            panels = None if factor is None else factor.panels
-            if known.elastic and panels is not None:
-                part = part_of(self.bulk, by_zone(self.bulk, self.cells), known.T, panels)
+            if known.elastic and factor is not None:
+                part = part_of(self.bulk, by_zone(self.bulk, self.cells), known.T, factor.panels)
             else:
-                part = whole_part(known.T, panels)
+                part = whole_part(known.T, factor)
             self._part = (self.cells, known, part)
         return self._part[2]
 
@@ -302,14 +301,11 @@ class AcceleratedSolver(BulkSolver):
 
     def _whole(self, step: Step) -> float:
         """Move all, and have all bodies answer: what is out of balance, of the forces at play."""
-        known, factor = step.known, step.known.dissected
-        panels = None if factor is None else factor.panels
-        if not self._moved(step, whole_part(known.T, panels)):
+        known, du = step.known, step.du
+        if not self._moved(step, whole_part(known.T, known.dissected)):
             return np.inf
-        step.answer = self.bulk.respond(self.state, step.du, self.time)
+        answer = step.answer = self.bulk.respond(self.state, du, self.time)
         # What is out of balance at du, of the forces at play as Newton's method reckons them.
-        answer, du = step.answer, step.du
-        assert answer is not None
         linear = self.A @ du
         rest, parts = step.r - linear, [step.r, linear, answer.force, self.force]
         rest -= self.share * (answer.force - self.force)
@@ -319,7 +315,7 @@ class AcceleratedSolver(BulkSolver):
             parts.append(pushed)
         size = sum(float(np.abs(x).max(initial=0.0)) for x in parts)
         moved = min(float(np.abs(du).max(initial=0.0)), self.extent)
-        size = max(size, RIGID * max(self._stiff, step.known.stiff) * moved, 1e-300)
+        size = max(size, RIGID * max(self._stiff, known.stiff) * moved, 1e-300)
         return float(np.abs(self.constraints.V.T @ rest).max(initial=0.0)) / size
 
     def _widened(self, step: Step) -> bool:

@@ -14,6 +14,7 @@ from ssilang.kernel.base.compiled.compiler import compiled
 from ssilang.kernel.base.sparse import sp
 from ssilang.kernel.plasticity.bulk import Answer, Bulk
 from ssilang.kernel.plasticity.solving.blocks import ZonePass
+from ssilang.kernel.solvers.cholesky.dissected import DissectedFactor
 from ssilang.kernel.solvers.cholesky.multifrontal import Panels
 
 NEAR = -0.12
@@ -48,9 +49,9 @@ class Part:
     runs: IntArray
 
 
-def whole_part(T: sp.csr_array, panels: Panels | None) -> Part:
+def whole_part(T: sp.csr_array, factor: DissectedFactor | None) -> Part:
     """All cells; T (n, r) has its columns in the order of elimination."""
-    count = 0 if panels is None else len(panels.first) - 1
+    count = 0 if factor is None else len(factor.panels.first) - 1
     runs = np.array([[0, count]], dtype=np.int64)
     return Part((), np.arange(T.shape[0]), T, np.arange(T.shape[1]), runs)
 
