@@ -10,9 +10,10 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ssilang.cli.sweeping.given import MOTION, Value
+from ssilang.cli.sweeping.given import Value
 from ssilang.io.atomic import inside, write_text
 from ssilang.messages.message import Sentence
+from ssilang.report.sweep_table import MOTION
 
 if TYPE_CHECKING:
     from ssilang.cli.run import RunResult
