@@ -20,6 +20,7 @@ from ssilang.report.html import text
 from ssilang.report.records import MOST_BYTES, read_json, read_record
 
 TABLE, RUNS, KEPT = "sweep.csv", "runs", "row.json"
+"""In a sweep's folder, and in that of a run: written last, a run that has it is done."""
 MOTION = "MOTION"
 """Name under which a deck finds the path of its ground motion."""
 RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
