@@ -14,7 +14,7 @@ import numpy as np
 from ssilang.api.errors import Error, Notice, refused
 from ssilang.api.running import Allowed, Script, folders
 from ssilang.api.view import library
-from ssilang.cli.sweeping.given import MOTION, Case, GivenError, Value, combined, motions_in
+from ssilang.cli.sweeping.given import Case, GivenError, Value, combined, motions_in
 from ssilang.cli.sweeping.pool import dask_installed
 from ssilang.cli.sweeping.sweep import (
     SweepOptions,
@@ -22,9 +22,9 @@ from ssilang.cli.sweeping.sweep import (
     write_reports,
     write_results,
 )
-from ssilang.cli.sweeping.table import RESERVED
 from ssilang.cli.sweeping.worker import Row
 from ssilang.language.say.errors import SsiError
+from ssilang.report.sweep_table import MOTION, RESERVED
 
 if TYPE_CHECKING:
     import pandas

@@ -20,7 +20,11 @@ from ssilang.report.html import text
 from ssilang.report.records import MOST_BYTES, read_json, read_record
 
 TABLE, RUNS, KEPT = "sweep.csv", "runs", "row.json"
+"""In a sweep's folder, and in that of a run: written last, a run that has it is done."""
 MOTION = "MOTION"
+"""Name under which a deck finds the path of its ground motion."""
+RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
+"""Titles of what a run is; the others are of what was given and of figures."""
 MOTIONS = "motions of the calculations"
 INTENSITIES = ("PGA", "SA", "PGV", "PGD", "CAV", "ARIAS")
 """Figures taken as intensities if none is named; SA1 or SA(T1) is one of SA."""
@@ -60,11 +64,10 @@ def read_sweep(folder: Path) -> Sweep:
             titles = list(reader.fieldnames or [])
     except (OSError, ValueError, csv.Error) as problem:
         raise InputError("report.damaged", path=path, problem=problem) from None
-    if not {"run", "exit_code", "seconds", "error", "folder"} <= set(titles) or not rows:
+    if not {*RESERVED} - {"warnings"} <= set(titles) or not rows:
         raise InputError("report.not-a-sweep", path=path)
     swept = list(takewhile(lambda t: t != "exit_code", titles[1:]))
-    own = {"run", "exit_code", "seconds", "error", "warnings", "folder", *swept}
-    return Sweep(folder, rows, swept, [t for t in titles if t not in own])
+    return Sweep(folder, rows, swept, [t for t in titles if t not in (*RESERVED, *swept)])
 
 
 def edited(sweep: Sweep) -> list[str]:

@@ -11,11 +11,9 @@ from pathlib import Path
 
 from ssilang.io.atomic import inside
 from ssilang.messages.message import Refusal
+from ssilang.report.sweep_table import MOTION
 
 Value = int | float | bool | str
-
-MOTION = "MOTION"
-"""Name under which a deck finds the path of its ground motion."""
 
 _NAME = re.compile(r"@?[A-Za-z][A-Za-z0-9_]*")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")

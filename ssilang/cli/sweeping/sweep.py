@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 from ssilang.cli.run import deck_of, refuse_unknown, values_lost, write_report
-from ssilang.cli.sweeping.given import MOTION, Case, GivenError, cases_of, folder_names
+from ssilang.cli.sweeping.given import Case, GivenError, cases_of, folder_names
 from ssilang.cli.sweeping.histories import Joined, join_histories
 from ssilang.cli.sweeping.pool import (
     can_share,
@@ -21,9 +21,8 @@ from ssilang.cli.sweeping.pool import (
     run_on_cluster,
 )
 from ssilang.cli.sweeping.table import (
-    RESERVED,
-    columns_of,
     draw_figures,
+    figures_in,
     idle_names,
     write_plain_table,
     write_table,
@@ -52,7 +51,7 @@ from ssilang.report.fragilities import (
     rows_of,
     unknown,
 )
-from ssilang.report.sweep_table import read_sweep, unscaled, usual_intensities, warnings_of
+from ssilang.report.sweep_table import MOTION, read_sweep, unscaled, usual_intensities, warnings_of
 from ssilang.system import system_reason
 
 TABLE, PLAIN_TABLE, FITS = "sweep.parquet", "sweep.csv", "fragility.csv"
@@ -307,9 +306,8 @@ def write_results(rows: list[Row], swept: list[str], folder: Path) -> dict[str, 
     pictures = draw_figures(rows, swept, folder)
     joined = join_histories(rows, swept, folder)
     failed = sum(row["exit_code"] != 0 for row in rows)
-    figures = {n for row in rows for n in row} - {*swept, *RESERVED}
     return {
-        "figures": len(figures),
+        "figures": len(figures_in(rows, swept)),
         "runs": len(rows),
         "failed": failed,
         "table": table,
@@ -341,7 +339,7 @@ def _tell_warnings(
     done = [row for row in rows if row["exit_code"] == 0]
     idle = [name for name in idle_names(done, swept) if not _chooses(name, script)]
     told += [("cli.value-idle", {"name": name}) for name in idle]
-    figures = [n for n in columns_of(done) if n not in (*RESERVED, *swept)]
+    figures = figures_in(done, swept)
     known = options.intensity or usual_intensities(figures)
     told += unscaled(options.folder, done, swept, figures, known)
     for code, data in told:

@@ -4,17 +4,19 @@ import csv
 from collections.abc import Sequence
 from pathlib import Path
 
-from ssilang.cli.sweeping.given import MOTION
 from ssilang.cli.sweeping.worker import Row
 from ssilang.io.atomic import replacing, write_text
-from ssilang.report.sweep_table import grouped, is_still
-
-RESERVED = ("run", "exit_code", "seconds", "error", "warnings", "folder")
+from ssilang.report.sweep_table import MOTION, RESERVED, grouped, is_still
 
 
 def columns_of(rows: Sequence[Row]) -> list[str]:
     """All names, those of the first rows first."""
     return list(dict.fromkeys(name for row in rows for name in row))
+
+
+def figures_in(rows: Sequence[Row], swept: Sequence[str]) -> list[str]:
+    """Names of what runs report."""
+    return [n for n in columns_of(rows) if n not in (*RESERVED, *swept)]
 
 
 def write_table(rows: Sequence[Row], path: Path) -> None:
@@ -48,7 +50,7 @@ def write_plain_table(rows: Sequence[Row], path: Path) -> None:
 
 def idle_names(rows: Sequence[Row], swept: Sequence[str]) -> list[str]:
     """Names of several numbers or motions of which no figure depends, to nine digits."""
-    figures = [n for n in columns_of(rows) if n not in (*RESERVED, *swept)]
+    figures = figures_in(rows, swept)
     return [
         name
         for name in swept
@@ -63,7 +65,7 @@ def draw_figures(rows: Sequence[Row], swept: Sequence[str], folder: Path) -> lis
     axis = next((n for n in swept if n != MOTION and _numbers(rows, n)), None)
     if axis is None:
         return []
-    figures = [n for n in columns_of(rows) if n not in (*RESERVED, *swept) and _numbers(rows, n)]
+    figures = [n for n in figures_in(rows, swept) if _numbers(rows, n)]
     return [_draw(rows, axis, swept, figure, folder) for figure in figures]
 
 

@@ -10,16 +10,14 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ssilang.cli.sweeping.given import MOTION, Value
+from ssilang.cli.sweeping.given import Value
 from ssilang.io.atomic import inside, write_text
 from ssilang.messages.message import Sentence
+from ssilang.report.sweep_table import KEPT, MOTION
 
 if TYPE_CHECKING:
     from ssilang.cli.run import RunResult
     from ssilang.io.checkpoint import Deck
-
-ROW = "row.json"
-"""Written last into a run's folder: a run that has it is done."""
 
 AGAIN = {"ssilang": "cli.again-version", "deck": "cli.again-deck", "given": "cli.again-values"}
 """Why a run is made again, by what was another one when its row was left."""
@@ -69,7 +67,7 @@ def run_task(task: Task) -> Row:
         limits=Limits(**task.limits),
         given=dict(task.values),
     )
-    (task.folder / ROW).unlink(missing_ok=True)  # of another script, or a run that failed
+    (task.folder / KEPT).unlink(missing_ok=True)  # of another script, or a run that failed
     started, wall = time.perf_counter(), time.time()
     result = run_file(task.deck, options)
     write_text(task.folder / "output.txt", result.output + result.message + "\n")
@@ -87,7 +85,7 @@ def run_task(task: Task) -> Row:
     }
     row = _written(row)
     kept = {**_inputs(result, wall), "row": row, "seal": _seal(row)}
-    write_text(task.folder / ROW, json.dumps(kept) + "\n")
+    write_text(task.folder / KEPT, json.dumps(kept) + "\n")
     return row
 
 
@@ -121,10 +119,10 @@ def row_of(task: Task, deck: "Deck") -> Row | Sentence | None:
     from ssilang.io.checkpoint import changed_names, digest_of_file
     from ssilang.report.records import read_json
 
-    if not os.path.lexists(task.folder / ROW):
+    if not os.path.lexists(task.folder / KEPT):
         return None
     try:
-        kept = read_json(inside(task.folder, ROW) or Path())  # a folder is no row
+        kept = read_json(inside(task.folder, KEPT) or Path())  # a folder is no row
         row: Row = kept["row"]
         if kept["seal"] != _seal(row):
             return Sentence("cli.again-changed")

@@ -5,7 +5,6 @@ from refusing import refusal
 from together import together
 
 from ssilang.cli.sweeping.given import (
-    MOTION,
     Case,
     GivenError,
     cases_of,
@@ -15,6 +14,7 @@ from ssilang.cli.sweeping.given import (
     parse_value,
     parse_values,
 )
+from ssilang.report.sweep_table import MOTION
 
 
 @together(
