@@ -57,7 +57,7 @@ def applied(
     return CellField(tuple(blocks), field.title)
 
 
-def _support(a: CellFieldBlock, b: CellFieldBlock, names: Iterable[str]) -> CellFieldBlock:
+def _support(a: CellFieldBlock, b: CellFieldBlock) -> CellFieldBlock:
     """The block whose points a result stands at: the one with more points."""
     count = [max((v.shape[1] for v in block.components.values()), default=1) for block in (a, b)]
     return b if count[1] > count[0] else a
@@ -99,7 +99,7 @@ def _added_block(
             made[name] = _of_objects(name, sign, made[name], values, objects)
         else:
             made[name] = made[name] + factor * values
-    return rebuilt(_support(a, b, made), made)
+    return rebuilt(_support(a, b), made)
 
 
 def _of_objects(name: str, sign: str, a: Values, b: Values, objects: ObjectRule | None) -> Values:
@@ -140,7 +140,7 @@ def united(a: CellField, b: CellField) -> CellField:
             if name in made and not _agree(made[name], values):
                 raise FieldError("kernel.fields.component-differs-between-two", name=name)
             made.setdefault(name, values)
-        blocks[place] = rebuilt(_support(blocks[place], block, made), made)
+        blocks[place] = rebuilt(_support(blocks[place], block), made)
     return CellField(tuple(blocks), a.title or b.title)
 
 
@@ -190,7 +190,7 @@ def _multiplied_block(
     else:
         told = {"components": a.components, "components_2": b.components}
         raise FieldError("kernel.fields.cells-field-by-field-not-defined", **told)
-    return rebuilt(_support(a, b, made), made)
+    return rebuilt(_support(a, b), made)
 
 
 def _product(
@@ -230,7 +230,7 @@ def multiplied_by_names(
                 value = _product(name, x, y, divide)
                 value = value / weight if divide else value * weight
                 made[name] = made[name] + value if name in made else value
-        blocks.append(rebuilt(_support(mine, other, made), made))
+        blocks.append(rebuilt(_support(mine, other), made))
     return CellField(tuple(blocks), a.title)
 
 

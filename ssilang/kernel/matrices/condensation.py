@@ -117,7 +117,7 @@ def _given(matrix: Matrix, numbering: assembly.Numbering) -> tuple[sp.csr_array,
     parts = []
     known = np.zeros(numbering.size, dtype=bool)
     for block in matrix.blocks:
-        nodes = block.table.resolve(block.raw_nodes)
+        nodes = block.nodes
         place = [
             numbering.index(nodes[:, k], numbering.code(name))
             for k, name in zip(block.local, block.unknowns, strict=True)
@@ -148,9 +148,8 @@ def dependence(matrix: Matrix) -> tuple[Matrix, Matrix]:
     """
     numbering = assembly.numbering_of(matrix)
     found, masters = _eliminated(matrix, numbering)
-    order = np.arange(len(masters))
-    shape = len(order), numbering.size
-    ones = sp.csr_array((np.ones(len(order)), (order, masters)), shape=shape)
+    m = len(masters)
+    ones = sp.csr_array((np.ones(m), (np.arange(m), masters)), shape=(m, numbering.size))
     T = sp.csr_array(found @ ones)
     made = []
     for A, names in ((T, numbering.unknowns), (sp.csr_array(T.T), numbering.duals)):

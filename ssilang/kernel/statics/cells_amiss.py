@@ -59,7 +59,7 @@ def passed_by_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
     """Nodes (n,) of bodies, in no condition, inside an edge of a joint that begins on their own."""
     links = [np.zeros((0, 2), np.int64)]
     for zone in (z for z in joints if z.element != "JOI1"):
-        name, nodes = joint_element(zone).face, zone.cells.nodes.resolve(zone.cells.raw)
+        name, nodes = joint_element(zone).face, zone.cells.connectivity
         links += [_sides(half, name, name[:3] != "SEG") for half in np.split(nodes, 2, axis=1)]
     sides = np.concatenate(links)
     for block in matrix.blocks if len(sides) else ():

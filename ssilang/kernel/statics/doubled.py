@@ -305,7 +305,7 @@ def feet_free(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
     flat = low[heights[high] - heights[low] <= near]
     others = [b.nodes.ravel() for b in cells if b not in beams]
     feet = np.setdiff1d(low, np.concatenate([high, flat, *others]))
-    own = [z.cells.nodes.resolve(z.cells.raw).ravel() for z in joints]
+    own = [z.cells.connectivity.ravel() for z in joints]
     held = np.isin(feet, np.concatenate([joined, *own]))
     level = [np.abs(heights[feet[held]] - h).min(initial=np.inf) for h in heights[feet[~held]]]
     return np.asarray(feet[~held][np.array(level) <= near], np.int64)
@@ -327,7 +327,7 @@ def beside_joints(matrix: Matrix, joints: Iterable[Zone]) -> IntArray:
 
     None where they are fewer than a joint's side has: an edge of two bodies, no face.
     """
-    faces = [z.cells.nodes.resolve(z.cells.raw) for z in joints if z.element != "JOI1"]
+    faces = [z.cells.connectivity for z in joints if z.element != "JOI1"]
     others = [b for b in matrix.blocks if b.zone is None or not is_joint(b.zone)]
     solid = [b.nodes for b in others if b.zone is not None and b.nodes.shape[1] > 1]
     if not faces or not solid:

@@ -46,8 +46,7 @@ def wrong_signs(matrix: Matrix) -> IntArray:
         counts, names = np.diff(r.row_start), tuple(dict.fromkeys(r.unknowns))
         if not known.keys() >= {*names} or (counts < 2).all():
             continue
-        codes = np.array([names.index(n) for n in r.unknowns])
-        nodes = r.table.resolve(r.nodes)
+        codes, nodes = np.array([names.index(n) for n in r.unknowns]), r.nodes
         numbering = Numbering(r.table, names, names, nodes, codes, r.table.version)
         some = 6 if {*names} & {*_ROTATIONS} else 3
         terms = r.coefficients[:, None] * rigid_motions(numbering)[:, :some]
@@ -65,7 +64,7 @@ def crossed_lines(matrix: Matrix) -> IntArray:
     found = [np.zeros(0, np.int64)]
     for r in matrix.relations:
         if len(r.row_start) > 3 and (np.diff(r.row_start) == 2).all():
-            a, b = r.table.coordinates[r.table.resolve(r.nodes)].reshape(-1, 2, 3).swapaxes(0, 1)
+            a, b = r.table.coordinates[r.nodes].reshape(-1, 2, 3).swapaxes(0, 1)
             apart, turned = (np.ptp(x - a, axis=0).max() for x in (b, b[::-1]))
             found += [r.nodes[:1]] if turned < 1e-6 * apart else []
     return np.concatenate(found)
