@@ -18,7 +18,7 @@ _SOURCES = ["ssilang", "tests", "benchmarks", "docs"]
 
 TYPED_NUMPY = "2.4."  # its stubs change with each version
 DOORS = 20  # files and rooms in a room
-CAPS = {"": 55_412, "kernel/stepping": 3_702, "kernel/solvers": 2_506, "kernel/interface": 2_346}
+CAPS = {"": 55_408, "kernel/stepping": 3_698, "kernel/solvers": 2_506, "kernel/interface": 2_346}
 """Lines of code in bodies that the package and some rooms may have: what comes pays with what goes.
 
 To aim at: 45 000 and 3 500 for stepping.

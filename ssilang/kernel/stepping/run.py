@@ -33,7 +33,7 @@ from ssilang.messages.message import Sentence
 
 CHUNK_VALUES = 4_000_000  # saved values held at once
 LOOKED_AT = 400_000  # those that are looked at and let go: their memory is taken again
-LEAST = 32  # steps at once all the same
+LEAST = 32  # steps at once all the same, where there is room
 GRID = 64  # where memory cuts steps, it does so at multiples
 LITTLE = 0.01  # of the largest energy: what is given may be this small beside it
 FACTORS_KEPT = 4  # step sizes whose factors stay in memory
@@ -306,8 +306,10 @@ class Integration:
         n, tapped = len(self.motion.u), len(self.taps.unknowns)
         last = within(self.wanted, CHUNK_VALUES // max(4 * n, 1), first, last)
         most = max(n if self.problem.small else tapped, 1)  # loops on modes tap all of them
-        values = LOOKED_AT if self.taps.looked_at else CHUNK_VALUES
-        end = within(self.taps.wanted, max(values // (3 * most), LEAST), first, last)
+        room = CHUNK_VALUES // (3 * most)
+        if self.taps.looked_at:
+            room = min(room, max(LOOKED_AT // (3 * most), LEAST))
+        end = within(self.taps.wanted, room, first, last)
         return end if end == last or end - first < GRID else end - (end - first) % GRID
 
     def _choice(self, dt: float) -> Choice:

@@ -86,21 +86,16 @@ class Past:
 
     def _add_stage(self, number: int, steps: int) -> None:
         """What forces before the next steps bring in each of them, by a stage."""
-        stages, first, at = self.kernels.stages, self.done, self.pad + self.done + 1
-        stage, part, steps = (
-            stages[number],
-            self.parts[number],
-            min(steps, len(self.coming) - first),
-        )
-        rows = slice(self.begun[number], at - 1)
+        stage, part, at = self.kernels.stages[number], self.parts[number], self.pad + self.done + 1
+        to, rows = self.coming[self.done : self.done + steps], slice(self.begun[number], at - 1)
         part[rows] = self.forces[rows] @ stage.P
-        found = np.zeros((steps, part.shape[1]), SINGLE)
+        found = np.zeros((len(to), part.shape[1]), SINGLE)
         for j, core in enumerate(stage.sums, stage.first):
-            found += part[at - j : at - j + steps] @ core
-        if stage is stages[-1]:
+            found += part[at - j : at - j + len(to)] @ core
+        if stage is self.kernels.stages[-1]:
             j = at - stage.first - len(stage.sums)
-            gone = self.gone + np.cumsum(part[j : j + steps], axis=0)
+            gone = self.gone + np.cumsum(part[j : j + len(to)], axis=0)
             found, self.gone = found + gone @ stage.sums[-1], gone[-1]
         far = found @ stage.P.T
-        self.coming[first : first + steps] += np.diff(far, axis=0, prepend=self.far[number, None])
+        to += np.diff(far, axis=0, prepend=self.far[number, None])
         self.begun[number], self.far[number] = at - 1, far[-1]

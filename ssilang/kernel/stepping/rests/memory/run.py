@@ -119,8 +119,7 @@ class MemoryLoop(InterleavedLoop):
         self._ground = np.zeros((len(kept.row), *self.moved.shape))
         for k in range(len(kept.row)):
             before = x.f.copy()
-            brought = self.past.next(before - self.start) - self.newton.trial.r
-            lift[:, -1] = brought
+            brought = lift[:, -1] = self.past.next(before - self.start) - self.newton.trial.r
             _, turns, residual = run_interleaved(
                 plan, self.joints, x, products, sweep, self.newton, factors, to, k - (k == 0), k + 1
             )
